@@ -62,7 +62,7 @@ struct BeltResidual {
   double residual_mm = 0.0;  ///< read less fitted
   bool counts = true;        ///< false: rejected
   double sigmas = 0.0;       ///< against a fit without it; 0 if nothing else determines it
-  double deleted_residual_mm = 0.0;  ///< read less what all other readings make of it
+  double deleted_residual_mm = 0.0;  ///< minus the prediction from all others
 };
 
 struct FittedPlace {
@@ -74,7 +74,7 @@ struct FittedPlace {
 struct BadBeltReading {
   std::size_t point = 0;
   model::Belt belt = model::Belt::tl;
-  double residual_mm = 0.0;  ///< read less what all other readings make of it
+  double residual_mm = 0.0;  ///< minus the prediction from all others
 };
 
 /// Lower belts as predicted from the upper two, at places that were not fitted; the machine's own

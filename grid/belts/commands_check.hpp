@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Lengths of four belts against those that the anchors in force would give where the machine was sent.
-/// One place is enough: it needs no fit of anchors.
+/// Compares the lengths of four belts with those predicted by the anchors in force at the commanded
+/// places. It needs one place and no fit.
 ///
-/// A controller moves by its upper two belts, so that these read what its anchors say to a few
-/// millimetres whatever the true frame is; the lower two read what the true frame makes of it.
+/// The controller moves by its upper two belts, so these agree with its anchors to a few
+/// millimetres whatever the true frame; the lower two depend on the true frame.
 ///
 /// \code
 ///   const auto found = against_commands(belts);

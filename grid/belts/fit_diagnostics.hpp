@@ -6,7 +6,7 @@
 /// Notation, of a block of places that are found together (belt_lengths.hpp)
 ///   a       anchors, with a tape the logarithm of the scale                       p
 ///   p_b     positions of the block
-///   r, w    what was read less predicted, and 1 / sigma^2, 0 of what does not count
+///   r, w    read minus predicted, and 1 / sigma^2 (0 if not counted)
 ///   J, A    d(predicted)/d(p_b), d(predicted)/d(a)
 ///   V = J' w J,   G = V^-1 J' w A
 ///

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What pulled belts stretch by at places that were read twice.
-///
-/// Places that were read twice in a row, the upper belts as they were and the lower ones pulled
-/// otherwise: what the pulled belts gave. It needs no anchors.
+/// The stretch of pulled belts at places that were read twice in a row with a different pull of the
+/// lower belts and the upper ones unchanged. It needs no anchors.
 ///
 ///   share = mean over the pulled belts of (L_first - L_second) / L_first                    (1)
 ///

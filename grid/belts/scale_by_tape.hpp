@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Which distance to tape so that the scale of four belts is known best: between two anchors, two
-/// holes that the machine cuts, or two points of the file.
+/// Finds the distance to tape that determines the scale of four belts best: between two anchors,
+/// two holes that the machine cuts, or two points of the file.
 ///
-/// Tried are all pairs of anchors and all pairs of the outermost places in eight directions, each in
-/// a fit alongside the belts with the distances that are there already. A long
-/// distance tells more; one between anchors that six places leave uncertain tells less than a shorter
-/// one between places.
+/// It tries all pairs of anchors and all pairs of the outermost places in eight directions, each in
+/// a fit with the belts and the existing distances. A long distance determines more, but one
+/// between anchors that six places leave uncertain determines less than a shorter one between
+/// places.
 ///
 /// \code
 ///   const auto best = distance_for_scale(belts, *fit_belts(belts));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Causes as effects of a machine, a cause whose place is not sure spread over the places where it may stand.
-/// Private to grid/diagnosis.
+/// Causes as effects of a machine; a cause whose place is uncertain is spread over its possible
+/// places. Private to grid/diagnosis.
 #pragma once
 
 #include <vector>
@@ -16,18 +16,17 @@ struct ActingCause {
 };
 [[nodiscard]] std::vector<ActingCause> over_places(const std::vector<Cause>& causes);
 
-/// Its place, where a step or a bend depends on it and it is not sure; else null.
+/// Its place, if a step or bend depends on it and it is uncertain; else null.
 [[nodiscard]] const ParameterEstimate* unsure_place(const Cause& cause);
 
-/// So much of the cause, its place so far from the likeliest.
+/// A share of the cause, and the distance of its place from the likeliest.
 [[nodiscard]] model::AppliedEffect applied_at(const Cause& cause,
                                               const ParameterEstimate& place,
                                               double off,
                                               double share);
 
-/// Readings of machines on which the causes act.
-/// What happened at a visit happened in the one session whose visits were weighed: the first with an
-/// order.
+/// Readings of machines on which the causes act. Effects at a visit apply to the session whose
+/// visits were analysed: the first with an order.
 [[nodiscard]] Measured with_effects(const Measured& measured,
                                     const std::vector<ActingCause>& causes);
 

@@ -16,10 +16,10 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Of whole numbers of links, one is the rule.
+/// Prior of numbers of links: one is usual.
 double log_share_of_links(double links) { return std::log(0.25) * (std::abs(links) - 1.0); }
 
-/// In logarithms: readings much better than usual make every density smaller than any double.
+/// In logarithms: for readings much better than usual every density underflows.
 double log_strength_density(double signal_to_noise) {
   const auto log_normal = [&](double sigma) {
     return -0.5 * std::pow(signal_to_noise / sigma, 2) - std::log(sigma);
@@ -28,9 +28,10 @@ double log_strength_density(double signal_to_noise) {
                  std::log(kWideSignalToNoisePrior) + log_normal(kWideSignalToNoise));
 }
 
-/// Shares a cause's prior out among its visits and numbers of links, and gives slips at one visit their odds. A whole
-/// number leaves no size free whose prior could say how strong causes usually are, so the visits carry it: density of
-/// the strength at each, as for any other cause. `marginalised` sets no point aside.
+/// Divides a cause's prior among its visits and numbers of links, and sets the odds of slips at one
+/// visit. A whole number has no free size to carry the prior of a cause's strength, so the visits
+/// carry it: density of the strength at each, as for any other cause. `marginalised` sets no point
+/// aside.
 void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& system) {
   std::size_t first = 0;
   while (first < system.regressors.size()) {
@@ -82,7 +83,7 @@ DiagnosisFailure impossible(const ObservationSet& session, const model::MachineP
                       units == "points" ? "lengths" : units)};
 }
 
-/// The largest of the settings' moves as it shows at the tool: a turn of the sheet at its edge.
+/// The largest of the settings' changes at the tool; a turn of the sheet counts at its edge.
 double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
@@ -94,7 +95,7 @@ double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
   return most;
 }
 
-/// Settings moved to where the readings put them, no effect at work.
+/// Settings fitted to the readings, without effects.
 tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   const ObservationSet& session = a.session;
   State state = stated_state(session);
@@ -116,7 +117,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   return {};
 }
 
-/// What is fitted is the member that gives its class the name: settings and sizes belong together.
+/// Fits the member that names its class: settings and sizes belong together.
 void speak_of_leaders(const RegressorSystem& system,
                       const ModelComparison& comparison,
                       Decision& decision) {

@@ -15,7 +15,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Everything that the parts of an answer look at.
+/// The input of all parts of an answer.
 struct Analysis {
   ObservationSet session;
   DiagnosisOptions options;
@@ -29,12 +29,12 @@ struct Analysis {
   NullDistribution null;
   double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
-  /// What quarters of the bed make of it; empty where there is no pattern, or no such parts.
+  /// Results by quarters of the bed; empty without a pattern or such parts.
   std::vector<PartPosterior> parts;
-  /// What each session makes of it by itself; empty of a single one.
+  /// Results of each session alone; empty for a single one.
   std::vector<SessionPosterior> sessions;
   Decision decision;
-  /// Of the discrepancy that the decision leaves; null where it leaves none.
+  /// Kernel of the decision's discrepancy; null if it has none.
   std::shared_ptr<const DiscrepancyNoise> noise;
   Estimate estimate;  ///< of the decision's causes
 };

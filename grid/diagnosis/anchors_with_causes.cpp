@@ -60,7 +60,7 @@ std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_cause
   return factor.inverse();
 }
 
-/// Within what the effect's parameter may be: an average over models may lie a little outside.
+/// Within the parameter's range: an average over models may lie slightly outside.
 CauseInAnchorFit cause_in_fit(const AveragedCause& own) {
   CauseInAnchorFit result;
   result.effect = own.cause.cause.effect->id;
@@ -75,7 +75,7 @@ CauseInAnchorFit cause_in_fit(const AveragedCause& own) {
   return result;
 }
 
-/// A fit, with what it leaves for holes.
+/// A fit, with the prior it gives for holes.
 struct AnchorsWithCauses {
   BeltsByThemselves alone;
   MeasuredBelts without_causes;
@@ -104,8 +104,8 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const M
   Eigen::MatrixXd covariance = averaged.covariance_mm2;
   if (!belts.distances.empty()) {
     const auto with_scale = take_distances(without_causes, averaged, frame);
-    // Distances that end nowhere with these readings: what they contradict shows with the readings as
-    // they are.
+    // Distances without positions with these readings: the contradiction shows with the uncorrected
+    // readings.
     if (!with_scale) {
       const auto as_read = belts::fit_anchors_robustly(belts);
       const Eigen::MatrixXd own = FitDiagnostics(belts, *as_read).covariance();

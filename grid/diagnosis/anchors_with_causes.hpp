@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The anchors of a router on four belts, with sigmas that count what else may act: the stretch of the
-/// belts that are pulled, and every other cause of the belts' table at its usual size
-/// (averaged_anchors.hpp). They are those of a diagnosis of the same belts.
+/// The anchors of a router on four belts, with sigmas that allow for the stretch of pulled belts
+/// and every other cause in the belts' table at its usual size (averaged_anchors.hpp). A diagnosis
+/// of the same belts has the same anchors.
 ///
-/// With P and P_t the precision of anchors and scale by readings freed of the causes, without and with
-/// the taped distances, x and x_t where either has its minimum, and C, a the averaged anchors:
+/// With P and P_t the precision of anchors and scale by corrected readings, without and with the
+/// taped distances, x and x_t where either has its minimum, and C, a the averaged anchors:
 ///
 ///   Q = C^-1 + P_t - P,   x_all = Q^-1 (C^-1 a + P_t x_t - P x)                             (1)
 ///
@@ -26,7 +26,7 @@ namespace chaintrue::grid::diagnosis {
 /// Fails in words where fit_belts() does.
 [[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts);
 
-/// The same with holes that were cut and taped; belts without points are as their machine states them.
+/// With holes that were cut and taped; belts without points are as their machine states.
 /// \throws std::invalid_argument as fit_belts_and_holes() does.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_with_causes_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);

@@ -13,22 +13,22 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   const bool scale_read = any_of(session.readings(), [](const ExtraReading& r) {
     return r.what == ReadingOf::link_pitch || r.what == ReadingOf::tape_error;
   });
-  // Of a set the most probable goes in: on these points its rivals would do the same.
+  // The most probable of a set is applied: at these points its rivals do the same.
   std::vector<Cause> used = diagnosis.causes;
   if (diagnosis.verdict == Verdict::named_set) used.resize(1);
-  // An extension that does not help on points that it was not fitted to is not made.
+  // An extension must improve left-out points.
   const bool worse =
       diagnosis.improvement && diagnosis.improvement->extended.rms_mm >= diagnosis.improvement->calibrated.rms_mm;
   std::vector<model::AppliedEffect> into_machine;
   std::vector<int> taken;
   for (const Cause& cause : used) {
     const int column = best_regressor(a, cause.cause);
-    // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
+    // Miscounted or skipped links are not properties of the machine: readings are always corrected.
     if (worse && !regressor(a, column).fixed) continue;
     const bool paper_too = any_of(cause.same_as, [](const auto& s) {
       return s.cause.effect->station == model::effects::Station::paper;
     });
-    // Chain or paper: neither is touched before somebody has read the links or checked the tape.
+    // Chain or paper: neither is changed before the links are read or the tape is checked.
     if (paper_too && !scale_read && !a.options.accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
                             cause.cause.effect->station != model::effects::Station::paper;
@@ -37,7 +37,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
     into.back().probability = cause.probability;
     taken.push_back(column);
   }
-  // The settings that belong to what is taken, and to nothing else.
+  // The settings that go with the applied causes only.
   const Estimate fitted = taken.empty()
                               ? estimate_of(a, {})
                               : estimate_with(a, taken);

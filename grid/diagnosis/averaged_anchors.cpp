@@ -17,22 +17,23 @@ namespace {
 
 using AnchorSquare = decltype(AveragedAnchors::covariance_mm2);
 
-/// Models of less weight than this share of the best move no sigma by a hundredth.
+/// Models below this share of the best weight change no sigma by 1 %.
 constexpr double kLeastWeight = 1e-3;
-/// Logarithm of the evidence of a usual size below which the readings show plainly that it is not: it
-/// stays as it was found. No chance makes it in a hundred thousand sessions.
+/// Log evidence of a usual size below which the readings refute it and the fitted size is kept.
+/// Chance does this in fewer than one of 100,000 sessions.
 constexpr double kPlainlyUnusual = -12.0;
-/// A cause that is not expected is reported with the anchors where it is more likely than not.
+/// An unexpected cause is reported with the anchors if it is more likely than not.
 constexpr double kMoreLikelyThanNot = 0.5;
-/// That belts or anchors give with the pull: every published frame's do.
+/// Prior that belts or anchors yield under the pull: they do in every published frame.
 constexpr double kGives = 0.9;
 /// Each further cause of a set has a fifth of its weight, as kPriorOfTwo to kPriorOfOne.
 constexpr double kWeightGivenOthers = 0.2;
 
-/// Odds of a cause at its usual size against none, for sigmas: as large as it takes for 95 % intervals
-/// to hold 92 % and more. Those that the readings show plainly need none. A belt's zero hides behind the
-/// anchors and would take 3 and more; but then five published runs of one frame, whose belts were drawn in
-/// anew each time, would scatter by a sixth of the variance that is said. These odds make it half.
+/// Odds of a cause at its usual size against none, for sigmas: large enough that 95 % intervals
+/// cover at least 92 %. Causes that the readings show plainly need none. A belt's zero is nearly
+/// collinear with the anchors and would need 3 or more; but then five published runs of one frame,
+/// whose belts were retracted each time, would scatter by a sixth of the stated variance. With
+/// these odds it is half.
 struct CauseWeight {
   std::string_view effect;
   double odds;
@@ -51,11 +52,11 @@ bool is_in(const std::vector<SizedCause>& known, const CauseId& cause) {
   return any_of(known, [&cause](const SizedCause& own) { return own.cause == cause; });
 }
 
-/// Variances of a coefficient's prior, in the noise found: usual, and as wide as an estimate has it.
+/// Prior variances of a coefficient in units of the noise: usual, and wide as in an estimate.
 struct SizePrior {
   double usual = 0.0;
   double wide = 0.0;
-  /// Logarithm of the evidence with the usual one over that with both as a comparison weighs them, of a
+  /// Log ratio of the evidence with the usual prior to that with the comparison's mixture, for a
   /// coefficient that the readings alone put at `at` with this variance.
   [[nodiscard]] double log_evidence(double at, double variance) const {
     const auto log_density = [&](double prior) {
@@ -88,7 +89,7 @@ double hold_to_usual_sizes(const std::vector<SizedCause>& known,
     const Eigen::Index at = settings + as_index(i);
     const double variance = found.covariance(at, at);
     const double coefficient = found.coefficient(as_index(k)) + change(at);
-    // A prior that leaves a variance as it is has learnt nothing of the readings.
+    // If the variance is unchanged the readings carry no information.
     constexpr double kNothing = 1e-9;
     const double from_readings =
         variance * prior.wide / std::max(prior.wide - variance, kNothing * prior.wide);
@@ -177,7 +178,7 @@ class Averaging {
   /// An effect, and the number of its side.
   using Key = std::pair<const void*, int>;
 
-  /// Anchors of one model, from the state.
+  /// Anchors of one model, relative to the state.
   struct Part {
     double weight = 0.0;
     std::vector<Key> causes;  ///< sorted
@@ -188,7 +189,7 @@ class Averaging {
     return {regressor.cause.effect, static_cast<int>(regressor.cause.side)};
   }
 
-  /// The likeliest of what is expected, and what else is more likely than not.
+  /// The likeliest expected cause, and all others more likely than not.
   [[nodiscard]] std::vector<Key> reported_causes() const {
     double most = 0.0;
     for (const auto& [key, moments] : sizes_) {
@@ -202,8 +203,8 @@ class Averaging {
     return reported;
   }
 
-  /// Mean over the models of exactly these causes, over all where there are none: anchors belong to the causes that are
-  /// reported with them.
+  /// Mean over the models with exactly these causes, or over all models if none has: anchors belong
+  /// to the causes reported with them.
   [[nodiscard]] belts::AnchorVector change_with(const std::vector<Key>& causes) const {
     belts::AnchorVector sum = belts::AnchorVector::Zero();
     double weight = 0.0;
@@ -217,7 +218,7 @@ class Averaging {
     return sum;
   }
 
-  /// From the comparison's prior of causes to kWeights.
+  /// Replaces the comparison's prior of causes by kWeights.
   [[nodiscard]] double log_prior_change(const CandidateModel& model) const {
     const bool smooth = model.discrepancy >= 0;
     double change = log_prior(system_, {}, smooth) - log_prior(system_, model.regressors, smooth);

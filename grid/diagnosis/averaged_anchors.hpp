@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors of four belts averaged over the models of a comparison: what gives with the pull, every
-/// other cause with it and sets of them, each with and without a smooth pattern, as the readings make
-/// them likely. Private to grid/diagnosis.
+/// Anchors of four belts averaged over the models of a comparison, weighted by probability: each
+/// cause that yields with the pull, every other cause with it and sets of them, with and without a
+/// smooth pattern. Private to grid/diagnosis.
 ///
 /// With anchors a_m, covariance C_m and weight w_m of model m, together 1:
 ///
@@ -11,11 +11,11 @@
 /// where r are the models of exactly the causes that are reported: anchors are used with these, and a mean over all would
 /// fit the readings with none of them. C is the expected square of what the anchors are then off by.
 ///
-/// w_m is the evidence of the comparison with another prior. A diagnosis asks which cause acts, and
-/// holds each for rare; a sigma has to hold where one acts at its usual size, and each has the weight
-/// that makes 95 % intervals hold it then (kWeights, found by tests/lab/sealed/command/anchor_coverage).
-/// Causes about which the state is linear keep the sizes that were found, however unusual; all others
-/// have their usual spread.
+/// w_m is the evidence of the comparison with another prior. A diagnosis treats each cause as rare;
+/// a sigma has to hold if one acts at its usual size, so each gets the weight that gives 95 %
+/// intervals their coverage then (kWeights, found by tests/lab/sealed/command/anchor_coverage).
+/// Causes about which the state is linear keep their fitted sizes, however unusual; all others have
+/// their usual spread.
 ///
 /// Source: J. Hoeting, D. Madigan, A. Raftery and C. Volinsky, Bayesian Model Averaging, Statist.
 /// Sci. 14 (1999) 382, equations 1 and 2.
@@ -28,7 +28,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// A cause with its values, how sure the first of them is, and how likely it is to act.
+/// A cause with its values, the sigma of the first, and its probability.
 struct AveragedCause {
   SizedCause cause;
   double sigma = 0.0;
@@ -39,7 +39,8 @@ struct AveragedAnchors {
   belts::AnchorVector anchors = belts::AnchorVector::Zero();
   Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns> covariance_mm2 =
       Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns>::Zero();
-  /// The likeliest of what gives with the pull, and what else is more likely than not; sizes averaged over the models that hold them.
+  /// The likeliest cause that yields with the pull, and all others more likely than not; sizes
+  /// averaged over the models that contain them.
   std::vector<AveragedCause> causes;
 };
 

@@ -20,8 +20,8 @@ constexpr int kCutDirections = 16;
 constexpr double kShareLeftOut = 0.25;
 /// Places whose scatter across their best line is less than this share of that along it lie on a line.
 constexpr double kOnALine = 1e-3;
-/// Enough models to hold 99 % of the probability for 60 marks of a real scan, whose pattern is shared by dozens of
-/// neighbouring discrepancies.
+/// Enough models for 99 % of the probability with 60 marks of a real scan, whose pattern dozens of
+/// neighbouring discrepancies share.
 constexpr FollowedModels kFollowed{
     .within = 16.0, .most = 1000, .discrepancy_share = 0.002, .most_discrepancies = 30};
 /// The cost of a discrepancy grows with the cube of the rows: of more than these the likeliest represent the rest.
@@ -97,7 +97,7 @@ PartPosterior summary(const RegressorSystem& system,
   return result;
 }
 
-/// Of each followed model with a pattern its averaged share among those.
+/// Averaged share of each followed model with a pattern among those.
 std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateModel*>& models,
                                               const std::vector<double>& sum) {
   double all = 0.0;
@@ -112,11 +112,12 @@ std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateM
   return result;
 }
 
-/// Followed models share anew what all models with a pattern have together; those without keep theirs.
+/// Redistributes the total weight of models with a pattern among the followed ones; those without
+/// keep theirs.
 void share_anew(const std::map<ModelKey, double>& shares,
                 double together,
                 ModelComparison& comparison) {
-  // Of a model that no part bears out, so that its logarithm is a number.
+  // Floor for a model that no part supports, so that its logarithm is finite.
   constexpr double kNothing = 1e-300;
   for (CandidateModel& model : comparison.models) {
     const auto found = shares.find(key_of(model));
@@ -144,7 +145,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
     for (const UnitPlace& place : places) along.push_back(direction.dot(place.at));
     std::vector<double> sorted = along;
     sort(sorted, std::greater<>());
-    // Readings of one mark go together.
+    // Readings of one mark stay together.
     constexpr double kOneMarkMm = 1e-6;
     BedPart part{towards, {}};
     std::vector<Eigen::Vector2d> rest;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Probabilities averaged over parts of the bed, where a smooth pattern stands that no cause explains.
+/// Probabilities averaged over parts of the bed, for a smooth pattern that no cause explains.
 ///
-/// The kernels of the discrepancy describe such a pattern only nearly, and a likelihood that is nearly
-/// right makes odds of a thousand out of nothing: other marks on the same machine would make other odds.
-/// The average over parts of the data holds what each part would repeat:
+/// The kernels of the discrepancy describe such a pattern only approximately, and a slightly wrong
+/// likelihood gives odds of a thousand that other marks on the same machine would not repeat. The
+/// average over parts keeps what each part would repeat:
 ///
 ///   p(model | pattern) = sum_k p_k(model and pattern) / sum_k p_k(pattern)
 ///   p_k                  given all readings but those of part k, the evidence of each model counted as of
 ///                        as many readings as there are in all
 ///
 /// A part is the quarter of the readings on one side of a line, since what a model misses is correlated over
-/// the bed: single readings drawn at random would all repeat it. How likely a pattern is, and every model
-/// without one, stay as all readings have them: readings that scatter as the noise does are described
-/// rightly, and lose nothing.
+/// the bed: single readings drawn at random would all repeat it. The probability of a pattern and
+/// of every model without one stay as with all readings.
 ///
 /// Each part's probabilities are of the models that the whole comparison holds (downdating.hpp): averaged over the
 /// parts within 0.03 of comparisons made anew in 41 of 50 sets, the worst 0.18 off (tests/diagnosis/bed_parts_test.cpp).
@@ -40,30 +39,31 @@ struct BedPart {
   std::vector<std::size_t> units;
 };
 
-/// The quarters on one side of each of sixteen lines, without units that are `excluded` (flags of outlier
-/// groups); only those that leave `fewest` units, whose places do not lie on a line. Of a distance the place
-/// is the middle between its ends. Empty where fewer than half of the sixteen can be formed: the least number
-/// of readings in which one direction does not outweigh the others.
+/// The quarters on one side of each of sixteen lines, without units that are `excluded` (flags of
+/// outlier groups); only those that leave at least `fewest` units, not on one line. A distance
+/// counts at its midpoint. Empty where fewer than half of the sixteen can be formed: the least
+/// number of readings in which one direction does not outweigh the others.
 [[nodiscard]] std::vector<BedPart> bed_parts(const RegressorSystem& system,
                                              const std::vector<bool>& excluded,
                                              std::size_t fewest);
 
-/// What readings say by themselves.
+/// The result from some of the readings alone.
 struct PartPosterior {
   BedPart left_out;
-  /// Of each cause that any model holds, that it acts; the likeliest first.
+  /// Probability of each cause in any model; the likeliest first.
   std::vector<std::pair<CauseId, double>> causes;
   double caused = 0.0;  ///< that any acts
 };
 
-/// Puts averaged probabilities in place of the weights, and says what the parts make of the causes. The
-/// comparison stays as it is where no parts can be formed, or a pattern is no likelier than not.
+/// Replaces the weights by averaged probabilities and returns the results of the parts. The
+/// comparison is unchanged if no parts can be formed or a pattern is not more likely than not.
 [[nodiscard]] std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
                                                             std::size_t fewest,
                                                             ModelComparison& comparison);
 
-/// What each session's readings say by themselves; those of fewer than `fewest` units are left out, and the result is
-/// empty where that leaves fewer than two. \pre The comparison's weights are those of all readings, not averaged.
+/// Results of each session alone; sessions of fewer than `fewest` units are left out, and the
+/// result is empty if fewer than two remain. \pre The comparison's weights are those of all
+/// readings, not averaged.
 struct SessionPosterior {
   std::size_t session = 0;  ///< into the observations
   std::size_t units = 0;

@@ -12,22 +12,23 @@ namespace chaintrue::grid::diagnosis {
 
 namespace {
 
-/// What one belt's reading is off by before any is read: four owners' frames, 0.5 to 1 mm.
+/// Prior noise of one belt's reading: 0.5 to 1 mm on four owners' frames.
 constexpr double kUsualSpreadMm = 0.6;
-/// Chance of noise to make some cause look as strong, below which causes are spoken of: a tenth of what
-/// chains allow, for what pulled belts are expected to do makes a name of little. It costs hardly
-/// anything: of causes of strength 6 to 8, the weakest that are asked for, 48 of 55 are beyond it.
+/// Probability that noise makes some cause look as strong, below which causes are reported: a tenth
+/// of the limit for chains, because the expected stretch of pulled belts is named on little
+/// evidence. It costs hardly anything: of causes of strength 6 to 8, the weakest that are asked
+/// for, 48 of 55 are beyond it.
 constexpr double kFalseAlarmOfBelts = 0.001;
-/// Beside a pattern, how much likelier than beforehand the readings must make a cause that is named:
+/// With a pattern, the factor by which the readings must raise the odds of a named cause:
 /// "positive" evidence (R. Kass and A. Raftery, J. Am. Stat. Assoc. 90 (1995), 777).
 constexpr double kSpokenFor = 3.0;
-/// Places in a part of the bed: anchors need four, and a check at each besides shows that one is wrong.
+/// Places in a part of the bed: anchors need four, and one more check at each reveals a wrong one.
 constexpr std::size_t kFewestPlaces = 8;
 /// Linearised about nothing, about what was found, and about what that leaves.
 constexpr int kRoundsOfBelts = 3;
 
-/// Regressors of a cause that are weighed, and what sets in at about one visit: an anchor that slips in
-/// a way between those that are tried looks like a skip of another belt as well.
+/// Regressors of a cause that are compared; those near one visit are kept together, because an
+/// anchor that slips in an untried direction also looks like a skip of another belt.
 constexpr SearchLimits kSearch{.of_a_cause = 3, .one_event_visits = 4.0};
 /// With more rows a pattern costs seconds: one kernel, at the end alone.
 constexpr Eigen::Index kManyRows = 500;
@@ -102,7 +103,7 @@ tl::expected<void, DiagnosisFailure> BeltRules::linearise(Analysis& a) const {
 ComparisonOptions BeltRules::compared(const Analysis& a, bool last) const {
   ComparisonOptions options{.given_cause = a.options.given_cause};
   options.search = kSearch;
-  // Until the last every other strength with the best set of outliers says enough.
+  // Before the last round, every second strength with the best set of outliers is enough.
   options.search.sets_given = last ? 2 : 1;
   options.search.strength_step = last ? 1 : 2;
   if (const auto found = found_before(a); found.size() > 1) options.hypotheses.push_back(found);

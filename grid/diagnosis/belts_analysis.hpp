@@ -52,7 +52,7 @@ enum class AnalysisDepth { anchors, verdict };
 /// Of each reading, whether the decision keeps it.
 [[nodiscard]] belts::Counting decided_counting(const Analysis& analysis);
 
-/// The analysis as laws are weighed in it: next to patterns of single belts as well.
+/// The analysis with patterns of single belts added, for weighing laws.
 [[nodiscard]] Analysis analysis_of_laws(const BeltsAnalysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

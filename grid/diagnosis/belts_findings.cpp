@@ -20,7 +20,7 @@ using model::kBelts;
 
 namespace {
 
-/// Places that a machine believes in, the upper two belts deciding; nothing where they end nowhere.
+/// Places by a machine's own belief, from the upper two belts; empty if these do not meet.
 using Believed = std::vector<std::optional<FramePoint>>;
 
 Believed believed(const model::BeltMachine& by,
@@ -29,7 +29,7 @@ Believed believed(const model::BeltMachine& by,
                   const std::vector<FramePoint>& places) {
   Believed result;
   for (const FramePoint& at : places) {
-    // While it cuts, the upper two hold; what set in at a visit has set in.
+    // During cutting the upper two hold; effects that set in at a visit are present.
     constexpr int kAfterAll = 1000000000;
     const auto tl = model::belts::read_belt(real, effects, {Belt::tl, {}, kAfterAll}, at);
     const auto tr = model::belts::read_belt(real, effects, {Belt::tr, {}, kAfterAll}, at);
@@ -42,8 +42,7 @@ Believed believed(const model::BeltMachine& by,
   return result;
 }
 
-/// rms of what is left of the shifts once the frame as a whole is moved and turned to where it fits
-/// best: that only says where the sheet lies.
+/// rms of the shifts after the best rigid motion of the frame, which only places the sheet.
 double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& places) {
   std::vector<Eigen::Vector4d> rows;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -205,7 +204,7 @@ Unexplained unexplained(const BeltsAnalysis& a) {
 
 namespace {
 
-/// What a place leaves of its other readings once it has been put where these want it, in sigmas^2.
+/// Residual chi^2 of a place's other readings at their best position.
 double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
   Eigen::Matrix<double, 3, 1> residual;
   Eigen::Matrix<double, 3, 2> by_place;
@@ -221,10 +220,10 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
   return (residual - by_place * moved).squaredNorm();
 }
 
-/// The belt that may be off in place of a bad one: on the line between two anchors the other two belts
-/// alone say how far from it the place is, and nothing says which of them is off.
+/// The belt that may be wrong instead: on the line between two anchors only the other two belts
+/// determine the distance from it, so the readings cannot show which of them is wrong.
 std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::size_t point, Belt bad) {
-  // Odds of twenty to one tell them apart.
+  // Odds of twenty to one distinguish them.
   const double limit = left_without(view, point, bad) + 2.0 * std::log(20.0);
   std::optional<Belt> other;
   double least = limit;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a diagnosis of four belts finds beyond causes and their probabilities: anchors with the causes
-/// with them, what one belt's reading is off by, what the upper two belts predict of the lower ones,
-/// and where the tool is. All "before" with the anchors fitted alone, as the machine itself does, and
-/// after with the causes named; but anchors are averaged over all that may act, as a fit
-/// has them (averaged_anchors.hpp). In mm of the belts: their scale is not known without a tape.
+/// What a diagnosis of four belts finds besides causes and their probabilities: anchors, the error
+/// of one belt's reading, the prediction of the lower belts by the upper two, and the tool's
+/// position. "Before" is with the anchors fitted alone, as the machine does; "after" is with the
+/// named causes. Anchors are averaged over all possible causes, as in a fit (averaged_anchors.hpp).
+/// In the belts' mm: their scale is unknown without a tape.
 #pragma once
 
 #include <array>
@@ -36,29 +36,29 @@ struct BeltPlacePicture {
   model::PerBelt<bool> bad;  ///< set aside
 };
 
-/// How far off the tool is from where the machine believes it, the upper two belts deciding: over the
-/// places that were measured. What the readings leave uncertain of the true anchors is in each.
+/// The distance of the tool from its believed position by the upper two belts, over the measured
+/// places. Each includes the remaining uncertainty of the true anchors.
 struct ToolError {
   double stated_mm = 0.0;  ///< rms with the anchors as stated; 0 where none are
   double before_mm = 0.0;  ///< rms, anchors fitted alone
-  double after_mm = 0.0;   ///< rms of what the readings leave uncertain, causes with the anchors
-  /// One sigma of what a metre is longer or shorter by; empty where nothing taped tells it.
+  double after_mm = 0.0;   ///< rms of the remaining uncertainty, causes and anchors
+  /// One sigma of the scale per metre; empty if no tape determines it.
   std::optional<double> scale_mm_per_m;
 };
 
-/// All places measured once more with the belts pulled harder.
+/// All places measured again with the belts pulled harder.
 struct SecondPass {
   double times = 1.0;  ///< as hard
   /// Probability that the right cause is then named alone.
   double raises_probability_to = 0.0;
 };
-/// What to do, and what it is worth.
+/// What to do, and its value.
 [[nodiscard]] std::string in_words(const SecondPass& pass);
 
 struct BeltsFindings {
   model::BeltMachine machine;  ///< with the anchors fitted with the causes
   std::array<DiagnosedCoordinate, 5> coordinates;
-  /// sqrt(sum r^2 / checks): what one belt's reading is off by.
+  /// sqrt(sum r^2 / checks): the error of one belt's reading.
   double spread_before_mm = 0.0;
   double residual_sigma_mm = 0.0;
   /// Over all readings, none set aside, as the machine's own message counts.
@@ -71,7 +71,7 @@ struct BeltsFindings {
   std::optional<BeltScale> scale;
   std::optional<FirmwareFit> firmware_fit;
   std::vector<BeltPlacePicture> places;  ///< in the order of the file
-  std::optional<SecondPass> second_pass;  ///< where it parts what nothing less does
+  std::optional<SecondPass> second_pass;  ///< if it separates what nothing less does
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -46,12 +46,12 @@ const model::effects::EffectParameter& parameter_of(const std::vector<SizedCause
   return causes[which.cause].cause.effect->parameters[which.value];
 }
 
-/// What each of them moves, mm by its unit.
+/// Derivative of the readings by each, mm per unit.
 Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
                               const std::vector<SizedCause>& causes,
                               const belts::FrameState& state,
                               const std::vector<FreeValue>& free) {
-  // Of a value's usual spread: far enough for differences.
+  // Share of a value's usual spread, for difference quotients.
   constexpr double kStep = 0.05;
   Eigen::MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
   for (std::size_t f = 0; f < free.size(); ++f) {
@@ -65,7 +65,7 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
   return columns;
 }
 
-/// Moves the values; whether that was no more than they are uncertain by anyway.
+/// Applies the step; returns true once it is below the values' uncertainty.
 bool moved(const Eigen::VectorXd& change,
            const std::vector<FreeValue>& free,
            std::vector<SizedCause>& causes) {

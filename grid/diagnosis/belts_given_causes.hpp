@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors and places of a router on four belts with causes at work: the frame is fitted to readings
-/// that are freed of what the causes add there, and the causes' sizes given it, until both converge.
-/// Private to grid/diagnosis.
+/// Anchors and places of a four-belt router with causes: the frame is fitted to corrected readings,
+/// and the causes' sizes given the frame, until both converge. Private to grid/diagnosis.
 ///
 /// Notation
 ///   e, A  rows of the readings that count, places projected out, and what anchors do to them (1 of
@@ -38,7 +37,7 @@ namespace chaintrue::grid::diagnosis {
                                        const std::vector<SizedCause>& causes,
                                        const belts::FrameState& state);
 
-/// The readings without that.
+/// The readings minus that.
 [[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
                                             const std::vector<SizedCause>& causes,
                                             const belts::FrameState& state);
@@ -50,14 +49,14 @@ namespace chaintrue::grid::diagnosis {
                                              const belts::Counting& counting,
                                              double sigma_mm);
 
-/// Anchors, places and sizes at rest.
+/// Converged anchors, places and sizes.
 struct FitGivenCauses {
   belts::AnchorFit frame;
   std::vector<SizedCause> causes;
   MeasuredBelts without_causes;  ///< the readings without what these add; no distances
 };
-/// From a state near by; sizes that are whole numbers stay, others within their ranges. Empty where
-/// nothing settles.
+/// From a nearby state; whole-number sizes are fixed, others stay in their ranges. Empty if it does
+/// not converge.
 [[nodiscard]] std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
                                                        std::vector<SizedCause> causes,
                                                        const belts::AnchorFit& from);

@@ -16,27 +16,27 @@ using model::Belt;
 
 namespace {
 
-/// Further places lie on a raster over the frame; a coarser one where each is reached in four ways.
+/// New places lie on a raster over the frame; coarser if each can be reached in four ways.
 struct Raster {
   int columns;
   int rows;
 };
 constexpr Raster kUpright{9, 7};
 constexpr Raster kFlat{5, 4};
-/// Of the frame's width and height that the raster leaves out on each side: nearer to an anchor its
-/// arm is in the way.
+/// Share of the frame's width and height left out on each side: nearer to an anchor the arm is in
+/// the way.
 constexpr double kMargin = 0.14;
-/// A place next to one of the raster says the same; people type whole tens.
+/// Rounded to multiples of ten, which are easy to type; a neighbouring place is as informative.
 constexpr double kRasterMm = 10.0;
-/// Places of the session that may be visited once more, spread over it.
+/// Places of the session that may be revisited, spread over it.
 constexpr std::size_t kRevisits = 5;
-/// Of a second pass over the first: the firmware's usual current may be raised by as much.
+/// Pull of a second pass over the first: the firmware's usual current can be raised by this much.
 constexpr double kHarder = 1.6;
 constexpr std::string_view kFurtherPlace = "a further place";
-/// All places once more are predicted for so many at most: a second.
+/// At most this many places are predicted in a full repeat, which takes a second.
 constexpr std::size_t kMostOnceMore = 200;
 
-/// Places to come, and the state that makes their readings.
+/// Future places, and the state that predicts their readings.
 struct NextPlaces {
   MeasuredBelts belts;
   belts::FrameState state;
@@ -58,7 +58,7 @@ const std::vector<Approach>& approaches(model::Orientation orientation) {
 
 class Gathering {
  public:
-  /// Belts are pulled `times` as hard as places that were measured had them.
+  /// Belts are pulled `times` as hard as at the measured places.
   explicit Gathering(const BeltsAnalysis& a, double times = 1.0)
       : machine_(belts::with_anchors(a.belts.machine, a.frame.state.anchors)), times_(times) {
     next_.belts.machine = a.belts.machine;
@@ -165,7 +165,7 @@ void add_revisits(const BeltsAnalysis& a,
   }
 }
 
-/// What each alternative predicts of places to come, and the rows of each place.
+/// Each alternative's prediction for future places, and the rows of each place.
 struct PredictedPlaces {
   std::vector<Alternative> alternatives;
   std::vector<std::vector<Eigen::Index>> rows;
@@ -186,7 +186,7 @@ PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
   return predicted;
 }
 
-/// Of every place once more, the last one first, pulled so many times as hard as before.
+/// For every place again, the last one first, pulled `times` as hard as before.
 std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) {
   if (a.belts.points.size() > kMostOnceMore) return std::nullopt;
   Gathering gathering(a, times);
@@ -198,7 +198,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
   return expected_discrimination(alternatives, rows).named_alone;
 }
 
-/// A place that is proposed twice is to be measured twice, and says so.
+/// A place that is proposed twice has to be measured twice.
 void say_what_repeats(std::vector<NextMeasurement>& proposed) {
   for (auto own = proposed.begin(); own != proposed.end(); ++own) {
     const bool repeats = std::any_of(proposed.begin(), own, [own](const NextMeasurement& other) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An analysis of four belts as the answer has it. Private to grid/diagnosis.
+/// Turns an analysis of four belts into the answer. Private to grid/diagnosis.
 #pragma once
 
 #include "grid/belts/belts_fit.hpp"
@@ -13,8 +13,8 @@ namespace chaintrue::grid::diagnosis {
 /// Anchors, places and sizes at rest with the causes that were decided on.
 [[nodiscard]] FitGivenCauses explained(const BeltsAnalysis& analysis);
 
-/// Lower belts of either half of the places by a fit to the other, sizes of the causes as well; empty
-/// with too few places.
+/// Prediction of the lower belts of each half of the places by a fit to the other, including the
+/// causes' sizes; empty with too few places.
 [[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
                                                                  const FitGivenCauses& given);
 
@@ -24,7 +24,7 @@ namespace chaintrue::grid::diagnosis {
                                            const MeasuredBelts& belts,
                                            const BeltsFit& alone);
 
-/// The pattern that no cause makes, where the decision holds one; else its probability alone.
+/// The unexplained pattern if the decision has one; else only its probability.
 [[nodiscard]] Unexplained unexplained(const BeltsAnalysis& analysis);
 
 /// Readings set aside: of a place of which more than one is, the place.
@@ -54,7 +54,7 @@ struct BeltsNext {
 [[nodiscard]] BeltsNext next_measurements(const BeltsAnalysis& analysis,
                                           const PointIndices& indices);
 
-/// What to measure next, the distance that tells the scale last where nothing taped tells it.
+/// What to measure next; last, if no tape determines the scale, the distance that would.
 [[nodiscard]] std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
                                                            const MeasuredBelts& belts,
                                                            const BeltsFit& alone,

@@ -18,18 +18,19 @@ using model::effects::EffectSide;
 
 namespace {
 
-/// How well one sigma of a belt's reading is known before any is read: hardly.
+/// Degrees of freedom of the prior noise of a belt's reading: hardly known.
 constexpr double kNoiseDof = 2.0;
-/// Visits at which something may set in, spread over the session: neighbours of 24 have a collinearity of 0.97,
-/// and the best is looked for between its neighbours afterwards.
+/// Visits at which something may set in, spread over the session: neighbours among 24 have a
+/// collinearity of 0.97, and the best is refined between its neighbours afterwards.
 constexpr std::size_t kVisits = 24;
-/// Ways that an anchor may slip: the nearest is at most a sixteenth of a turn off, a collinearity of 0.92.
+/// Directions in which an anchor may slip: the nearest is at most a sixteenth of a turn off, a
+/// collinearity of 0.92.
 constexpr int kWays = 8;
-/// On either side of a step, or nobody can tell it from bad readings.
+/// Fewest visits on either side of a step, or it cannot be distinguished from bad readings.
 constexpr std::size_t kLeastAfter = 2;
 
-/// Whole teeth that a belt may jump by, with their shares: one is the rule, a turn of the encoder is
-/// what a lost magnet makes.
+/// Whole teeth that a belt may jump, with their shares: one is usual, and a lost magnet gives a
+/// turn of the encoder.
 struct Teeth {
   double teeth;
   double share;
@@ -167,8 +168,8 @@ class Columns {
     system_.g.add(column);
   }
 
-  /// Of the coefficient, from the spread of the size: a belt's zero that only shows from 40 mm on is
-  /// no likelier for it.
+  /// Prior sigma of the coefficient, from the spread of the size, so that a hard-to-see zero does
+  /// not become likelier.
   [[nodiscard]] static double sigma_of(const Regressor& regressor) {
     const double ratio = regressor.cause.effect->parameters.front().prior_sigma /
                          std::max(std::abs(regressor.values.front()), 1e-12);

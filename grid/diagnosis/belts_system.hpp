@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a diagnosis of four belts adds to their linearised system: single readings as outlier groups, what is
-/// known beforehand, and a regressor for each cause at every place where it may set in. Private to
+/// What a diagnosis of four belts adds to their linearised system: single readings as outlier
+/// groups, priors, and a regressor for each cause at every place where it may set in. Private to
 /// grid/diagnosis.
 ///
 /// A place leaves two checks of its four readings, a unit of two rows (observation/belt_lengths.hpp). A
-/// single reading spoils one direction of them, an outlier group each; two readings of a place take both. The
-/// five anchor coordinates are the settings, of which nothing is stated.
+/// single reading spoils one direction of them, an outlier group each; two readings of a place take
+/// both. The five anchor coordinates are the settings, without priors.
 #pragma once
 
 #include <vector>
@@ -36,7 +36,7 @@ namespace chaintrue::grid::diagnosis {
                                         const RegressorSystem& system,
                                         const SizedCause& cause);
 
-/// Of each reading, whether these flags of the system's outlier groups leave it.
+/// Whether these outlier flags keep each reading.
 [[nodiscard]] belts::Counting counting_of(const RegressorSystem& system,
                                           const std::vector<bool>& rejected);
 

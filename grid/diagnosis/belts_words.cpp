@@ -38,9 +38,9 @@ std::string improvement_words(const BeltsFindings& found) {
   return text + ".";
 }
 
-/// Causes that are likely enough to be thought of, though none is named: one set.
+/// Causes likely enough to mention although none is named: one set.
 std::string short_of_a_name(const Diagnosis& d) {
-  // Of one cause beforehand: a sixth. A fifth is more than the readings found there.
+  // The prior of one cause is a sixth; a fifth means that the readings raised it.
   constexpr double kToThinkOf = 0.2;
   constexpr double kInTheSet = 0.1;
   std::vector<std::string> parts;
@@ -96,9 +96,9 @@ std::string sentence(const Diagnosis& d) {
   }
 }
 
-/// Lengths that count from the belt's end: known by the offset that all four need.
+/// Lengths counted from the belt's end show as an offset that all four need.
 std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
-  // Of arm and extension: a tape finds the arm to less.
+  // Error of arm and extension: a tape measures the arm better.
   constexpr double kEqualWithin = 0.1;
   const double reach = model::reach_mm(belts.machine);
   for (const Cause& c : d.causes) {
@@ -122,7 +122,7 @@ bool tells(const BeltsNext& next) {
          next.measurements.back().raises_probability_to >= kWorthMeasuring;
 }
 
-/// Where causes are left open: what parts them, and where nothing of it does, what would.
+/// For undecided causes: what separates them or, if none of it does, what would.
 void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
   if (!next.is_open) return;
   const std::string_view aim = d.causes.empty() ? "one explanation alone" : "a single name";
@@ -201,7 +201,7 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
   }
 }
 
-/// The machine's own number and ours, and why they differ.
+/// The machine's number and this one, and why they differ.
 std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, const Diagnosis& d) {
   const auto readings = static_cast<double>(4 * belts.points.size());
   std::string text;
@@ -261,7 +261,7 @@ std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
       tape->distance.sigma_mm};
   distance.from = end_of(tape->distance.from, indices);
   distance.to = {end_of(tape->distance.to, indices)};
-  // It parts no causes.
+  // This distance does not discriminate between causes.
   if (!list.empty()) {
     distance.raises_probability_to = list.back().raises_probability_to;
   } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the leading explanation of an analysis is made of: its columns, and estimates with them.
+/// The leading explanation of an analysis: its columns, and estimates with them.
 #pragma once
 
 #include <vector>
@@ -15,14 +15,14 @@ namespace chaintrue::grid::diagnosis {
 /// The marginalised system in which the decision was made.
 [[nodiscard]] const MarginalisedSystem& marginalised_system(const Analysis& analysis);
 
-/// The most probable column of a cause over the models of the comparison, or that with its best
-/// score; -1 where the cause has none.
+/// The most probable column of a cause over the comparison's models, or its best-scoring one; -1 if
+/// it has none.
 [[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
 
-/// Flags the units whose readings a cause at one visit alone accounts for.
+/// Flags the units whose readings only a cause at one visit explains.
 void reject_slips(const Analysis& analysis, std::vector<bool>& outliers);
 
-/// Whether no points tell the two apart.
+/// Whether no points distinguish the two.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
 
 /// The column most like another of all causes that are neither of its class nor named; -1 where
@@ -33,15 +33,15 @@ struct Nearest {
 };
 [[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
 
-/// What is named, or else leads, and what is most like the first of it: for pictures next to each
-/// other.
+/// The named causes, or else the leading ones, and the cause most like the first: for pictures side
+/// by side.
 struct Shown {
   std::vector<int> best;
   std::vector<int> rival;
 };
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
-/// Estimate with these columns, given the discrepancy where the decision holds one.
+/// Estimate with these columns, given the decision's discrepancy, if any.
 [[nodiscard]] Estimate estimate_with(const Analysis& analysis, std::vector<int> columns);
 
 /// Estimate with these columns and no discrepancy.

@@ -15,8 +15,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// The most telling regressor of each cause: the longest, and the nearest to the data among those
-/// of a cause with places.
+/// The most informative regressor of each cause: the longest, and the nearest to the data among
+/// those of a cause with places.
 std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
                                                         const MarginalisedSystem& marginalised) {
   std::vector<std::pair<CauseId, int>> result;
@@ -82,7 +82,7 @@ std::optional<FreeModel> model_with(const RegressorSystem& system,
   return std::nullopt;
 }
 
-/// The size that is found of `free` is that of a whole number of `whole`, as well as noise lets one see.
+/// Within the noise, the fitted size of `free` is a whole number of `whole`.
 bool is_whole(const RegressorSystem& system,
               const ModelComparison& comparison,
               const CauseId& whole,
@@ -112,16 +112,15 @@ bool one_class(const RegressorSystem& system,
                const Representative& b) {
   if (collinearity_of(a.free, b.free) < kOneClass) return false;
   if (!a.fixed && !b.fixed) return true;
-  // A whole link is no small change: where it would ask a chain zero for what nobody stated, it is
-  // distinguished.
+  // A whole link is large: if it needs an implausible chain zero, it is distinguished.
   if (collinearity_of(a.stated, b.stated) < kOneClass) return false;
-  // Nor is it any amount: what moved by another one is distinguished by that.
+  // A whole number of teeth differs from an arbitrary amount.
   return a.fixed == b.fixed || (a.fixed ? is_whole(system, comparison, a.cause, b.cause)
                                         : is_whole(system, comparison, b.cause, a.cause));
 }
 
-/// Of what may be a whole number or any amount, the likelier first: the whole number has no size to
-/// spend its prior on, and so leads where the amount fits it.
+/// Of a whole number and an arbitrary amount, the likelier first: the whole number has no free size
+/// and so leads if the amount fits it.
 void put_likelier_first(const RegressorSystem& system,
                         const ModelComparison& comparison,
                         CauseClass& members) {
@@ -139,8 +138,8 @@ void put_likelier_first(const RegressorSystem& system,
   std::stable_sort(members.begin(), end, descending(weight_of));
 }
 
-/// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
-/// no setting does within reason does not count.
+/// An orthonormal basis of the settings' effects. Directions that would need implausible settings
+/// are dropped: distances hardly depend on some settings.
 Eigen::MatrixXd range_of_settings(const RegressorSystem& system, const Eigen::MatrixXd& columns) {
   constexpr double kFelt = 1e-4;
   if (system.nuisances == 0) return linear::orthonormal_columns(columns);
@@ -154,7 +153,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                    const ModelComparison& comparison) {
   const MarginalisedSystem& marginalised =
       comparison.marginalised_systems[comparison.best().marginalised];
-  // Free settings: what a class shares must not hang on how well the settings were stated.
+  // Settings are free, so that classes do not depend on how well they were stated.
   const linear::Cholesky noise = nuisance_noise(system, marginalised.kept);
   const auto visible = [&](Eigen::MatrixXd columns) {
     if (system.nuisances > 0) noise.half_solve_in_place(columns);
@@ -174,7 +173,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
     const double whole = own.free.norm();
     linear::add_product(
         own.free, -1.0, basis, linear::product(linear::transposed(basis), own.free));
-    // Of a signature that the settings take whole, only rounding would be compared.
+    // If the settings absorb a signature, only rounding would be compared.
     const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();
     for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {

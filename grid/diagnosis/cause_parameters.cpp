@@ -21,12 +21,12 @@ double circular(double difference, const EffectParameter& p) {
   return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
 }
 
-/// What a cause adds, whitened, changes with its place, per unit of the place; empty where the
-/// machine cannot have such an effect.
+/// Derivative of a cause's whitened signature by its place; empty if the machine cannot have such
+/// an effect.
 std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
                                               const Regressor& own,
                                               std::size_t which) {
-  // Of a radian: central differences of a wave are right to h^2 / 6, rounding to 1e-16 / h.
+  // Step in radians: central differences of a wave are accurate to h^2 / 6, rounding to 1e-16 / h.
   constexpr double kStep = 1e-3;
   std::vector<double> values = own.values;
   values[which] = own.values[which] + kStep;
@@ -38,10 +38,11 @@ std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
 }
 
 /// The same with each setting, n x q. A wave along a chain moves along it with the chain's length: a
-/// motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. Nothing where
-/// the machine cannot be so.
+/// motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. Empty if the
+/// machine cannot be so.
 Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
-  // Of a sigma: central differences of a wave of 60 mm are right to 1e-7 for a motor known to 3 mm.
+  // Step in sigmas: central differences of a wave of 60 mm are accurate to 1e-7 for a motor known
+  // to 3 mm.
   constexpr double kStep = 1e-3;
   Eigen::MatrixXd slope =
       Eigen::MatrixXd::Zero(a.system.by_setting.rows(), a.system.setting.size());
@@ -63,7 +64,7 @@ Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
   return slope;
 }
 
-/// From a continuous place to the nearest other one that was tried.
+/// Distance from a continuous place to the nearest other one tried.
 double step_of_places(const Analysis& a, const Regressor& own, std::size_t which) {
   double least = kInfinity;
   for (const Regressor& other : a.system.regressors) {
@@ -74,8 +75,8 @@ double step_of_places(const Analysis& a, const Regressor& own, std::size_t which
   return std::isfinite(least) ? least : 0.0;
 }
 
-/// Of a continuous place by the curvature of the likelihood, settings and all coefficients of the
-/// fit free.
+/// Sigma of a continuous place from the curvature of the likelihood, with settings and all
+/// coefficients free.
 double fitted_place_sigma(const Analysis& a,
                           int column,
                           std::size_t which,
@@ -99,7 +100,7 @@ double fitted_place_sigma(const Analysis& a,
     sigma(settings + k) = wide_coefficient_sigma(system, marginalised, other);
   }
   design.col(settings + free) = coefficient * marginalised.kept(slope);
-  // Beforehand any value between the bounds is as likely, and a phase goes round.
+  // The prior is uniform between the bounds; a phase is cyclic.
   const double range = place.name.ends_with("_rad")
                            ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
                            : place.upper - place.lower;
@@ -111,13 +112,14 @@ double fitted_place_sigma(const Analysis& a,
   const Eigen::Index last = settings + free;
   const Eigen::VectorXd column_of_inverse =
       normal.solve(Eigen::VectorXd::Unit(last + 1, last));
-  // Beside a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
+  // With a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
   // step either way.
   const double step = a.noise ? step_of_places(a, own, which) : 0.0;
   return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
 }
 
-/// How well the data say where a cause sets in: the scatter of that parameter over the models, about a value.
+/// Uncertainty of where a cause sets in: the scatter of that parameter over the models, about a
+/// value.
 double place_scatter(const Analysis& a, int column, std::size_t which, double about) {
   const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters[which];
@@ -136,8 +138,8 @@ double place_scatter(const Analysis& a, int column, std::size_t which, double ab
   return weight > 0.0 ? std::sqrt(square / weight) : 0.0;
 }
 
-/// The models hold a continuous place at a few values only: where one of them has all the weight their scatter
-/// says nothing of how far the place may lie from it.
+/// The models contain only a few values of a continuous place: if one has all the weight, their
+/// scatter does not show the uncertainty.
 ParameterEstimate estimated_place(
     const Analysis& a, int column, std::size_t which, const Estimate& fitted, double coefficient) {
   const Regressor& own = regressor(a, column);
@@ -148,7 +150,7 @@ ParameterEstimate estimated_place(
     const auto slope = slope_by_place(a, own, which);
     const bool is_step = slope && slope->isZero();
     if (slope && !is_step) width = fitted_place_sigma(a, column, which, fitted, coefficient, *slope);
-    // No reading tells where between two of them a step stands.
+    // No reading shows where between two of them a step is.
     if (const auto gap = is_step ? gap_about(a.system, own.cause, result.value) : std::nullopt) {
       result.value = 0.5 * (gap->below + gap->above);
       width = (gap->above - gap->below) / std::sqrt(12.0);

@@ -48,7 +48,7 @@ bool scale_was_read(const Measured& measured) {
 
 bool is_of_the_paper(const CauseId& cause) { return cause.effect->station == Station::paper; }
 
-/// Why a cause may not enter whatever it gains; empty where it may.
+/// Why a cause may not enter regardless of its gain; empty if it may.
 std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
   if (cause.probability < kSureOfCause) return OfferedCause::Reason::not_sure;
   if (is_of_the_paper(cause.cause)) return OfferedCause::Reason::is_paper;
@@ -81,7 +81,7 @@ double factor_beyond(const CompensationMap& plain, const CompensationMap& own) {
   return factor;
 }
 
-/// Before is before: what the tool missed on the machine as its owner states it.
+/// The error before is that of the machine as its owner states it.
 CompensationMap with_errors_before(const CompensationMap& own, const CompensationMap& plain) {
   MapContents contents = own.contents();
   const std::vector<MapPoint>& before = plain.contents().points;
@@ -114,7 +114,7 @@ std::vector<std::optional<CompensationMap>> other_maps(const Measured& measured,
   return maps;
 }
 
-/// The offered ones that move the tool, most probable first.
+/// The offered causes that move the tool, most probable first.
 std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) {
   constexpr double kLeastProbability = 0.05;
   constexpr std::size_t kMostMaps = 4;
@@ -177,7 +177,7 @@ void count_what_is_left_open(const Measured& measured,
   result.fit.map = std::move(open);
 }
 
-/// The sentences stand in the map's file as well.
+/// The map's file has the sentences too.
 CausesFit noted(CausesFit fit) {
   fit.fit.map = fit.fit.map.with_notes_first(in_words(fit));
   return fit;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A map on the machine as it was found: the causes that a diagnosis names enter the machine of the
-/// fit where they make the map better, and the map is plain where they do not.
-///
-/// A wrong name must not make a map worse than it is without one. A cause enters where
-///   - its probability is kSureOfCause and more,
-///   - it cannot as well lie on the paper (a tape whose error the marks share shows in no mark that is
-///     held out), unless somebody has read the links or the tape, or has said that it is the chain,
+/// A map on the machine as diagnosed: named causes enter the machine of the fit if they improve the
+/// map; otherwise the map is plain. A wrong name must not make a map worse. A cause enters if
+///   - its probability is at least kSureOfCause,
+///   - it cannot be on the paper instead (a tape error shared by all marks does not show at
+///   left-out marks), unless the links or the tape were read, or the owner stated that it is the
+///   chain,
 ///   - points in blocks of the bed that neither map was fitted to come out better with it, by more
 ///     than the standard error of the difference, the surfaces of both maps included, and do so as
 ///     well where each block's naming is repeated without it (gain.hpp).
@@ -55,7 +54,7 @@ inline constexpr double kSureOfCause = 0.9;
 
 struct CausesFitOptions {
   JointFitOptions fit;
-  /// Chain or paper, which no points tell apart: the owner has it that it is the chain.
+  /// Chain or paper, which no points distinguish: the owner states that it is the chain.
   bool accept_class = false;
   std::uint64_t seed = 1;
 };
@@ -66,7 +65,7 @@ struct OfferedCause {
     not_sure,       ///< below kSureOfCause
     may_be_paper,   ///< a reading of the link's pitch or of the tape decides
     is_paper,       ///< the marks themselves are off
-    gains_nothing,  ///< the map is no better for it on points that it was not fitted to
+    gains_nothing,  ///< it does not improve the map at left-out points
   };
   Cause cause;
   Reason reason;
@@ -85,7 +84,7 @@ struct CausesFit {
   std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
   /// Rms of (2) at the tool over the measured part, mm; zero where it is too small to be known, and nothing is added.
   double left_open_mm = 0.0;
-  /// Why nothing could be weighed; empty where it was.
+  /// Why no cause could be tried; empty if it was.
   std::string not_weighed;
 };
 
@@ -98,10 +97,10 @@ struct CausesFit {
                                       JointFit plain,
                                       const CausesFitOptions& options);
 
-/// What the map was built on and what is offered, whole sentences for its owner.
+/// Sentences for the owner: what the map is built on and what is offered.
 [[nodiscard]] std::vector<std::string> in_words(const CausesFit& fit);
 
-/// A cause as a machine file has it.
+/// A cause as in a machine file.
 [[nodiscard]] model::AppliedEffect applied(const Cause& cause);
 /// The same, its size shared out over the places where it may stand; one where its place is sure, or where it
 /// has none that a step or a bend depends on.

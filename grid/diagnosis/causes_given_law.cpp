@@ -10,11 +10,11 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Where no cause is as likely alone none will be named: of what is named at 90 % the odds are eighty times
-/// these, and only two causes that hide each other gain as much together.
+/// If no cause alone is this likely, none will be named: the odds of a cause named at 90 % are
+/// eighty times these, and only two causes that mask each other gain as much together.
 constexpr double kHardlyLikely = 0.1;
 
-/// Whether some cause is worth a second comparison, by its evidence alone.
+/// Whether some cause deserves a second comparison, by its evidence alone.
 bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const Eigen::VectorXd e = marginalised.e - reduced(marginalised, rows);

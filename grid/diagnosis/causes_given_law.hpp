@@ -17,18 +17,18 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// What the likeliest law adds to the readings, whitened; nothing where none is claimed, and where no cause
-/// could become a name or lose it without the law.
+/// The likeliest law's contribution to the readings, whitened; empty if none is claimed, or if
+/// removing it cannot change a name.
 [[nodiscard]] std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& analysis,
                                                                  const LawsFound& laws);
 
-/// Those that one of two comparisons names and the other does not: first what is named given the law, the
-/// likeliest first.
+/// Causes that only one of two comparisons names: first those named given the law, the likeliest
+/// first.
 [[nodiscard]] std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law,
                                                             const Analysis& given_law);
 
-/// Names that the law makes less likely than not are no longer names: of several those alone. Their
-/// probabilities become those given the law.
+/// Withdraws the names that are less likely than not given the law. Probabilities become those
+/// given the law.
 void take_names_back(const Analysis& given_law, Analysis& analysis);
 
 /// What changes once a claimed law is known; what is not named any more is taken back.

@@ -16,7 +16,7 @@ double square_at_tool(const FittedPoint& point) {
   return (point.mark_jacobian.inverse() * point.blocked_residual_mm).squaredNorm();
 }
 
-/// Points by what they are known by in both fits: the file's number and their own.
+/// Keys of points in both fits: the file's number and their own.
 using PointKey = std::pair<std::size_t, std::size_t>;
 
 }  // namespace

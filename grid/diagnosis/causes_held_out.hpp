@@ -18,8 +18,9 @@ struct HeldOutSquare {
   std::size_t block = 0;
 };
 
-/// Points that the map with causes keeps, and distances where there are no points. What it rejects is
-/// bad whatever acts; what the plain map alone rejects counts, since the causes explain it.
+/// Points that the map with causes keeps, and distances where there are no points. Points that it
+/// rejects are bad in any case; points that only the plain map rejects count, since the causes
+/// explain them.
 [[nodiscard]] std::vector<HeldOutSquare> held_out_squares(const JointFit& plain,
                                                           const JointFit& with_causes);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The numbers that a verdict depends on, in one place: constants.def says what each means and where
-/// it comes from. Probabilities and shares are plain numbers, strengths are in units of noise.
+/// The numbers that a verdict depends on; constants.def gives their meanings and sources.
+/// Probabilities and shares are plain numbers, strengths are in units of noise.
 #pragma once
 
 #include <array>
@@ -15,13 +15,12 @@ namespace chaintrue::grid::diagnosis {
 #undef CHAINTRUE_CONSTANT
 #undef CHAINTRUE_COUNT
 
-/// Besides the stated noise, one of these multiples of it, equally likely: what hurried or careless
-/// measuring makes of a tape.
+/// Multiples of the stated noise, equally likely: hurried or careless measuring.
 inline constexpr std::array kLargerNoise = {1.5, 2.0, 2.7};
 /// Strengths at which a discrepancy is tried: a quarter of a decade apart where it is hard to see.
 inline constexpr std::array kDiscrepancyStrengths = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
 
-/// Where the settings leave less than this share of a signature there is nothing to see.
+/// Below this residual share after projection on the settings, a signature is invisible.
 inline constexpr double kAbsorbed = 1e-3;
 
 }  // namespace chaintrue::grid::diagnosis

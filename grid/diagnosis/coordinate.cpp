@@ -19,7 +19,7 @@ struct Described {
   std::optional<Belt> belt{};
 };
 
-/// By Coordinate.
+/// Indexed by Coordinate.
 constexpr Described kDescribed[] = {{"x"},
                                     {"y"},
                                     {"across"},

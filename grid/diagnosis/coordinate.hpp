@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The coordinates of a place where readings were taken: what a pattern, a law or what is left over may be a
-/// function of.
+/// The coordinates of a place where readings were taken, of which a pattern, a law or a residual
+/// may be a function.
 ///
 /// \code
 ///   unit_of(Coordinate::tension_left);                        // "n"
@@ -46,7 +46,7 @@ enum class Coordinate {
   angle_br,       ///< rad
   place,          ///< both x and y
 };
-/// As files have it.
+/// Its name in files.
 [[nodiscard]] std::string_view name(Coordinate of);
 /// "mm", "rad", "n", "visit": what a parameter's name ends in.
 [[nodiscard]] std::string_view unit_of(Coordinate of);

@@ -35,7 +35,7 @@ class Decider {
   Decision run(bool detected) {
     group();
     marginals();
-    // A pattern is itself beyond what noise does, and hides from a test against noise alone.
+    // A pattern exceeds noise by itself, and can escape a test against noise alone.
     const bool beyond_noise = detected || result_.discrepancy > kDiscrepancyLikely;
     if (beyond_noise && result_.caused > kCaused) {
       name_best();
@@ -146,8 +146,8 @@ class Decider {
     }
   }
 
-  /// Of several causes those are spoken of that are likelier than not; a partner that could be any
-  /// of many is left over.
+  /// Of several causes those more likely than not are reported; a partner that could be any of many
+  /// is dropped.
   const Grouped* without_doubtful(const Grouped* best_model) {
     if (best_key_.size() < 2) return best_model;
     Key sure;
@@ -167,7 +167,7 @@ class Decider {
       abstain();
       return;
     }
-    // Beside a pattern that nobody listed a set says something only where one of it surely acts.
+    // With an unlisted pattern a set is reported only if one of its members surely acts.
     if (result_.discrepancy > kDiscrepancyLikely &&
         result_.marginal.front().probability < enough_to_name() && result_.caused < kSetHolds) {
       abstain();
@@ -176,12 +176,12 @@ class Decider {
     name_causes(*best_model);
   }
 
-  /// A pattern next to a cause takes of its probability, not of its right to be named.
+  /// A pattern lowers a cause's probability, but does not keep it from being named.
   [[nodiscard]] double enough_to_name() const {
     return result_.discrepancy > kDiscrepancyLikely ? kNamedGivenDiscrepancy : kNamedAlone;
   }
 
-  /// What the table of hypotheses gives as good as surely is never missing among the causes.
+  /// A hypothesis that is nearly certain is always among the causes.
   void add_all_sure() {
     Key sure;
     for (const ClassProbability& one : result_.marginal) {
@@ -214,7 +214,7 @@ class Decider {
     return best;
   }
 
-  /// Of what was taken into the model the causes of these classes alone.
+  /// Keeps only these classes' causes in the model.
   void keep_only(const Key& causes) {
     std::erase_if(result_.regressors, [&](int k) {
       const auto own = class_of(system_.regressor(k).cause);
@@ -233,8 +233,8 @@ class Decider {
     }
     const ClassProbability& top = result_.marginal.front();
     if (top.probability >= enough_to_name()) {
-      // Over all groups another cause may be likelier than the one of the leading group: what is
-      // fitted is what is named.
+      // Over all groups another cause may be likelier than that of the leading group: fit what is
+      // named.
       const Key named = {top.index};
       const auto alone = groups_.find(named);
       const Grouped* own = best_key_ == named  ? &best_model
@@ -326,7 +326,7 @@ Decision decide(const RegressorSystem& system,
 
 namespace {
 
-/// The likeliest pattern without any cause; false where none was weighed.
+/// The likeliest pattern without any cause; false if none was compared.
 bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
   auto* alone = find_where(comparison.models, [](const CandidateModel& model) {
     return model.discrepancy >= 0 && model.regressors.empty();

@@ -27,7 +27,7 @@ struct ClassProbability {
 struct Decision {
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseClass> classes;
-  /// Present at all, with whatever else; most probable first.
+  /// Probability of being present, alone or with others; most probable first.
   std::vector<ClassProbability> marginal;
   double nothing = 0.0;
   double noise = 0.0;
@@ -38,8 +38,7 @@ struct Decision {
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
   std::vector<std::size_t> listed;
-  /// What goes into the model: one regressor a cause, the discrepancy that is left or -1, the
-  /// marginalised system.
+  /// The model: one regressor per cause, the discrepancy or -1, the marginalised system.
   std::vector<int> regressors;
   int best_discrepancy = -1;
   bool discrepancy_left = false;
@@ -49,20 +48,20 @@ struct Decision {
   [[nodiscard]] std::vector<CauseId> leaders() const;
 };
 
-/// `detected`: the strongest effect is beyond what noise does (family-wise).
+/// `detected`: the strongest effect exceeds what noise produces (family-wise).
 [[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool detected);
-/// The same with the classes known: of the comparison's marginalised systems nothing but the points
-/// set aside is asked.
+/// As above with known classes: of the comparison's marginalised systems only the rejected points
+/// are used.
 [[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool detected,
                               std::vector<CauseClass> classes);
 
-/// Names nothing: what is left is a pattern that no cause makes, or nothing. Probabilities stay.
+/// Names no cause: what remains is an unexplained pattern or nothing. Probabilities are kept.
 void withdraw_names(const ModelComparison& comparison, Decision& decision);
 
 }  // namespace chaintrue::grid::diagnosis

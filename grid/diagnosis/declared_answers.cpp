@@ -22,7 +22,7 @@ const T* find_of(const std::vector<T>& all, const CauseId& cause) {
   return find_where(all, [&](const T& one) { return one.cause == cause; });
 }
 
-/// What leads the comparison, without this cause.
+/// The leading model without this cause.
 std::vector<int> others_than(const Analysis& a, const CauseId& cause) {
   std::vector<int> others;
   for (const int k : a.decision.regressors) {
@@ -31,7 +31,7 @@ std::vector<int> others_than(const Analysis& a, const CauseId& cause) {
   return others;
 }
 
-/// Whether the readings are likelier without it than with it as it stands in the file.
+/// Whether the readings are likelier without it than with its values in the file.
 bool is_refuted(const Analysis& a, const CauseId& cause) {
   const auto g = signature(
       a.session, a.state, a.system, cause, model::effects::nominal_values(*cause.effect));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a session says of the effects that a user declared, such as a law that an earlier session found.
+/// The result of a session for declared effects, such as a law that an earlier session found.
 ///
 ///   confirmed     named, at kLawClaimed and more
 ///   denied        no more than 1 - kLawClaimed, and it would have shown as it stands in the file: its size
@@ -9,8 +9,8 @@
 ///   open          neither
 ///   not testable  these readings do not show it, whatever its size
 ///
-///   odds = p(e | S, D) / p(e - g | S, D),   g its signature at the usual values; S, D what leads the
-///                                          comparison, without it
+///   odds = p(e | S, D) / p(e - g | S, D),   g its signature at the usual values; S, D the best
+///                                           model without it
 ///
 /// \code
 ///   for (const DeclaredAnswer& one : declared_answers(analysis, diagnosis)) ...

@@ -46,7 +46,7 @@ std::string_view name(Observations observations) {
 
 namespace {
 
-// What a diagnosis tells of itself; the gain tells each block (gain.cpp).
+// Progress of a diagnosis; gain.cpp reports each block.
 constexpr int kWorkSteps = 4;
 constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
 
@@ -82,7 +82,7 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
   }
 }
 
-/// What was stated of the noise and of the files.
+/// Notes on the stated noise and the files.
 void state_input(const Measured& measured, Diagnosis& d) {
   d.grid_name = measured.name();
   for (const MeasuredGrid* grid : measured.grids()) {
@@ -114,9 +114,9 @@ void take_from_map(const Measured& measured,
     d.improvement->noise_floor_mm = noise_at_tool_mm(fit.fit.map);
 }
 
-/// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool
-/// misses by no less than what the law makes at these. What settings would take up again is no error of the
-/// tool: it is no more than the whole error there.
+/// A map cannot resolve less than the spacing of the marks, so a claimed law causes at least its
+/// error at the marks. What the settings would absorb is not an error of the tool, so it is at most
+/// the whole error there.
 void count_law(Diagnosis& d) {
   const Law* law = claimed_law(d);
   if (!d.tool_today || law == nullptr || d.observations != Observations::points) return;

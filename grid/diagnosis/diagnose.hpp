@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From what was measured to what is wrong with the machine: the one door of this room.
+/// From measurements to what is wrong with the machine: the entry points of this folder.
 ///
 /// \code
 ///   Measured measured(grid);          // points
@@ -24,16 +24,17 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Of holes, and of points that bear none, the order of visits is unknown. Fails in words where
+/// The order of visits is unknown for holes, and for points without numbers. Fails in words where
 /// there is no machine, too little was measured, or a place is out of the machine's reach.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const Measured& measured, const DiagnosisOptions& options = {});
 
-/// A router on four belts, from the lengths that it measured by itself. Gain, follow-ups and what else
-/// is of chains stay empty: `belts` holds what belts tell. Fails in words where fit_belts() does.
+/// A router on four belts, from the lengths that it measured by itself. Gain, follow-ups and other
+/// results of chains stay empty: `belts` holds those of belts. Fails in words where fit_belts()
+/// does.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const MeasuredBelts& belts, const DiagnosisOptions& options = {});
-/// The same of belts of whose file points were left out; the answer has the file's numbers.
+/// As above if points of the file were left out; the answer has the file's numbers.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
                                                                  const PointIndices& indices,
                                                                  const DiagnosisOptions& options);
@@ -44,7 +45,7 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const TestDrawing& drawing, const DiagnosisOptions& options = {});
 
-/// How well what was found on one grid predicts another of the same machine. Fails in words where
+/// How well the model found on one grid predicts another of the same machine. Fails in words where
 /// either has no machine or the machine found cannot reach the other's points.
 [[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                                 const Diagnosis& diagnosis,

@@ -12,8 +12,8 @@ namespace {
 
 constexpr WorkStep kComparingDrawing{"the causes against each other", 1, 1};
 
-/// Slips and bad input, as a fit refuses them. A drawing that no settings make has some cause, which is
-/// what is looked for.
+/// Slips and bad input, as a fit refuses them. A drawing that no settings explain has a cause,
+/// which the diagnosis looks for.
 std::optional<DiagnosisFailure> refused(const TestDrawing& drawing) {
   using Reason = DiagnosisFailure::Reason;
   const auto fit = fit_drawing(drawing);

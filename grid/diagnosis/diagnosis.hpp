@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the simulation gets wrong and why: the answer of a diagnosis, as files and reports show it.
+/// The result of a diagnosis, as files and reports show it: what the simulation gets wrong and why.
 ///
 /// Three statements are kept apart throughout: a cause is present (causes), it was looked for and
 /// is smaller than a bound (bounds), or these data cannot show it (not_testable).
@@ -48,7 +48,7 @@ enum class Observations { points, distances, both, belts, drawing };
 /// "points", "distances", "readings", "belts", "measures".
 [[nodiscard]] std::string_view name(Observations observations);
 
-/// A member of the same class, with what its own parameters would be.
+/// A member of the same class, with the parameters it would have.
 struct SameCause {
   CauseId cause;
   std::vector<ParameterEstimate> parameters;
@@ -61,10 +61,10 @@ struct Cause {
   double share_left = 0.0;  ///< of its signature, after the settings have taken theirs
   std::vector<ParameterEstimate> parameters;
   std::vector<SameCause> same_as;
-  /// The effect that these data tell from it least, |cosine| of the two.
+  /// The effect that these data distinguish from it least, |cosine| of the two.
   std::optional<CauseId> rival;
   double rival_collinearity = 0.0;
-  /// It needs the visiting order, which nobody measured.
+  /// It needs the visiting order, which was not recorded.
   bool order_assumed = false;
 };
 
@@ -73,32 +73,33 @@ struct Hypothesis {
   std::string effect;
   std::string side;
   double probability = 0.0;
-  /// Its class, the cause that gives the name first; empty of those that are none, and of a file.
+  /// Its class, the naming cause first; empty for hypotheses without causes, and when read from a
+  /// file.
   std::vector<CauseId> causes{};
 };
 
-/// What is left once the causes named are in the model.
+/// The residual with the named causes in the model.
 struct LeftOver {
   double signal_to_noise = 0.0;
-  /// The coordinate it follows best: angle_left, length_right, tension_left, order, x, y, ...;
-  /// empty where nothing stands out.
+  /// The coordinate that it follows best: angle_left, length_right, tension_left, order, x, y, ...;
+  /// empty if none stands out.
   std::string follows;
   double share = 0.0;  ///< of its square that a smooth curve along that coordinate explains
-  /// Chance to see as much from noise alone.
+  /// Probability of as much from noise alone.
   double p_value = 1.0;
 };
 
-/// A cause that is named once a claimed law is known and not without it, or the other way round.
+/// A cause that is named only with, or only without, a claimed law.
 struct CauseGivenLaw {
   CauseId cause;
   double probability = 0.0;  ///< given the law
   double without_law = 0.0;
-  std::vector<ParameterEstimate> parameters;  ///< given the law; empty where it is not named then
-  std::vector<CauseId> same_as{};             ///< those that no readings of this kind can tell from it
+  std::vector<ParameterEstimate> parameters;  ///< given the law; empty if it is not named then
+  std::vector<CauseId> same_as{};             ///< indistinguishable by such readings
 };
 
-/// What remains besides the causes named, with any verdict: a smooth pattern that no cause of
-/// the catalogue makes.
+/// A smooth pattern besides the named causes that no cause of the catalogue explains, with any
+/// verdict.
 struct Unexplained {
   double probability = 0.0;
   double signal_to_noise = 0.0;  ///< of the pattern as it is estimated
@@ -108,9 +109,9 @@ struct Unexplained {
   std::string follows;
   double length_mm = 0.0;  ///< over which it changes; of an angle or a pull what that is on the bed
   Enters enters = Enters::mixed;
-  /// What it may be a function of, likeliest first; empty unless some law is likelier than none.
+  /// Its possible arguments, likeliest first; empty unless some law is likelier than none.
   std::vector<Law> laws;
-  /// What the likeliest law, where it is claimed, changes of what is named.
+  /// Changes of names by the likeliest law, if it is claimed.
   std::vector<CauseGivenLaw> causes_given_law;
 };
 
@@ -120,19 +121,20 @@ struct BudgetLine {
   std::optional<CauseId> cause{};
   double mean_square_mm2 = 0.0;  ///< of what cannot be split it may be negative
   double share = 0.0;            ///< of the whole
-  /// Rms of the tool's error as delivered with this part alone taken away. Empty of what cannot be
+  /// Rms of the tool's error as delivered with this part alone taken away. Empty if it cannot be
   /// split.
   std::optional<double> without_mm{};
-  /// The largest change of the tool's error over 100 mm at the corners of the marked area: what a
-  /// part of that size gets wrong there. Empty where it is not of the place, or not the tool's.
+  /// The largest change of the tool's error over 100 mm at the corners of the marked area: the
+  /// error of a part of that size there. Empty if it does not depend on the place, or is not the
+  /// tool's.
   std::optional<double> part_mm{};
   enum class ChangesWith { nothing, place, order, direction } changes_with = ChangesWith::place;
 };
 [[nodiscard]] std::string_view name(BudgetLine::What what);
 [[nodiscard]] std::string_view name(BudgetLine::ChangesWith changes);
 
-/// The mean square of the tool's error as the machine was delivered, split into what makes it:
-/// largest first, what cannot be split last. The lines add up to the whole.
+/// The mean square of the tool's error as delivered, split into its sources: largest first, what
+/// cannot be split last. The lines add up to the whole.
 struct ErrorBudget {
   double uncalibrated_mm = 0.0;  ///< rms at the good points (or of the good distances)
   std::vector<BudgetLine> lines;
@@ -144,10 +146,10 @@ struct Outlier {
   std::optional<model::Belt> belt{};       ///< empty of belts: all that was read at the place
   /// The belt of the same place that may be off instead, where the lengths do not tell which.
   std::optional<model::Belt> or_belt{};
-  /// Where the tool would have to have been, less where the mark is.
+  /// Implied position of the tool minus the mark.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
-  /// Of a distance or a belt: read less what all the others make of it.
+  /// For a distance or a belt: read minus the prediction by all others.
   double residual_mm = 0.0;
 };
 
@@ -156,14 +158,14 @@ struct NotTestable {
   std::string reason;
 };
 
-/// Looked for and not found: larger than this it would have shown.
+/// Looked for and not found; a larger one would have shown.
 struct Bound {
   CauseId cause;
   std::string parameter;
   double upper_95 = 0.0;  ///< of the absolute value
 };
 
-/// What these readings say of an effect that the user declared (declared_answers.hpp).
+/// The result for an effect that the user declared (declared_answers.hpp).
 struct DeclaredAnswer {
   enum class Says { confirmed, denied, open, not_testable };
   CauseId cause;
@@ -178,7 +180,7 @@ struct CalibratedSetting {
   double stated_sigma = 0.0;
   double calibrated = 0.0;
   double sigma = 0.0;
-  bool off = false;  ///< further away than what was stated allows
+  bool off = false;  ///< farther away than the stated sigma allows
 };
 
 /// Held-out error of the tool [mm] for one way of modelling.
@@ -198,13 +200,13 @@ struct HeldOutImprovement {
   HeldOut extended_and_surface;
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
-  /// By how much the mean square of the tool's error falls over the measured area, as the points
-  /// have it (expected_improvement.hpp). Blocks held out say more, since there both models extrapolate and
-  /// the poorer one farther.
+  /// The reduction of the tool's mean square error over the measured area
+  /// (expected_improvement.hpp). Held-out blocks show a larger reduction, since both models
+  /// extrapolate there.
   double drop_mm2 = 0.0;
   /// That drop over the mean square before it, the noise of the readings in neither.
   double drop_share = 0.0;
-  /// In so many of the folds the same cause was named.
+  /// The number of folds in which the same cause was named.
   int folds = 0;
   int folds_agree = 0;
 };
@@ -219,12 +221,12 @@ struct NextMeasurement {
   double sigma = 0.0;                    ///< of a reading: how well it has to be read
   /// Probability that the right cause is then named alone, this and all above it done.
   double raises_probability_to = 0.0;
-  /// Of a distance: its ends, as in the holes' file. A hole to be cut has no name yet and is left
-  /// out; to several holes the distances are measured one by one.
+  /// For a distance: its ends, as in the holes' file. A hole to be cut has no name yet and is
+  /// omitted; distances to several holes are measured one by one.
   std::string from{};
   std::vector<std::string> to{};
-  /// Of a place that four belts read: those that a motor pulls there, by name. Empty: as the
-  /// frame's orientation has it.
+  /// For a place that four belts read: the pulled belts by name. Empty: those of the frame's
+  /// orientation.
   std::vector<model::Belt> pulled{};
   std::optional<ReadingOf> reading{};  ///< of a reading: what to read
 };
@@ -257,22 +259,21 @@ struct Removal {
   std::size_t points = 1;  ///< or distances, that go
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseId> causes;  ///< that would be named
-  /// What all points name is named without these too.
+  /// Whether the names are the same without these.
   bool stands = true;
-  /// That what is named acts.
+  /// Probability of the named causes.
   double probability = 0.0;
-  /// Fall of the logarithm of its odds: how much of the name rests on these points; negative where
-  /// they speak against it.
+  /// Drop of its log odds without these points; negative if they contradict it.
   double support = 0.0;
 };
 
-/// Whether what is named hangs on a few of the points.
+/// Whether the names depend on a few of the points.
 struct Stability {
   double probability = 0.0;       ///< with all points: that every cause named acts, or one of a set
   std::vector<Removal> removals;  ///< points by index, then columns and rows by place
 };
 
-/// What the readings say without a quarter of the bed, or one session by itself.
+/// The result without a quarter of the bed, or of one session alone.
 struct PartFinding {
   double towards_rad = 0.0;  ///< where the quarter lies, from the middle; from x towards y
   std::string session;       ///< of one session its name; of a quarter empty
@@ -312,15 +313,16 @@ struct Diagnosis {
   std::string sentence;
   std::vector<std::string> what_to_do;  ///< at most three
   std::string not_proved;
-  /// Found from the readings, where nobody wrote it down.
+  /// Estimated from the readings if it was not recorded.
   std::optional<VisitingOrderFound> visiting_order;
   std::vector<std::string> notes;  ///< assumed order, unstated noise, swapped columns, ...
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
   /// How far the machine misses as it is used today: error_in_use() of the plain map of these readings,
-  /// the number that a fit begins with; no less than what a claimed law makes at the points. Empty of drawings, of belts but where chaintrue diagnose adds it,
-  /// where the readings make no map, and where held-out errors were not asked for.
+  /// the number that a fit begins with; at least the effect of a claimed law at the points. Empty
+  /// for drawings, for belts unless chaintrue diagnose adds it, if the readings give no map, and if
+  /// held-out errors were not requested.
   std::optional<ErrorSummary> tool_today;
   /// Empty for drawings, as the budget is.
   std::optional<Unexplained> unexplained;
@@ -333,9 +335,9 @@ struct Diagnosis {
   std::optional<HeldOutImprovement> improvement;
   std::vector<NextMeasurement> next_measurements;
   /// The machine with its settings calibrated and every named cause that belongs into it; never an
-  /// effect of the paper or of the visit. Of belts it says nothing: `belts` has theirs.
+  /// effect of the paper or of the visit. Not for belts: see `belts`.
   model::Machine extended_machine;
-  /// Named causes that do not belong into the machine: what the data are corrected by.
+  /// Named causes that do not belong into the machine: the corrections of the data.
   std::vector<model::AppliedEffect> data_corrections;
 
   double noise_factor = 1.0;   ///< noise found, as a multiple of what was stated
@@ -350,13 +352,13 @@ struct Diagnosis {
   std::string grid_name;
   std::optional<StatedNoise> stated_noise;
   std::optional<StatedTape> stated_tape;
-  /// Empty where no cause is named or too few points would be left.
+  /// Empty if no cause is named or too few points would remain.
   std::optional<Stability> stability;
-  /// Quarters of the bed over which the probabilities are averaged; empty where no pattern stands.
+  /// Quarters of the bed over which the probabilities are averaged; empty without a pattern.
   std::vector<PartFinding> bed_parts;
-  /// Each session by itself, where causes are named and there is more than one.
+  /// Each session alone, if causes are named and there is more than one session.
   std::vector<PartFinding> sessions;
-  /// Another grid predicted; empty where none was asked for.
+  /// Prediction of another grid; empty if none was requested.
   std::optional<Transfer> transferred;
 };
 

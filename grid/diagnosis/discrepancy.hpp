@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The model discrepancy: what repeats over the bed and no cause explains, as a Gaussian process
-/// (M. Kennedy and A. O'Hagan, J. R. Stat. Soc. B 63 (2001), 425).
+/// The model discrepancy: a repeatable pattern over the bed that no cause explains, as a Gaussian
+/// process (M. Kennedy and A. O'Hagan, J. R. Stat. Soc. B 63 (2001), 425).
 ///
-/// What disturbs a machine mostly acts on one thing: one chain, one axis of the sheet, the sled's
-/// height, the tension. So a field is a smooth scalar function of one thing (the place, x, y, one
-/// chain's length, angle or tension) and enters the two chains, or the tool's two coordinates, at a
-/// fixed ratio; fields that enter both freely are tried as well.
+/// Most disturbances act on one thing: one chain, one axis of the sheet, the sled's height, the
+/// tension. So a field is a smooth scalar function of one thing (the place, x, y, one chain's
+/// length, angle or tension) and enters the two chains, or the tool's two coordinates, at a fixed
+/// ratio; fields that enter both freely are tried as well.
 ///
 ///   cov(r_i, r_j) = s^2 / F sum_f k_f(t_i, t_j) T_i D_f T_j'
 ///   k(t, u) = exp(-|t - u|^2 / (2 length^2)),  t what the field is a function of
@@ -65,8 +65,8 @@ struct DiscrepancyKernel {
 /// kernel * strengths + strength.
 struct DiscrepancyFamily {
   std::vector<DiscrepancyKernel> kernels;  ///< priors sum to one
-  /// In units of noise, how long a discrepancy is expected to be in the rows once the settings have
-  /// taken their share.
+  /// Expected length of a discrepancy in the rows after projection on the settings, in units of
+  /// noise.
   std::span<const double> strengths;
 
   [[nodiscard]] int count() const {
@@ -83,11 +83,12 @@ struct DiscrepancyFamily {
   /// section 4.3).
   [[nodiscard]] double log_share_of(int discrepancy) const;
 };
-/// Of any other mechanism: a smooth function of the place for each of its lengths, and, where the
+/// For any other mechanism: a smooth function of the place for each of its lengths, and, where the
 /// visits' order is known, one that changes with these as well.
 [[nodiscard]] const DiscrepancyFamily& length_discrepancies(bool ordered);
-/// Of four lengths those, and smooth functions of the place that disturb one length alone: what stands against a
-/// law of one length. Half of the prior is theirs; the first kernels are those of length_discrepancies().
+/// For four lengths those, and smooth functions of the place that disturb one length alone, as
+/// alternatives to a law of one length. Half of the prior is theirs; the first kernels are those of
+/// length_discrepancies().
 [[nodiscard]] const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered);
 
 struct Discrepancy {
@@ -95,8 +96,8 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-/// What a field is a function of at a place, for either component of what it enters; equal but for
-/// the border's.
+/// The field's arguments at a place, for the two components that it enters; equal except for the
+/// border.
 struct FieldArgument {
   double first = 0.0;
   double second = 0.0;  ///< of the place: y
@@ -111,7 +112,7 @@ struct FieldArgument {
                                       const FieldArgument& a,
                                       const FieldArgument& b);
 
-/// What a field enters by: d of its direction; (1, 1) of the border, where both components are one
+/// How a field enters: d of its direction; (1, 1) of the border, where both components are one
 /// field's; nothing where the components are independent.
 [[nodiscard]] std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
 

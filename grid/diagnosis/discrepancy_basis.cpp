@@ -174,7 +174,7 @@ class DiscrepancyBasis::Fields {
     return block.c * first + block.s * second;
   }
 
-  /// Makes the inner products of all fields with these columns, so that `with` changes nothing.
+  /// Computes the inner products of all fields with these columns, so that `with` changes nothing.
   void relate_all(const NormalEquations& plain) {
     const Eigen::MatrixXd e = columns_of(plain);
     for (Products& own : all_) own.with.try_emplace(&plain);

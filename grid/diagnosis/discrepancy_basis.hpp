@@ -66,7 +66,8 @@ class DiscrepancyBasis {
     Eigen::ArrayXd subdiagonal_;    ///< r - 1, the one next to it
     Eigen::MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
   };
-  /// Makes what `given` needs of these columns for all kernels at once, after which it may be called by several threads.
+  /// Prepares these columns for `given` for all kernels at once, after which several threads may
+  /// call it.
   void relate(const NormalEquations& plain);
   /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
   [[nodiscard]] GivenKernel given(std::size_t kernel, const NormalEquations& plain);

@@ -77,8 +77,8 @@ class Kernels {
       group.push_back(field);
     }
   }
-  /// Along x and y others have it. A fold along a direction next to its own bends elsewhere too:
-  /// twice as many as of entry.
+  /// x and y are covered elsewhere. A fold is sensitive to its direction: twice as many as
+  /// directions of entry.
   static void oblique(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
     field.entry = FieldEntry::tool;
     for (int k = 1; k < 2 * kDirections; ++k) {
@@ -88,7 +88,7 @@ class Kernels {
       group.push_back(field);
     }
   }
-  /// The same with a trend.
+  /// As above, with a trend.
   static DiscrepancyField trend_of(DiscrepancyField field) {
     field.length = kTrendMm;
     return field;
@@ -115,7 +115,7 @@ const DiscrepancyFamily& chain_discrepancies() {
 }
 
 const DiscrepancyFamily& length_discrepancies(bool ordered) {
-  // In sigmas: from what hardly shows to what real frames of four belts leave, four times over.
+  // In sigmas: from barely visible to four times the residual of real four-belt frames.
   static constexpr std::array kStrengths = {6.0, 12.0, 24.0, 48.0};
   // From twice the usual distance of two places to a quarter of a frame; over the visits of a row.
   static const auto kernel = [](double place_mm, double visits, double prior) {

@@ -15,7 +15,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Share of a column's square below which what is left of it is rounding: that of one whitened row is 1e-13 of it.
+/// Share of a column's square below which the remainder is rounding: that of one whitened row is
+/// 1e-13.
 constexpr double kNothingLeft = 1e-9;
 
 using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, discrepancy
@@ -46,7 +47,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
   std::set<std::size_t> marginalised_systems;
   std::size_t taken = 0;
   double last = best;
-  // Best first, so that a marginalised system is known before the rest of what is asked for in it.
+  // Best first, so that a marginalised system is known before its other models.
   for (const CandidateModel& model : comparison.models) {
     const FactorisationKey key{model.marginalised, model.discrepancy};
     if (!is_followed(key)) continue;
@@ -68,7 +69,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
   return result;
 }
 
-/// Columns that lay in the rows left out alone are nothing, and not what rounding makes of the difference.
+/// Columns that are nonzero only in the left-out rows become exactly 0, not a rounding difference.
 void clear_unobserved_columns(const NormalEquations& before, NormalEquations& equations) {
   for (Eigen::Index i = 0; i < equations.gg.rows(); ++i) {
     if (equations.gg(i, i) > kNothingLeft * before.gg(i, i)) continue;
@@ -195,7 +196,7 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   linear::add_gram(equations.gg, -1.0, columns);
   clear_unobserved_columns(factorised.equations, equations);
   equations.log_det += block.log_det();
-  // Beside a discrepancy the sizes are expected as of all points.
+  // With a discrepancy the expected sizes are those of all points.
   if (factorised.discrepancy < 0) {
     equations.prior_square =
         prior_squares(system_.regressors, equations.columns, equations.gg.diagonal());

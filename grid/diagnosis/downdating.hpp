@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Evidence downdated: the models of a comparison without some of the points, at a small part of
-/// what a comparison of their own would cost.
+/// the cost of a new comparison.
 ///
 /// Notation
 ///   V     covariance of a marginalised system's rows, the discrepancy integrated out as well;
@@ -15,8 +15,8 @@
 /// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
 /// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
 ///
-/// Exact for each model that is followed; models that the comparison let go, sets of outliers that it
-/// never met, and discrepancies with less than a least share of the probability are not looked at.
+/// Exact for each followed model; models that the comparison dropped, sets of outliers that it
+/// never tried, and discrepancies below a least probability are ignored.
 #pragma once
 
 #include <vector>
@@ -34,7 +34,7 @@ struct FollowedModels {
   std::size_t most_discrepancies = 4;  ///< the likeliest
 };
 
-/// As how many readings those that are left count.
+/// How many readings the remaining ones count as.
 enum class CountAs {
   themselves,
   all,  ///< each evidence to the power of all rows over those left: a sample as large as the whole

@@ -103,7 +103,7 @@ class Budget {
     as_delivered_ = before_calibration;
     ErrorBudget budget;
     budget.uncalibrated_mm = std::sqrt(mean_square(before_calibration));
-    // Every part is what the error would lose with it; together they are the error.
+    // Every part is the error's reduction without it; together they are the error.
     Shifts settings = before_calibration;
     add_causes(budget, settings);
     const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_given_discrepancy);
@@ -186,7 +186,7 @@ class Budget {
     });
   }
 
-  /// Shares, what the parts have in common, and the order.
+  /// Shares, the common part, and the order.
   static void finish(ErrorBudget& budget) {
     const double whole = budget.uncalibrated_mm * budget.uncalibrated_mm;
     double sum = 0.0;

@@ -38,7 +38,7 @@ Solution solve(Unknowns unknowns, Eigen::VectorXd data, const linear::Cholesky* 
           unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }
 
-/// From what is left in the rows. Of the kept ones (1 + s^2 K)^-1 says it: left - s^2 K w = w.
+/// From the residual rows. For the kept ones (1 + s^2 K)^-1 gives it: left - s^2 K w = w.
 void take_discrepancy_out(const RegressorSystem& system,
                           const MarginalisedSystem& marginalised,
                           Estimate& estimate) {
@@ -232,7 +232,7 @@ Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t uni
 }
 
 Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm) {
-  // Where chains are read too short, the model has the tool nearer to the motors than it landed.
+  // If chains are read too short, the model puts the tool nearer to the motors than it landed.
   return -(place.state.by_mark.inverse() * chain_mm);
 }
 

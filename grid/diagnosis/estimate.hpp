@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Settings, sizes of causes and, where there is one, the model discrepancy, for one model of the
-/// comparison; and what is then left at every point, those that were held out included.
+/// comparison; and the residual at every point, including held-out ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -51,24 +51,23 @@ struct DiscrepancyNoise {
                                 const std::vector<int>& regressors,
                                 const DiscrepancyNoise* noise);
 
-/// What the model discrepancy adds to either chain at a place [mm]; zero where the estimate has
-/// none.
+/// The model discrepancy of either chain at a place [mm]; zero without one.
 [[nodiscard]] Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
                                              const MarginalisedSystem& marginalised,
                                              const Estimate& estimate,
                                              const SystemPlace& place);
 
-/// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
+/// `left` with the nuisances' share added back: the machine's residual. For points `left` itself.
 [[nodiscard]] Eigen::VectorXd left_of_machine(const RegressorSystem& system,
                                               const Estimate& estimate,
                                               const Eigen::VectorXd& left);
 
-/// What a person would see of a unit's whitened residual, mm: a shift of the tool where chains were
-/// read; of a distance how much longer it was read, and nothing.
+/// A unit's whitened residual in mm: a shift of the tool for chain readings; for a distance (excess
+/// length, 0).
 [[nodiscard]] Eigen::Vector2d error_of_unit(const RegressorSystem& system,
                                             const Eigen::VectorXd& whitened,
                                             std::size_t unit);
-/// The covariance of that which noise as stated makes.
+/// Its covariance with noise as stated.
 [[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
 
 /// A chain residual (read minus predicted) as an error of the tool [mm]: where it landed minus where the model has it.

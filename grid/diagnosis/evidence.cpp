@@ -17,7 +17,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// log of the chance that a normal lies in [low, high].
+/// log of the probability that a normal lies in [low, high].
 double log_mass(double mean, double sigma, double low, double high) {
   return log_normal_mass((low - mean) / sigma, (high - mean) / sigma);
 }
@@ -72,7 +72,7 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
       if (outliers[u]) rejected[as_size(system.units[u].rows - 1)] += 1.0;
     }
   } else {
-    // Each direction is a slip of its own, and a unit has no more of them than rows.
+    // Each direction is a separate slip, and a unit has at most as many as rows.
     std::vector<Eigen::Index> of_unit(system.units.size(), 0);
     for (std::size_t k = 0; k < outliers.size(); ++k) {
       const OutlierGroup& group = system.groups[k];
@@ -213,7 +213,7 @@ struct FreeEquations {
   FewValues prior_length;  ///< a signal-to-noise ratio in this metric over one in the prior's
   FewValues low, high;     ///< bounds of the ratios
   std::array<bool, kMostFreeRegressors> refined{};
-  bool is_empty_column = false;  ///< the kept rows see nothing of a regressor
+  bool is_empty_column = false;  ///< the kept rows do not depend on a regressor
 };
 
 FreeEquations free_equations(const NormalEquations& equations,
@@ -284,8 +284,8 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
   const double s = std::sqrt(averages.noise_square);
   for (Eigen::Index i = 0; i < m; ++i) {
     const double sigma = s * inverse_root.col(i).norm();
-    // Further beyond what it may be than noise takes it, and not merely about null: the data ask
-    // for something else.
+    // Farther beyond its range than noise explains, and not merely about null: the data need
+    // another cause.
     const double slack = 2.0 * sigma;
     const double reach = free.refined[as_size(i)] ? 1.0 : 2.0;
     if (ratio(i) > reach * free.high(i) + slack ||
@@ -307,7 +307,7 @@ SetEvidence set_evidence(const NormalEquations& equations,
                          std::span<const Eigen::Index> set,
                          const NoiseDensity& noise) {
   const FreeEquations free = free_equations(equations, regressors, set);
-  // Rows that see nothing of a cause, others being left out, say nothing for it.
+  // If the kept rows do not depend on a cause they give no evidence for it.
   if (free.is_empty_column) return {kMinusInfinity, 0.0, 0.0};
   SetEvidence wide = evidence_at(free, equations.log_det, noise, kWideSignalToNoise);
   if (free.c.size() == 0) return wide;

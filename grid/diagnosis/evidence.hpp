@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The evidence for a set of causes: how probable these data are if exactly those act, whatever
-/// their sizes, the settings and the noise.
+/// The evidence for a set of causes: the probability of these data if exactly those act,
+/// marginalised over their sizes, the settings and the noise.
 ///
 /// Notation
 ///   e, g_k   whitened rows (regressor_system.hpp), those of points set aside taken out
@@ -85,7 +85,7 @@ struct MarginalisedSystem {
 };
 /// Prior and density of one unit of so many rows set aside, as a natural logarithm.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
-/// Of all these groups; of directions each by itself.
+/// For all these groups; directions count separately.
 [[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
                                            const std::vector<bool>& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
@@ -136,7 +136,7 @@ struct NormalEquations {
   double log_det = 0.0;      ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
-/// What the prior of a size is in, of columns of these squares: NormalEquations::prior_square.
+/// NormalEquations::prior_square of columns with these squares.
 [[nodiscard]] Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
                                             const std::vector<int>& columns,
                                             Eigen::VectorXd squares);
@@ -152,14 +152,14 @@ struct NormalEquations {
 /// Bounds the memory of a set's factorisation, which is allocated on the stack: twice the causes that a comparison takes.
 inline constexpr int kMostFreeRegressors = 8;
 
-/// What a set of regressors makes of the data.
+/// A set of regressors fitted to the data.
 struct SetEvidence {
   double log_evidence = 0.0;  ///< natural logarithm, up to a constant of the data
   double quadratic = 0.0;     ///< what is left of e'e
   double larger_noise = 0.0;  ///< share of it from noise larger than stated
 };
-/// `set` holds positions in the normal equations. Minus infinity where a cause would need what it
-/// cannot be. Throws std::length_error for more than kMostFreeRegressors that are not fixed.
+/// `set` holds positions in the normal equations. Minus infinity if a cause would have to leave its
+/// range. Throws std::length_error for more than kMostFreeRegressors that are not fixed.
 [[nodiscard]] SetEvidence set_evidence(const NormalEquations& equations,
                                        const std::vector<Regressor>& regressors,
                                        std::span<const Eigen::Index> set,

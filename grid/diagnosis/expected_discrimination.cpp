@@ -35,8 +35,8 @@ struct Group {
   std::map<std::vector<Member>, Alternative> members;
 };
 
-/// By the classes of the causes, and in each group by the causes. Where nothing is named a pattern
-/// makes a group of its own.
+/// By the classes of the causes, and in each group by the causes. If nothing is named a pattern
+/// forms a separate group.
 std::vector<Group> groups_of(const Analysis& a) {
   std::map<std::pair<bool, std::vector<std::size_t>>, Group> groups;
   const std::size_t named = a.decision.regressors.size();
@@ -93,7 +93,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   return root_of_spread(own);
 }
 
-/// What an alternative expects of every candidate.
+/// An alternative's prediction for every candidate.
 void predict(const Analysis& a,
              const RegressorSystem& system,
              const ColumnOf& column_of_cause,
