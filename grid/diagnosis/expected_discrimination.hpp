@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How well the leading explanations will be distinguished once something more is measured.
+/// How well further measurements will distinguish the leading explanations.
 ///
 /// Notation
 ///   p_k       probability of alternative k, a set of causes and whether a discrepancy acts with it
-///   K, p_K    its group: alternatives that the verdict does not tell apart, and their sum; of causes
+///   K, p_K    its group: alternatives that the verdict does not separate, and their sum; of causes
 ///             of one class there is one alternative for each, since a reading may touch one of them
 ///             and not the other (a link's pitch: the chain, and not the tape)
 ///   m_k, S_k  mean and covariance of the new readings as k predicts them, settings and sizes
@@ -20,7 +20,7 @@
 ///                a group weighs once its members are distinguished:
 ///                p_K' = sum over j in K of p_j exp(-(D_kj - D_kk) / 2), likewise about l for L
 ///
-/// A reading of which all alternatives expect the same changes neither.
+/// A reading for which all alternatives predict the same changes neither.
 ///
 /// Sources: T. Kailath, IEEE Trans. Commun. Technol. 15 (1967) 52, for the bound; G. Box and W.
 /// Hill, Technometrics 9 (1967) 57, for choosing experiments that tell models apart. Private to
@@ -45,25 +45,25 @@ struct Alternative {
   Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k but for the noise
 };
 
-/// The sets of causes that the comparison leaves, each at its best places, groups one after the
-/// other and the most probable first; with what they expect of every row of `next`, which has the
-/// analysis' unknowns (NextCandidates). Where the verdict names causes these are the sets of as
-/// many; where it names none, those of none and of one, with and without a discrepancy. Nothing
-/// where a place of `next` cannot be reached.
+/// The remaining sets of causes, each at its best places, by group and the most probable first,
+/// with their predictions for every row of `next`, which has the analysis' unknowns
+/// (NextCandidates). If the verdict names causes these are the sets of that many; otherwise those
+/// of none and of one, with and without a discrepancy. Empty if a place of `next` cannot be
+/// reached.
 [[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
                                                                          const ObservationSet& next);
 
-/// The same of rows that are given as a system, of which `column` makes what a regressor adds there;
-/// nothing where such a machine cannot be.
+/// As above for the rows of a system; `column` gives a regressor's column there. Empty if such a
+/// machine cannot be.
 using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>;
 [[nodiscard]] std::vector<Alternative> alternatives_about(const Analysis& analysis,
                                                           const RegressorSystem& next,
                                                           const ColumnOf& column);
 
-/// The same before anything is predicted: without means and spreads.
+/// As above without predictions: no means and spreads.
 [[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
 
-/// A square root of a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
+/// A square root of a positive semidefinite matrix of whitened rows, to a hundredth of the noise.
 [[nodiscard]] Eigen::MatrixXd root_of_spread(const Eigen::MatrixXd& matrix);
 
 struct ExpectedDiscrimination {

@@ -41,7 +41,7 @@ ObservationSet over_the_area(const Analysis& a) {
   return session_at(a, marks);
 }
 
-/// Drop and doubt of the tool's, or a distance's, error over some units.
+/// Expected drop and remaining uncertainty of the error over some units.
 ExpectedImprovement over_units(const RegressorSystem& there,
                         const Eigen::VectorXd& moved,
                         const Eigen::MatrixXd& design,
@@ -66,7 +66,7 @@ ExpectedImprovement over_units(const RegressorSystem& there,
   return {drop / count, drop > 0.0 ? drop / (drop + doubt) : 0.0};
 }
 
-/// Over the distances as they were read: what is between them has no place of its own.
+/// Over the distances that were read: nothing between them has a place.
 ExpectedImprovement improvement_of_distances(const Analysis& a) {
   const Estimate plain = estimate_of(a, {});
   const Estimate named = estimate_of(a, a.decision.regressors);

@@ -22,7 +22,7 @@ using model::effects::EffectParameter;
 constexpr double kQuantile95 = 1.645;  // one-sided 95 %
 constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
-/// Length of a column before the settings take their share.
+/// Length of a column before projection on the settings.
 double raw_length(const Analysis& a, int column) {
   return length_in_noise(a.system, marginalised_system(a).kept, a.system.g.col(column));
 }
@@ -112,7 +112,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
 
 namespace {
 
-/// A cause that is likelier than this is not said to be absent.
+/// A cause with a higher probability is not reported as absent.
 constexpr double kMayAct = 0.05;
 
 }  // namespace
@@ -139,7 +139,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
       continue;
     }
     if (regressor(a, column).fixed) {
-      // A skip has no size that it could be below: it is absent, or it may act.
+      // A skip has no bound on its size: it is absent, or it may act.
       if (probability_of(a, cause) < kMayAct)
         result.push_back({cause, std::string(size.name), 0.0});
       continue;
@@ -198,10 +198,10 @@ void take_findings(const Analysis& a, Diagnosis& d) {
 
 namespace {
 
-/// What all others together know of a unit of one row leaves it as far off as this.
+/// The residual of a one-row unit against the prediction by all others.
 Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
   const Eigen::Index row = unit.first_row;
-  // All that the others know of its holes is in the prediction, with what they leave open.
+  // The prediction includes the others' information on its holes, and its uncertainty.
   const Eigen::VectorXd by_setting = a.system.by_setting.row(row);
   const double variance = a.estimate.noise_square + by_setting.dot(linear::product(
                                                         a.estimate.setting_covariance, by_setting));
@@ -229,7 +229,7 @@ Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemU
 
 std::vector<Outlier> outliers_found(const Analysis& a) {
   std::vector<bool> outliers = marginalised_system(a).outliers;
-  // A link counted wrong is an outlier with a name.
+  // A miscounted link is an outlier with a name.
   reject_slips(a, outliers);
   std::vector<Outlier> result;
   for (std::size_t u = 0; u < outliers.size(); ++u) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An analysis in the words of the answer: causes with sizes, hypotheses, bounds, settings,
-/// outliers, the extended machine and the pictures.
+/// Turns an analysis into the answer: causes with sizes, hypotheses, bounds, settings, outliers,
+/// the extended machine and the pictures.
 #pragma once
 
 #include "grid/diagnosis/analysis.hpp"
@@ -9,7 +9,7 @@
 namespace chaintrue::grid::diagnosis {
 
 [[nodiscard]] std::vector<Cause> causes_found(const Analysis& analysis);
-/// That some cause of a class acts.
+/// Probability that some cause of a class acts.
 [[nodiscard]] Hypothesis hypothesis_of(const CauseClass& members, double probability);
 [[nodiscard]] std::vector<Hypothesis> hypotheses(const Analysis& analysis);
 /// The quarters of the bed, and each session by itself.
@@ -26,23 +26,22 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] Unexplained unexplained(const Analysis& analysis);
 [[nodiscard]] ErrorBudget error_budget(const Analysis& analysis);
 
-/// That a cause, or one of its class, acts; 0 where none of them was weighed.
+/// Probability that a cause, or one of its class, acts; 0 if none was compared.
 [[nodiscard]] double probability_of(const Analysis& analysis, const CauseId& cause);
 /// In the order of the files' points, holes and distances.
 [[nodiscard]] std::vector<PointPicture> point_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<HolePicture> hole_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<DistancePicture> distance_pictures(const Analysis& analysis);
 
-/// Verdict, causes, hypotheses, bounds and what is not testable: what every answer has, whatever was
-/// measured.
+/// Verdict, causes, hypotheses, bounds and untestable causes: the part common to all answers.
 void take_findings(const Analysis& analysis, Diagnosis& diagnosis);
 
-/// Sets the machine and the corrections of the data from the causes; a class that may lie on the
-/// paper as well only where the options accept it.
+/// Sets the machine and the corrections of the data from the causes; a class that may also be on
+/// the paper only if the options accept it.
 void apply_causes(const Analysis& analysis, Diagnosis& diagnosis);
 
-/// Quarters without which the answer is another one, and causes of one session alone; empty where there
-/// are none of either.
+/// Quarters without which the answer differs, and causes of one session alone; empty if there are
+/// none.
 [[nodiscard]] std::vector<std::string> parts_in_words(const Diagnosis& diagnosis);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.

@@ -15,11 +15,11 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A discrepancy with what speaks for it before it is searched.
+/// A discrepancy with its evidence before the search.
 struct Scouted {
   int discrepancy = 0;
   double weight = kMinusInfinity;
-  /// Regressors worth trying in it, alone: what they weigh, best first.
+  /// Regressors worth trying in it, with their weights alone, best first.
   std::vector<std::pair<double, int>> singles;
 };
 
@@ -62,7 +62,7 @@ class Scout {
  private:
   [[nodiscard]] const DiscrepancyFamily& family() const { return *system_.discrepancies; }
 
-  /// log evidence of one regressor but for determinants that all share, its bounds let go.
+  /// log evidence of one regressor, without the common determinants and ignoring its bounds.
   [[nodiscard]] double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Eigen::Index k) const {
     const Regressor& own = system_.regressor(plain_.columns[as_size(k)]);
     const NoiseDensity& noise = collector_.noise();
@@ -95,7 +95,7 @@ class Scout {
   double prior_of_nothing_ = 0.0;
 };
 
-/// The sets given one discrepancy, each weighed in full.
+/// The sets given one discrepancy, with full weights.
 class GivenDiscrepancySearch {
  public:
   GivenDiscrepancySearch(const RegressorSystem& system,
@@ -181,7 +181,7 @@ class PlacesOfCauses {
   std::vector<Taken> taken_;
 };
 
-/// Of each cause its best places alone.
+/// Only the best places of each cause.
 std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scouted) {
   PlacesOfCauses places(system, 2);
   std::vector<int> result;
@@ -192,7 +192,7 @@ std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scou
   return result;
 }
 
-/// Of each cause the places that fit best where nothing else acts, and all that lead.
+/// The best places of each cause alone, and all leading ones.
 std::vector<int> columns_to_scout(const RegressorSystem& system,
                                   const NormalEquations& plain,
                                   const std::vector<std::vector<int>>& best_models) {
@@ -228,7 +228,7 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
   return result;
 }
 
-/// A beam of its own given every discrepancy.
+/// A separate beam search for every discrepancy.
 std::vector<double> search_all_by_beam(const RegressorSystem& system,
                                        DiscrepancyBasis& basis,
                                        const SearchLimits& limits,
@@ -248,7 +248,7 @@ std::vector<double> search_all_by_beam(const RegressorSystem& system,
                      collector);
     }
   }
-  // All are tried with every set of outliers: none leads.
+  // All are tried with every set of outliers.
   return std::vector<double>(kernels.size(), 0.0);
 }
 

@@ -37,9 +37,8 @@ class FoldErrors {
     return estimate(a_.system, marginalised, regressors, discrepancy);
   }
 
-  /// The discrepancy that the readings prefer given these causes, none where they would rather
-  /// have none. Causes that the comparison does not hold at all are far from the best: what is left
-  /// given them is taken as given the best.
+  /// The discrepancy preferred given these causes, or none. If the comparison contains no model of
+  /// these causes, the best model's is used.
   [[nodiscard]] int preferred_discrepancy(const std::vector<int>& regressors) const {
     for (const CandidateModel& model : comparison_.models) {
       if (model.regressors == regressors && model.marginalised == decision_.marginalised)
@@ -48,7 +47,7 @@ class FoldErrors {
     return comparison_.best().discrepancy;
   }
 
-  /// What the model leaves, the discrepancy that it may have taken out.
+  /// The model's residual without its discrepancy.
   [[nodiscard]] std::vector<Eigen::Vector2d> left_at(const std::vector<std::size_t>& units,
                                                      const Estimate& model) const {
     const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_given_discrepancy);
@@ -84,7 +83,7 @@ HeldOutFolds::HeldOutFolds(const Analysis& analysis)
 Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
   const Analysis& a = analysis_;
   const auto [without, decision] = decided_without(a, downdating_, units);
-  // A reading wrong at its own visit alone says nothing of any other.
+  // A reading that is wrong only at its own visit carries no information about others.
   std::vector<bool> out = marginalised_system(a).outliers;
   reject_slips(a, out);
   Fold fold;
@@ -98,7 +97,7 @@ Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
 
 namespace {
 
-/// Blocks of the bed over all marks at which chains were read; none where they are too few.
+/// Blocks of the bed over all marks with chain readings; none if there are too few.
 HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   std::vector<LengthPoint> points;
   std::vector<std::size_t> units;
@@ -118,7 +117,7 @@ HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   return result;
 }
 
-/// Each hole with all distances that end there; none where too few distances would be left.
+/// Each hole with all its distances; none if too few distances would remain.
 HeldOutBlocks blocks_by_hole(const ObservationSet& session) {
   HeldOutBlocks result;
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Folds of what a name gains: the naming and every fit repeated without some units, and what each way of
-/// modelling then leaves at them.
+/// Folds for the gain of a name: naming and fits are repeated without some units, which gives each
+/// model's error at them.
 ///
 /// \code
 ///   const HeldOutFolds folds(analysis);
@@ -19,8 +19,8 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// The models without some units, positions in the session, and what is decided on by them: with the gate for all
-/// units, and the classes of these.
+/// The models without some units (positions in the session) and their decision, with the gate and
+/// classes of all units.
 struct DecidedWithout {
   Downdating::Without models;
   Decision decision;
@@ -33,7 +33,7 @@ struct DecidedWithout {
 struct ErrorsWith {
   std::vector<Eigen::Vector2d> machine, and_surface;
 };
-/// For every choice of causes.
+/// One entry for every choice of causes.
 struct Errors {
   ErrorsWith calibrated;    ///< none
   ErrorsWith extended;      ///< those that the fold itself names
@@ -52,9 +52,10 @@ class HeldOutFolds {
   /// Keeps the analysis by reference.
   explicit HeldOutFolds(const Analysis& analysis);
 
-  /// \param units  of the analysis' session, to be left out of everything. The gate and the decision are those for all
-  /// units; the models are those that the whole comparison holds, weighed without these units (downdating.hpp). Units
-  /// that are outliers or slips of the whole session are not among the fold's.
+  /// \param units of the analysis' session, left out of everything. The gate and the decision are
+  /// those for all units; the models are those that the whole comparison holds, weighed without
+  /// these units (downdating.hpp). Outliers and slips of the whole session are not among the fold's
+  /// units.
   [[nodiscard]] Fold without(const std::vector<std::size_t>& units) const;
 
  private:
@@ -62,13 +63,14 @@ class HeldOutFolds {
   Downdating downdating_;
 };
 
-/// Units held out together, and what they are.
+/// Groups of units that are held out together.
 struct HeldOutBlocks {
   std::vector<std::vector<std::size_t>> units;  ///< empty where there are too few units
   bool of_the_bed = false;                      ///< or each hole with all distances that end there
 };
 
-/// What is held out tells of the tool where chains were read at marks enough, else of distances.
+/// The held-out errors are those of the tool if chains were read at enough marks, else of
+/// distances.
 [[nodiscard]] HeldOutBlocks held_out_blocks(const ObservationSet& session);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -24,7 +24,7 @@ bool names_agree(const Fold& fold, const Analysis& a) {
                             : contains(a.decision.leaders(), fold.named.front());
 }
 
-/// Root mean square of what noise alone does to a reading, at the tool.
+/// Root mean square of a reading's noise at the tool.
 double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
   double sum = 0.0;
   for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
@@ -72,8 +72,7 @@ void append(const ErrorsWith& more, ErrorsWith& all) {
   append_all(all.and_surface, more.and_surface);
 }
 
-/// Which errors speak of the extension: an extension that does not help on points that it was not fitted to
-/// is not made.
+/// Which errors judge the extension: it must help at points that it was not fitted to.
 struct Extension {
   const ErrorsWith& errors;
   bool helps = false;
@@ -86,13 +85,13 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
            rms_length(extended.machine) < rms_length(errors.calibrated.machine);
   };
   if (helps(errors.extended)) return {errors.extended, true, true};
-  // A block without which these points leave two names, the wrong one first, says little against
+  // If these points leave two names without a block, the wrong one first, that says little against
   // the name that all points give.
   if (helps(errors.fixed_naming)) return {errors.fixed_naming, true, false};
   return {errors.calibrated, false, true};
 }
 
-/// What every fold held out, one after the other.
+/// The held-out errors of every fold.
 struct AllFolds {
   std::vector<std::size_t> units;
   std::vector<std::size_t> number;  ///< of the block of each

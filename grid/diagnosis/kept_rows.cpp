@@ -7,14 +7,14 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// What of a unit is rejected.
+/// The rejected part of a unit.
 struct Rejected {
   bool whole = false;
   std::optional<Eigen::Vector2d> direction{};  ///< of length one
 };
 
 void reject(const OutlierGroup& group, Rejected& unit) {
-  // Two directions that are this near are one: the sine of the angle between them.
+  // Two directions this near are one: the sine of the angle between them.
   constexpr double kOneDirection = 1e-9;
   if (!group.direction) {
     unit.whole = true;

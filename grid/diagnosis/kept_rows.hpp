@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The rows of a system that are left once some outlier groups are rejected: all rows of a unit, none,
+/// The rows of a system that remain after rejecting some outlier groups: all rows of a unit, none,
 /// or, where one direction of a unit's two rows is rejected, the row across it.
 ///
 ///   kept = P all,   P = 1 in the rows of a unit that is kept, a' (a across the direction) in one row
@@ -31,7 +31,7 @@ class KeptRows {
     Eigen::Index at = 0;  ///< position of its first row
     Eigen::Index rows = 0;
     std::size_t unit = 0;
-    std::optional<Eigen::RowVector2d> across{};  ///< what is kept of two rows; absent: all rows
+    std::optional<Eigen::RowVector2d> across{};  ///< the kept mix of two rows; absent: all rows
   };
 
   KeptRows() = default;
@@ -40,7 +40,7 @@ class KeptRows {
   [[nodiscard]] static KeptRows all(const RegressorSystem& system);
 
   [[nodiscard]] Eigen::Index size() const { return std::ssize(rows_); }
-  /// Numbers in the system, ascending; of a row across a direction that of its unit's first.
+  /// Numbers in the system, ascending; for a row across a direction that of its unit's first.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
   /// Positions of the rows that belong to these units, or else of all others.
@@ -49,7 +49,7 @@ class KeptRows {
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::MatrixXd of(const linear::MatrixArgument& all) const;
-  /// What is kept of a block of a unit's rows.
+  /// The kept part of a block of a unit's rows.
   [[nodiscard]] static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
     return unit.across ? Eigen::MatrixXd(*unit.across * block) : block;
   }

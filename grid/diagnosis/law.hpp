@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A law: what a pattern that no listed cause explains is a function of, with its shape, its place or
+/// A law: the variable of a pattern that no listed cause explains, with its shape, its place or
 /// period, and where it enters.
 ///
 /// With v what it is a function of, from `from` to `to` over the readings, middle and span of these:
@@ -29,9 +29,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Through what a pattern that nobody listed enters: one chain, both equally or opposite to each
-/// other, the tool along an axis of the sheet, or none of these by itself. Of a law also: the tool
-/// along the direction that the law runs in, the tool outwards over every border, and one of four belts.
+/// Where an unlisted pattern enters: one chain, both equally or opposite to each other, the tool
+/// along an axis of the sheet, or none of these by itself. Of a law also: the tool along the
+/// direction that the law runs in, the tool outwards over every border, and one of four belts.
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 [[nodiscard]] std::string_view name(Enters enters);
 
@@ -51,20 +51,21 @@ struct ParameterEstimate {
   double sigma = 0.0;  ///< 0 for an integer that these data leave no choice in
 };
 
-/// A point next to a law's curve. Of what moves the tool outwards a point has two, along x and along y.
+/// A point next to a law's curve. If the law moves the tool outwards a point has two, along x and
+/// along y.
 struct LawResidual {
   std::size_t index = 0;  ///< of the point
   double at = 0.0;        ///< what the law is a function of
   /// Partial residual: what the law makes here, and what nothing explains of what enters as it does.
   double residual_mm = 0.0;
-  /// Shift of the tool that is left once the law is taken out, with the settings and causes that act with
-  /// it; a smooth pattern is left in it. None of belts, which do not tell where the tool should have been.
+  /// Residual shift of the tool without the law and the settings and causes that act with it; a
+  /// smooth pattern remains in it. Empty for belts, which do not determine where the tool should
+  /// have been.
   std::optional<double> left_x_mm{};
   std::optional<double> left_y_mm{};
 };
 
-/// Readings that were left out, root mean square of how far they are from what the others predict, mm: without a
-/// law and with it.
+/// rms error of predicting left-out readings from the others, mm: without a law and with it.
 struct LawHeldOut {
   struct Errors {
     double without_mm = 0.0;
@@ -78,7 +79,8 @@ struct Law {
   Coordinate of = Coordinate::x;  ///< anything but Coordinate::place
   LawShape shape = LawShape::linear;
   Enters enters = Enters::mixed;
-  /// That what is unexplained is a function of this and enters there, whatever its shape.
+  /// Probability that the pattern is a function of this variable and enters there, whatever its
+  /// shape.
   double probability = 0.0;
   double shape_probability = 0.0;  ///< of this shape, given that
   double direction_deg = 0.0;      ///< of Coordinate::across, from x towards y
@@ -92,8 +94,8 @@ struct Law {
   std::optional<LawHeldOut> held_out{};
 };
 
-/// In mm, at one value of what it is a function of. \throws std::invalid_argument for a law whose
-/// parameters are not those of its shape.
+/// In mm, at one value of its variable. \throws std::invalid_argument for a law whose parameters
+/// are not those of its shape.
 [[nodiscard]] double value_of(const Law& law, double v);
 
 }  // namespace chaintrue::grid::diagnosis

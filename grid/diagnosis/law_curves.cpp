@@ -53,7 +53,7 @@ class CurveList {
   std::vector<LawCurve> take() { return std::move(curves_); }
 
  private:
-  /// Half the weight for each parameter more.
+  /// Half the weight for each additional parameter.
   void add_shapes(double weight) {
     const bool of_border = start_.of == Coordinate::border;
     const bool of_visit = start_.of == Coordinate::visit;
@@ -64,7 +64,7 @@ class CurveList {
     }
     if (!of_visit && start_.enters != Enters::outwards) add_steps(0.5 * weight);
     for (const int towards : {-1, 1}) {
-      // What drops at the border does so from there.
+      // A drop over the border starts there.
       if (of_border && towards > 0) continue;
       const double own = of_border ? 0.5 * weight : 0.25 * weight;
       if (start_.enters != Enters::outwards) add(LawShape::kink, towards, own, kink_places());
@@ -108,7 +108,8 @@ class CurveList {
   /// Waves over the span beyond which evenly spaced values mistake one for a longer one: half of the
   /// first number of waves that all of them see nearly in the same phase (the sampling theorem).
   [[nodiscard]] double most_resolvable_waves(double most) const {
-    // 0.97: a strength of 12 parts two such waves by less than three sigmas, 12 sqrt(1 - 0.97^2).
+    // 0.97: a strength of 12 separates two such waves by less than three sigmas, 12 sqrt(1 -
+    // 0.97^2).
     constexpr double kSamePhase = 0.97;
     constexpr double kFirst = 1.5;  // fewer waves than one are nearly in phase everywhere
     constexpr double kStep = 0.05;
@@ -147,7 +148,7 @@ class CurveList {
   std::vector<LawCurve> curves_;
 };
 
-/// What one amplitude of a law is of, at one value.
+/// The factor of one amplitude of a law at one value.
 double basis(const LawCurve& curve, double at, Eigen::Index column, double v) {
   const double u = (v - curve.middle()) / curve.span();
   switch (curve.shape) {
@@ -212,7 +213,7 @@ std::vector<LawCurve> law_curves(const RegressorSystem& system) {
   for (const Coordinate of : law_variables(system)) list.add_all(of, 0.0, 1.0);
   for (int k = 1; k < kLawDirections; ++k) {
     if (2 * k == kLawDirections) continue;
-    // A direction is a parameter more.
+    // A direction is one more parameter.
     list.add_all(
         Coordinate::across, std::numbers::pi * k / kLawDirections, 0.5 / (kLawDirections - 2));
   }

@@ -42,7 +42,7 @@ std::string variable_of(const Law& law, const model::Bed& bed) {
   return "n";
 }
 
-/// The chain whose own value a law is a function of.
+/// The chain whose value is the law's variable.
 bool is_of_other_chain(const Law& law) {
   const auto chain = chain_of(law.of);
   return chain && law.enters != (*chain == model::Side::left ? Enters::left : Enters::right);
@@ -58,7 +58,7 @@ std::string with_unit(const Law& law, double value) {
 
 DeclaredParameter size_of(const Law& law) {
   const double value = law.parameters.front().value;
-  // Of another session: five times as large, or of the other sign.
+  // Range for another session: five times as large, or of the other sign.
   const double bound = std::max(1.0, 5.0 * std::abs(value));
   return {.name = "size_mm",
           .symbol = "a",
@@ -94,7 +94,7 @@ DeclaredParameter place_of(const Law& law) {
   return place;
 }
 
-/// Of size_mm, and of the place where there is one.
+/// The parameters size_mm and, if there is one, the place.
 std::string formula_of(const Law& law, const model::Bed& bed) {
   const std::string v = variable_of(law, bed);
   const double span = law.to - law.from;
@@ -125,7 +125,7 @@ std::string formula_of(const Law& law, const model::Bed& bed) {
   const std::string turn = fmt::format(
       "2 * pi * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), with_unit(law, law.parameters[1].value));
   if (law.shape == LawShape::wave) return fmt::format("size_mm * sin({} + phase_rad)", turn);
-  // The form of one period stays: the harmonic grows and turns with the wave.
+  // The shape of one period is kept: the harmonic scales and shifts with the wave.
   const double ratio = law.parameters[3].value / law.parameters[0].value;
   const double behind = std::remainder(law.parameters[4].value - 2.0 * law.parameters[2].value,
                                        2.0 * std::numbers::pi);
@@ -136,7 +136,8 @@ std::string formula_of(const Law& law, const model::Bed& bed) {
                      behind);
 }
 
-/// What a millimetre of the law adds to either chain, as a factor; empty where it is that of the chain itself.
+/// A factor: what a millimetre of the law adds to either chain; empty if it enters the chain
+/// directly.
 std::string entrance_of(const Law& law) {
   switch (law.enters) {
     case Enters::x:

@@ -4,9 +4,9 @@
 /// and given to later diagnoses.
 ///
 /// A place and a phase are the effect's place; a period, a scale and the range are numbers in the formula,
-/// to be edited there. What moves the tool is written as what that adds to either chain: side cos(phi) of it
-/// along x, -sin(phi) along y. What moves the tool outwards over every border, and what depends on the other
-/// chain, no formula of a chain can say: both are refused.
+/// to be edited there. A movement of the tool is written as its effect on either chain: side
+/// cos(phi) of it along x, -sin(phi) along y. A chain's formula cannot express a law that moves the
+/// tool outwards over every border, or one that depends on the other chain: both are refused.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Or the sentence why there is none.
+/// Or a sentence with the reason.
 [[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
     const Law& law, const model::Bed& bed);
 /// Of the likeliest law of a list, which must be at least kLawClaimed.

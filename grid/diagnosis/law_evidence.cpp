@@ -24,7 +24,7 @@ constexpr std::size_t kFirstContexts = 4;
 constexpr Eigen::Index kChunk = 64;  // columns at once, so that their products stay small
 constexpr int kFiner = 4;            // points between two of a grid, at each of two refinements
 
-/// Nothing, the sets that lead the comparison, and what is left of these without one of them.
+/// Nothing, the comparison's leading sets, and these without one of their causes.
 std::vector<std::vector<int>> leading_sets(const Analysis& a) {
   std::map<std::vector<int>, double> weight;
   for (const CandidateModel& model : a.comparison.models)
@@ -100,7 +100,7 @@ class LawSearch {
     choose_first(all);
   }
 
-  /// Nothing at all, and what leads; of kernels the best two.
+  /// Nothing, the leading sets, and the best two kernels.
   void choose_first(const std::vector<std::pair<double, LawContext>>& all) {
     first_ = {{0, -1}};
     std::vector<std::size_t> kernels;
@@ -150,8 +150,8 @@ class LawSearch {
     return at;
   }
 
-  /// A law that would have to be larger to show at its usual strength would be seen without a
-  /// measurement: the settings take nearly all of it.
+  /// A larger law at its usual strength would be visible without a measurement: the settings absorb
+  /// nearly all of it.
   static bool shows(const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& at) {
     constexpr double kLargestMm = 6.0;
     for (const Eigen::Index k : at) {
@@ -191,7 +191,7 @@ class LawSearch {
       const auto between = [&](double from, double to) {
         for (int k = 1; k < kFiner; ++k) finer.push_back(from + (to - from) * k / kFiner);
       };
-      // The second time over what the first made of both neighbours.
+      // The second pass uses the neighbours from the first.
       const auto at = best - points.begin();
       const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
       for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(at - 1 - pass, 0);
@@ -209,7 +209,7 @@ class LawSearch {
     curve.mass = trapezoids(curve);
   }
 
-  /// Prior of each point of a grid, in all one.
+  /// Prior of each grid point; the sum is one.
   static std::vector<double> trapezoids(const LawCurve& curve) {
     const std::vector<double>& at = curve.grid;
     std::vector<double> mass(at.size(), 0.0);
@@ -224,7 +224,7 @@ class LawSearch {
     return mass;
   }
 
-  /// The points of leading curves that hold a share.
+  /// The points of leading curves with a share of the weight.
   struct Chosen {
     std::size_t curve = 0;
     std::size_t point = 0;
@@ -273,7 +273,7 @@ class LawSearch {
     system_.take(all);
   }
 
-  /// Those that hold a share with one of the best laws, and those that do without any.
+  /// Contexts with a share of the weight given one of the best laws, or without a law.
   std::vector<LawContext> contexts_with(const std::vector<Chosen>& chosen) {
     std::vector<Chosen> best;
     for (const Chosen& own : chosen) {

@@ -8,11 +8,9 @@
 ///   W = prior(S, D) kLawPrior share_l mass_theta p(y | l, theta, S, D),  W0 = sum prior(S, D) p(y | S, D)
 ///
 /// p is set_evidence() (evidence.hpp) with a law's amplitudes as further columns: their prior is that of
-/// a cause's strength. theta lies on the grid of the curve (law_curves.hpp), which is made finer about
-/// what leads (trapezoids).
-///
-/// Two looks: all laws in the few contexts (S, D) that hold most without a law; then the laws that lead
-/// in every context that holds a share with one of them.
+/// a cause's strength. theta lies on the grid of the curve (law_curves.hpp), refined about the
+/// leading points (trapezoids). Two passes: all laws in the few leading contexts (S, D) without a
+/// law; then the leading laws in every context with a share given one of them.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ using Units = std::vector<std::size_t>;
 using Rows = std::vector<Eigen::Index>;
 
 constexpr std::size_t kFolds = 4;
-/// Values of a place or period that a part may choose among: the posterior of one is narrower than these.
+/// Number of values of a place or period that a part may choose from.
 constexpr std::size_t kMostValues = 5;
 
 bool has(const Units& units, std::size_t unit) { return contains(units, unit); }
@@ -86,7 +86,7 @@ class Predictor {
     for (const Units& left_out : parts) {
       const Rows kept = marginalised_.kept.positions(left_out, false);
       const Rows out = marginalised_.kept.positions(left_out);
-      // Of a part that was rejected, or that is all there is, nothing is predicted.
+      // No prediction for a part that was rejected, or that is everything.
       if (out.empty() || kept.empty()) continue;
       without += square_mm2(without_, kept, out, left_out);
       with += square_mm2(likeliest(kept), kept, out, left_out);
@@ -147,7 +147,7 @@ double rms_of_units_mm(const RegressorSystem& system,
   for (const KeptRows::Unit& unit : kept.units()) {
     if (unit.across || (!units.empty() && !has(units, unit.unit))) continue;
     sum += error_of_unit(system, rows, unit.unit).squaredNorm();
-    // What a place's four belts leave of their checks is two numbers.
+    // A place's four belts leave two checks.
     count += system.entries.empty() ? 1.0 : 2.0;
   }
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
@@ -165,7 +165,7 @@ double averaged_over_parts(const Analysis& a,
   const LawModel without = model_with(a, evidence, nullptr);
   const auto all = kept.positions({}, false);
   const double of_all = with.log_density(all) - without.log_density(all);
-  // As far as odds are numbers.
+  // Keeps the odds finite.
   const double sure = std::min(probability, 1.0 - 1e-15);
   const double log_odds = std::log(sure) - std::log1p(-sure);
   double sum = 0.0;

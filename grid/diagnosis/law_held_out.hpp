@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How well readings that are left out are predicted with a law, and by the settings, the causes and the best
-/// smooth pattern without one.
+/// The error of predicting left-out readings with a law, and with the settings, the causes and the
+/// best smooth pattern without one.
 ///
 ///   e_i^ = C_ik C_kk^-1 e_k,   C as in law_model.hpp, k the rows that are kept, i those left out
 ///
-/// Inside: every fourth of the places, four times, so that neighbours stay. Outside: the quarters of the bed on
-/// one side of a line (bed_parts.hpp), of which nothing stays. Of distances every one that ends at such a place
-/// is left out: others would tell where its hole is. Sizes are estimated anew each time, and the place
-/// or period is chosen anew among the leading values of its grid; shape and entry stay.
+/// Inside: every fourth of the places, four times, so that neighbours stay. Outside: the quarters
+/// of the bed on one side of a line (bed_parts.hpp), left out whole. Every distance that ends at
+/// such a place is left out: others would determine its hole. Sizes are estimated anew each time,
+/// and the place or period is chosen anew among the leading values of its grid; shape and entry
+/// stay.
 ///
 /// Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.25.
 #pragma once
@@ -32,8 +33,8 @@ namespace chaintrue::grid::diagnosis {
                                      const std::vector<std::size_t>& units = {});
 
 /// The probability of a law averaged over parts of the bed, as that of causes given a pattern is
-/// (bed_parts.hpp): a real pattern is no law exactly, and a likelihood that is nearly right makes large odds
-/// out of a few marks. A law that holds is borne out without any quarter of the bed.
+/// (bed_parts.hpp): a real pattern follows no law exactly, and a slightly wrong likelihood gives
+/// large odds from a few marks. A true law holds without any quarter of the bed.
 ///
 ///   odds_k = odds (f r_k - r),   r = log p(e | law, S, D) - log p(e | S0, D0)
 ///
@@ -41,7 +42,7 @@ namespace chaintrue::grid::diagnosis {
 /// law and without one. The result is the mean of the probabilities, and no more than that of all readings.
 /// (J. Huggins and J. Miller, Bayesian Analysis 18 (2023) 79.)
 
-/// `probability` of all readings. As it is where there are no such parts.
+/// `probability` is that of all readings; it is returned if there are no such parts.
 [[nodiscard]] double averaged_over_parts(const Analysis& analysis,
                                          const LawEvidence& evidence,
                                          const WeighedLaw& law,

@@ -42,7 +42,7 @@ LawModel::LawModel(const Analysis& a,
 
 void LawModel::add(const Eigen::VectorXd& column) {
   const Eigen::VectorXd own = marginalised_.kept(column);
-  // Of the usual strength.
+  // Amplitude at the usual strength.
   const double sigma = kUsualSignalToNoise / std::max(marginalised_.root.solve(own).norm(), 1e-12);
   linear::add_outer(covariance_, sigma * sigma, own);
   columns_.push_back(sigma * own);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One explanation in which a law may stand: the covariance of the kept rows with the settings, the sizes of
-/// causes and the amplitudes of a law integrated out.
+/// One explanation, possibly with a law: the covariance of the kept rows with the settings, the
+/// sizes of causes and the amplitudes of a law integrated out.
 ///
 ///   C = 1 + S + s^2 K + sum_k p_k^2 g_k g_k',   S of the settings as stated, K of a discrepancy
 ///   r = C^-1 (e - m)   what noise has of rows e, once m is taken out (posterior mean)
@@ -29,28 +29,28 @@ class LawModel {
            const std::vector<int>& regressors,
            int discrepancy);
 
-  /// A column of unknown amplitude, of all rows.
+  /// Adds a column (all rows) of unknown amplitude.
   void add(const Eigen::VectorXd& column);
 
-  /// Of some of the kept rows, by their positions.
+  /// For some of the kept rows, by their positions.
   [[nodiscard]] double log_density(const std::vector<Eigen::Index>& rows) const;
-  /// Of all kept rows, once `known` (all rows) is taken out.
+  /// For all kept rows, after subtracting `known` (all rows).
   [[nodiscard]] double log_density(const Eigen::VectorXd& known) const;
 
-  /// What noise has of the kept rows, and, with what the discrepancy has added, of all that the machine
-  /// leaves, once `known` (all rows) is taken out.
+  /// The noise part of the kept rows and, with the discrepancy added, the machine's residual, after
+  /// subtracting `known` (all rows).
   struct Left {
     Eigen::VectorXd noise;
     Eigen::VectorXd unexplained;
   };
   [[nodiscard]] Left left_of(const Eigen::VectorXd& known) const;
 
-  /// Of kept rows that are left out, by their positions: what they differ by from what others make expected.
+  /// For left-out kept rows, by their positions: the difference from the prediction by the others.
   [[nodiscard]] Eigen::VectorXd left_of_prediction(const std::vector<Eigen::Index>& rows,
                                                    const std::vector<Eigen::Index>& left_out) const;
 
-  /// What is expected of other rows, whitened, by all kept ones: mean, and a square root of the covariance but
-  /// for their noise. `columns` of these rows: the regressors', then those added.
+  /// The prediction of other rows, whitened, from all kept ones: mean, and a square root of the
+  /// covariance without their noise. `columns` of these rows: the regressors', then those added.
   ///   m = X* f + K* C^-1 (e - X f),  S = K** - K* C^-1 K*'
   /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations 2.38 and 2.39.
   struct Expected {
@@ -72,7 +72,7 @@ class LawModel {
   Eigen::VectorXd e_;
 };
 
-/// An explanation with the amplitudes of a law at one place; null: the likeliest without one.
+/// An explanation with the amplitudes of a law at one place; null for the likeliest without a law.
 [[nodiscard]] LawModel model_with(const Analysis& analysis,
                                   const LawEvidence& evidence,
                                   const WeighedLaw* law);

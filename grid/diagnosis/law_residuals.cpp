@@ -37,7 +37,7 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
       point.left_y_mm = left_mm.y();
     }
     for (const LawRows& own : law_rows(system, kept.unit, curve)) {
-      // Readings that cannot show the law stand nowhere.
+      // Readings that cannot show the law are omitted.
       if (!(own.rows.squaredNorm() > 0.0)) continue;
       point.at = own.v;
       point.residual_mm = value_of(law, own.v) +
@@ -55,7 +55,7 @@ void take_laws(std::vector<Law> laws, Diagnosis& d) {
   d.unexplained->laws = std::move(laws);
   if (some_law <= 0.0) return;
   some_law = std::min(some_law, 1.0);
-  // Where a law acts, the residual is neither zero nor noise alone.
+  // If a law acts, the residual is neither zero nor only noise.
   for (Hypothesis& one : d.hypotheses) {
     if (one.effect == "nothing" || one.effect == "noise" || one.effect == "bad_points")
       one.probability *= 1.0 - some_law;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Partial residuals of a law: what the law makes at each point and what nothing explains there, in the
-/// measure in which it enters.
+/// Partial residuals of a law: at each point the law plus the unexplained residual, in the
+/// coordinate that it enters.
 ///
 ///   z_i = law(v_i) + c_i'r_i / c_i'c_i
 ///   c   rows of the point for one millimetre of the law,  r  noise (law_model.hpp)
 ///
-/// Points about the curve scatter as the readings do, where the law is right.
+/// If the law is right, points scatter about the curve as the readings do.
 #pragma once
 
 #include <vector>

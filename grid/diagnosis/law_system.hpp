@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws as columns of a marginalised system, next to the columns of causes that may act as well.
+/// Laws as columns of a marginalised system, next to those of causes.
 ///
 ///   LawSystem system(analysis, number, sets);
 ///   system.take(system.columns(curve, points));       // columns 0, 1, ... of laws
@@ -28,7 +28,7 @@ struct LawContext {
   friend auto operator<=>(const LawContext&, const LawContext&) = default;
 };
 
-/// Amplitudes of a law as a context has them.
+/// Amplitudes of a law in a context.
 struct LawAmplitudes {
   Eigen::VectorXd value;
   Eigen::MatrixXd covariance;
@@ -44,16 +44,14 @@ class LawSystem {
   LawSystem(const LawSystem&) = delete;
   LawSystem& operator=(const LawSystem&) = delete;
 
-  /// A curve's columns at these points of its grid, as the kept rows have them once the settings have
-  /// taken their share.
+  /// A curve's columns at these grid points, in the kept rows after projection on the settings.
   [[nodiscard]] Eigen::MatrixXd columns(const LawCurve& curve, const std::vector<double>& at) const;
-  /// These columns of laws in place of those before.
+  /// Replaces the columns of laws.
   void take(const Eigen::MatrixXd& laws);
 
-  /// Of the causes and of the laws taken last.
+  /// For the causes and the laws taken last.
   [[nodiscard]] NormalEquations equations(int discrepancy);
-  /// Logarithm of prior and evidence of a context with some of the laws' columns; their own prior is
-  /// not in it.
+  /// Log prior and evidence of a context with some of the laws' columns; without the laws' prior.
   [[nodiscard]] double log_weight(const NormalEquations& equations,
                                   const LawContext& context,
                                   const std::vector<Eigen::Index>& laws) const;

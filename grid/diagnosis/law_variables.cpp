@@ -48,13 +48,13 @@ std::vector<LawEntrance> entrances_of_belts(Coordinate of) {
   return entrances;
 }
 
-/// From the border that a component crosses.
+/// Distance from the border that a component crosses.
 double from_border(const SystemPlace& place, bool along_x) {
   return along_x ? 0.5 * place.bed.width_mm - std::abs(place.mark.x_mm)
                  : 0.5 * place.bed.height_mm - std::abs(place.mark.y_mm);
 }
 
-/// What one millimetre of a law makes of the chains at a place, with what the law is a function of.
+/// The effect of one millimetre of a law on the chains at a place, with the law's argument.
 std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& place, const LawTerm& term) {
   if (term.of == Coordinate::visit && !place.ordered) return {};
   const Eigen::Matrix2d& by_mark = place.state.by_mark;

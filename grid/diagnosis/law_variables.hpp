@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a law may be a function of and what it may enter, by the mechanism of a system: two chains, whose laws
-/// enter a chain or move the tool, or four belts, whose laws enter a belt (where the tool should have been
-/// is not known there, so that nothing shows what moves it).
+/// The variables and entries of laws for the mechanism of a system: with two chains a law enters a
+/// chain or moves the tool; with four belts it enters a belt (where the tool should have been is
+/// unknown, so a movement of the tool cannot show).
 ///
 /// \code
 ///   for (const LawRows& own : law_rows(system, unit, {Coordinate::x, Enters::left, 0.0}))
@@ -18,7 +18,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// What a law is a function of, and where it enters.
+/// The variable of a law, and where it enters.
 struct LawTerm {
   Coordinate of = Coordinate::x;
   Enters enters = Enters::left;
@@ -32,21 +32,21 @@ struct LawEntrance {
   Enters enters = Enters::left;
   double weight = 0.0;  ///< of all entrances of a variable, in all one
 };
-/// A law of a chain or a belt mostly acts on that chain or belt.
+/// A law in a chain's or belt's variable mostly acts on that chain or belt.
 [[nodiscard]] std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of);
 
-/// Where waves end: shorter ones are not of such a thing, or no marks show them.
+/// The shortest period: shorter ones are implausible, or no marks show them.
 [[nodiscard]] double shortest_wave(Coordinate of, Enters enters, double span);
-/// Something turns there, or is built of equal parts.
+/// Whether something rotates there, or is built of equal parts.
 [[nodiscard]] bool may_repeat(Coordinate of, Enters enters);
 
-/// Values of what a law is a function of, at all places of a system that have one.
+/// Values of a law's variable at all places of a system that have one.
 [[nodiscard]] std::vector<double> values_of_variable(const RegressorSystem& system,
                                                      Coordinate of,
                                                      double direction_rad);
 
-/// A value of what a law is a function of, and what one millimetre of the law adds to the rows of a unit
-/// there, whitened.
+/// A value of a law's variable, and what one millimetre of the law adds to the whitened rows of a
+/// unit there.
 struct LawRows {
   double v = 0.0;
   Eigen::VectorXd rows;

@@ -58,7 +58,7 @@ std::string entrance_words(Enters enters) {
   return belt ? fmt::format("in the {} belt", model::words(*belt)) : "";
 }
 
-/// What a slope of so much over the whole range is by its natural unit.
+/// A slope over the whole range, converted to its natural unit.
 std::string slope_words(const Law& law, const ParameterEstimate& size) {
   const double span = law.to - law.from;
   const std::string_view unit = unit_of(law.of);
@@ -181,7 +181,7 @@ std::string given_law_words(const Diagnosis& d) {
     }
   }
   std::string text;
-  // Of causes that act together each is likelier than not; of a set that is left one alone acts.
+  // Of causes that act together each is more likely than not; of an open set only one acts.
   if (!named.empty()) {
     text += fmt::format(
         " With this law known, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));
@@ -197,7 +197,7 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
   const bool of_length = belt_of(law.of) && unit_of(law.of) == "mm";
   if (!of_length || !is_periodic(law.shape)) return {};
   const ParameterEstimate& period = law.parameters[1];
-  // Nearer than that a belt's pitch is not made: a hundredth.
+  // Tolerance of a belt's pitch: one per cent.
   if (std::abs(period.value - turn) >= std::max(2.0 * period.sigma, 0.01 * turn)) return {};
   return {fmt::format("Its period is near one turn of the motor ({:.3f} mm of belt): does its pulley or its "
                       "magnet run out of true?",
@@ -214,7 +214,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
   if (is_periodic(law.shape) && of_length) {
     const double pitch = machine.sprocket.pitch_mm;
     const double turn = machine.sprocket.teeth * pitch;
-    // Nearer than that a period is not made: a hundredth.
+    // Tolerance of a period: one per cent.
     if (near(turn, 0.01 * turn)) {
       hints.push_back(fmt::format(
           "Its period is near one turn of the sprocket ({:.1f} mm): does it run out of true?", turn));
@@ -228,7 +228,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
           pitch));
     }
   }
-  constexpr double kNearMm = 30.0;  // a hand's breadth to either side is no place of its own
+  constexpr double kNearMm = 30.0;  // a hand's breadth to either side is the same place
   const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink;
   if (law.of == Coordinate::x && has_place && near(0.0, kNearMm))
     hints.emplace_back("Its place is near the middle of the beam: is something joined there?");

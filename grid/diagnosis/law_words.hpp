@@ -17,20 +17,20 @@ namespace chaintrue::grid::diagnosis {
 /// chain". Without its probability.
 [[nodiscard]] std::string in_words(const Law& law);
 
-/// "the left chain's length": what it is a function of.
+/// "the left chain's length": its variable.
 [[nodiscard]] std::string variable_in_words(const Law& law);
 
 /// "a wave over the left chain's length".
 [[nodiscard]] std::string form_in_words(const Law& law);
 
-/// "moves the tool by 0.41 mm", of distances and belts "changes a distance by": on average.
+/// "moves the tool by 0.41 mm" or, for distances and belts, "changes a distance by": on average.
 [[nodiscard]] std::string average_in_words(const Law& law, Observations of);
 
-/// " With this law known, they also name a stretched left chain (...), 96 %." and what they would name without it;
-/// empty where the law changes no name.
+/// " With this law known, they also name a stretched left chain (...), 96 %." and what they would
+/// name without it; empty if the law changes no name.
 [[nodiscard]] std::string given_law_words(const Diagnosis& d);
 
-/// What a period or a place is near to on this machine, as hints: whole sentences.
+/// Hints, as sentences: what on this machine has about this period or place.
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine);
 

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kMostLaws = 3;
 /// Below it a wave has no phase.
 constexpr double kSmallestWaveMm = 1e-9;
-/// One that is less likely is not worth a line.
+/// Less likely laws are not listed.
 constexpr double kLeastLaw = 0.03;
 
 double log_total(const std::vector<LawEvidence>& evidence) {
@@ -38,8 +38,8 @@ struct FoundPoint {
   const LawEvidence* evidence = nullptr;
   const WeighedLaw* law = nullptr;
   [[nodiscard]] const LawCurve& curve() const { return evidence->curves[law->curve]; }
-  /// Of the posterior there but for a factor, whatever part of the range the point stands for: about the
-  /// leading points a grid is finer, and each of these holds less. A step's place is one of its gaps.
+  /// The posterior density there, up to a factor, independent of the grid's spacing, which is finer
+  /// about the leading points. A step's place is one of its gaps.
   [[nodiscard]] double log_density() const {
     const LawCurve& own = curve();
     if (!is_continuous(own.shape)) return law->log_weight;
@@ -71,7 +71,7 @@ PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
     case LawShape::linear:
       return {{a(0)}, {c(0, 0)}};
     case LawShape::square: {
-      // A bow of nothing has its vertex anywhere.
+      // A bow of zero size has no vertex.
       const double at = a(0) != 0.0 ? -0.5 * a(1) / a(0) : 0.0;
       const Eigen::Vector2d slope = a(0) != 0.0 ? Eigen::Vector2d(-at / a(0), -0.5 / a(0))
                                                 : Eigen::Vector2d(0.0, 0.0);
@@ -122,7 +122,7 @@ std::vector<std::string> names_of(const LawCurve& curve) {
   return {"size_mm", with_unit("place")};
 }
 
-/// The third and the fifth, of what has a period.
+/// The third and the fifth, for periodic shapes.
 bool is_phase(std::size_t parameter) { return parameter == 2 || parameter == 4; }
 
 /// Values of the heaviest point; sigmas over all points of its curve.
@@ -158,7 +158,7 @@ std::vector<ParameterEstimate> estimates(const FoundPoint& best,
   return result;
 }
 
-/// What the settings leave of some rows.
+/// Residual of some rows after projection on the settings.
 Eigen::VectorXd left_by_settings(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised,
                                  const Eigen::VectorXd& rows) {
@@ -189,7 +189,7 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   law.share = all > 0.0 ? std::min(std::pow(law.rms_mm / all, 2), 1.0) : 0.0;
 }
 
-/// Those of one variable and one way to enter; nothing where they are not worth a line.
+/// Laws with one variable and one way to enter; empty if they are not worth a line.
 std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
                                                  const std::vector<FoundPoint>& points,
                                                  double log_all) {
@@ -226,7 +226,8 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
   return std::pair(std::move(law), *best);
 }
 
-/// Of the best model, and of that which rejects least: a law at the border looks like bad points there.
+/// Systems of the best model and of the one that rejects least: a law at the border looks like bad
+/// points there.
 std::vector<std::size_t> systems_to_weigh(const ModelComparison& comparison) {
   const auto rejected = [&](std::size_t k) {
     const std::vector<bool>& outliers = comparison.marginalised_systems[k].outliers;
@@ -270,7 +271,7 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
   }
   stable_sort(
       laws, [](const auto& x, const auto& y) { return x.first.probability > y.first.probability; });
-  // Parts of the bed may deny what all of it says.
+  // Parts of the bed may contradict the result of the whole.
   std::erase_if(laws, [](const auto& law) { return law.first.probability < kLeastLaw; });
   double any = 0.0;
   for (const auto& [law, heaviest] : laws) any += law.probability;
@@ -287,7 +288,7 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
 LawsFound laws_found(const Analysis& a) {
   if (a.options.given_cause) return {};
   std::vector<LawCurve> curves = law_curves(a.system);
-  // Numbers on several sheets are of several frames; chains know one.
+  // Coordinates on several sheets have different frames; chains share one.
   if (a.session.sheets > 1) {
     std::erase_if(curves, [](const LawCurve& curve) {
       return curve.of == Coordinate::x || curve.of == Coordinate::y ||

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The laws that a diagnosis reports: what a pattern that no listed cause explains is a function of,
-/// from the evidence for each (law_evidence.hpp).
+/// The laws that a diagnosis reports: possible variables of a pattern that no listed cause
+/// explains, from the evidence for each (law_evidence.hpp).
 ///
 /// Laws of one variable and one way to enter are one answer, with the likeliest of their shapes. The
 /// probability is that of the answer whatever its shape; values are those of the likeliest point, sigmas
@@ -19,7 +19,7 @@ namespace chaintrue::grid::diagnosis {
 struct LawsFound {
   std::vector<Law> laws;
   std::vector<LawEvidence> evidence;
-  /// Of each law, into evidence and into its laws.
+  /// For each law, indices into evidence and into its laws.
   struct Heaviest {
     std::size_t evidence = 0;
     std::size_t law = 0;
@@ -27,17 +27,17 @@ struct LawsFound {
   std::vector<Heaviest> heaviest;
 };
 
-/// Likeliest first, at most three; empty unless all laws together are at least kLawLikely, and where one
-/// cause alone is asked for.
+/// Likeliest first, at most three; empty unless all laws together are at least kLawLikely, and if
+/// only one cause is requested.
 [[nodiscard]] LawsFound laws_found(const Analysis& analysis);
 
-/// The same from evidence in one or more of the comparison's systems, each weighed with the same laws.
+/// As above from evidence in one or more of the comparison's systems, each with the same laws.
 [[nodiscard]] LawsFound laws_of(const Analysis& analysis, std::vector<LawEvidence> evidence);
-/// Puts them into a diagnosis that has its findings: its hypotheses, and its verdict where no cause is named.
+/// Adds them to a complete diagnosis: to its hypotheses and, if no cause is named, its verdict.
 void take_laws(std::vector<Law> laws, Diagnosis& diagnosis);
-/// The likeliest, from kLawClaimed on; null where none is.
+/// The likeliest, if at least kLawClaimed; else null.
 [[nodiscard]] const Law* claimed_law(const Diagnosis& diagnosis);
-/// That some law acts.
+/// Probability that some law acts.
 [[nodiscard]] double probability_of_any(const std::vector<LawEvidence>& evidence);
 
 }  // namespace chaintrue::grid::diagnosis

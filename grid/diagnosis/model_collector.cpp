@@ -32,8 +32,8 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
       std::abs(a.values.back() - b.values.back()) <= limits.one_event_visits) {
     return false;
   }
-  // What sets in at one visit of one chain is one event: a skip with a shift that takes back the rest
-  // of it is the shift alone.
+  // Effects that set in at one visit of one chain are one event: a skip with a compensating shift
+  // is just the shift.
   if (sets_in_at_a_visit(a) && sets_in_at_a_visit(b) && a.cause.side == b.cause.side &&
       a.values.back() == b.values.back())
     return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Weighs sets of causes in one marginalised system and keeps those that matter.
+/// Computes the weights of sets of causes in one marginalised system and keeps the relevant ones.
 #pragma once
 
 #include <optional>
@@ -20,8 +20,8 @@ struct WeighedSet {
 /// reach of the best.
 void narrow(std::vector<WeighedSet>& parents, double best, std::size_t most);
 
-/// May two regressors act together: one cause acts at one place, an effect that acts on both chains
-/// equally not also on one of them, and of what sets in at one visit of one chain there is one.
+/// Whether two regressors may act together: a cause acts at one place, an effect on both chains
+/// excludes the same on one of them, and one effect may set in at one visit of one chain.
 [[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
 /// The set with a column more; nothing where that may not act together with it.
 [[nodiscard]] std::optional<ColumnSet> with_column(const RegressorSystem& system,
@@ -38,14 +38,14 @@ class ModelCollector {
                  std::size_t number,
                  const ComparisonOptions& options);
 
-  /// Weighs a set and keeps it where it matters; minus infinity where it cannot be.
+  /// Returns a set's weight and keeps the set if relevant; minus infinity if it is impossible.
   double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
-  /// Logarithm of the prior of a set with a discrepancy or none, the discrepancy's share in it.
+  /// Log prior of a set with a discrepancy or none, including the discrepancy's share.
   [[nodiscard]] double log_prior_of(const std::vector<int>& regressors, int discrepancy) const;
 
   [[nodiscard]] double best() const { return best_; }
   [[nodiscard]] const NoiseDensity& noise() const { return noise_; }
-  /// All kept so far; none are left.
+  /// Moves out all that are kept so far.
   [[nodiscard]] std::vector<CandidateModel> take();
 
  private:
@@ -58,8 +58,8 @@ class ModelCollector {
   double best_;
 };
 
-/// Sets of up to kMostCauses columns grown from nothing by a beam, each weighed given one discrepancy
-/// or none; what was weighed goes to the collector.
+/// Sets of up to kMostCauses columns grown from nothing by a beam search, given one discrepancy or
+/// none; all go to the collector.
 void search_by_beam(const RegressorSystem& system,
                     const NormalEquations& equations,
                     int discrepancy,

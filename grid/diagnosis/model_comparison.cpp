@@ -15,7 +15,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// `odds`: times those of causes against none; all priors still add up.
+/// `odds` multiplies those of causes against none; all priors still sum to one.
 double prior_of_count(std::size_t causes, double odds) {
   const std::array<double, kMostCauses + 1> prior = {
       kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
@@ -136,12 +136,12 @@ SingleScores single_scores(const RegressorSystem& system,
 
 namespace {
 
-/// Of the best model's outliers those that are off by just what a whole number of links does:
-/// each set of outliers once more without one of them.
+/// The best model's outliers that are off by a whole number of links: each set of outliers is tried
+/// again without one of them.
 std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
-  // A direction that is rejected is no whole reading that is off by links.
+  // A rejected direction is not a whole reading that is off by links.
   if (!system.groups.empty()) return {};
   const CandidateModel& best = comparison.best();
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
@@ -172,7 +172,7 @@ std::vector<std::size_t> all_kernels(const RegressorSystem& system) {
   return all;
 }
 
-/// Weightiest first; those that were not tried stay where they are.
+/// Heaviest first; untried ones keep their order.
 std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
                                    const std::vector<double>& weight) {
   auto order = numbers_below(kernels.size());
@@ -207,7 +207,7 @@ class Comparer {
         searches.clear();
       }
       for (SetSearch& search : searches) {
-        // What looks like outliers without a discrepancy may be part of one.
+        // Apparent outliers without a discrepancy may be part of one.
         const bool all = search.outliers() == excluded_;
         if (all || search.best() > best - kWorthDiscrepancies) look_alongside(search);
       }

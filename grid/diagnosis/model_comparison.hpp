@@ -3,10 +3,10 @@
 /// The evidence of the data for each of: nothing, every cause, causes together, outliers, noise
 /// larger than stated, a model discrepancy, and causes given a model discrepancy.
 ///
-/// Every hypothesis looks for its own outliers, by mean shifts added one after the other without
-/// stopping at the first that does not pay, so that several outliers cannot mask each other; the
-/// few sets of outliers so found are each given the whole comparison. Causes are searched
-/// exhaustively one and two at a time, three and four at a time from the best of those.
+/// Every hypothesis searches for its own outliers, by adding mean shifts without stopping at the
+/// first that does not pay, so that several outliers cannot mask each other; the whole comparison
+/// is made for each of the few sets found. Causes are searched exhaustively one and two at a time,
+/// three and four at a time from the best of those.
 #pragma once
 
 #include <optional>
@@ -24,16 +24,16 @@ struct CandidateModel {
   /// Natural logarithm of prior times evidence, or of a probability averaged over parts (bed_parts.hpp).
   double log_weight = 0.0;
   double larger_noise = 0.0;     ///< share of it from noise larger than stated
-  double quadratic = 0.0;        ///< what the set leaves of e'e
+  double quadratic = 0.0;        ///< residual of e'e
 };
 
 struct ModelComparison {
   std::vector<MarginalisedSystem> marginalised_systems;
   std::vector<CandidateModel> models;  ///< those that matter, best first
   double log_total = 0.0;              ///< logarithm of the sum of weights
-  /// Kernels of the model discrepancy that were tried, the weightiest first.
+  /// Kernels of the model discrepancy that were tried, the heaviest first.
   std::vector<std::size_t> kernels;
-  /// \throws std::invalid_argument where no model is finite: there is none to name.
+  /// \throws std::invalid_argument if no model has a finite weight.
   [[nodiscard]] const CandidateModel& best() const;
   [[nodiscard]] double probability(const CandidateModel& model) const;
 };
@@ -41,18 +41,18 @@ struct ModelComparison {
 /// Best first, and `log_total`.
 void sort_by_weight(ModelComparison& comparison);
 
-/// How far sets of causes are searched, by what a mechanism's regressors are like.
+/// How far sets of causes are searched, depending on a mechanism's regressors.
 struct SearchLimits {
-  /// Regressors of each cause that are weighed, the best of its places: alone, and once one of what
-  /// leads has taken its share; sets of them are grown by a beam from nothing, given every discrepancy
-  /// anew. 0: all regressors, and of whole numbers the best; sets that lead without a discrepancy are
-  /// tried given the likeliest of these too.
+  /// The number of best places of each cause to compare: alone, and after projection on a leading
+  /// cause; sets of them are grown by a beam search from nothing, for every discrepancy. 0: all
+  /// regressors, and the best whole numbers; sets that lead without a discrepancy are also tried
+  /// given the likeliest discrepancies.
   std::size_t of_a_cause = 0;
-  /// With a beam: sets of outliers that are tried given discrepancies, the likeliest, and every so
-  /// many of the strengths, the last among them.
+  /// With a beam search: the number of likeliest sets of outliers to try given discrepancies, and
+  /// the stride over strengths, which includes the last.
   std::size_t sets_given = 1;
   std::size_t strength_step = 1;
-  /// What sets in within so many visits is one event, whatever it is called. 0: nothing is.
+  /// Effects that set in within this many visits are one event. 0: none are.
   double one_event_visits = 0.0;
 };
 
@@ -60,10 +60,10 @@ struct ComparisonOptions {
   bool discrepancies = true;
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   std::vector<std::size_t> kernels{};
-  /// Nothing but this cause acts.
+  /// Only this cause may act.
   std::optional<CauseId> given_cause{};
   SearchLimits search{};
-  /// Sets of regressors that look for outliers besides nothing and each cause alone.
+  /// Further sets of regressors that search for outliers, besides nothing and each cause alone.
   std::vector<std::vector<int>> hypotheses{};
 };
 
@@ -72,20 +72,20 @@ struct ComparisonOptions {
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
 
-/// The weightiest kernels of a comparison, for others of the same session: as many as hold the
-/// weight of a discrepancy at any of its causes.
+/// The heaviest kernels of a comparison, for others of the same session: enough to hold the weight
+/// of a discrepancy for each of its causes.
 [[nodiscard]] std::vector<std::size_t> best_kernels(const ModelComparison& comparison);
 
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;
 
-/// Prior of a set of regressors, of its outliers not.
+/// Prior of a set of regressors, without its outliers.
 [[nodiscard]] double log_prior(const RegressorSystem& system,
                                const std::vector<int>& set,
                                bool discrepancy);
 
-/// Prior odds of a lasting cause more, its share in the catalogue (exp of its log_prior) not counted, as a
-/// natural logarithm; minus infinity beyond kMostCauses.
+/// Log prior odds of one more lasting cause, without its share in the catalogue (exp of its
+/// log_prior); minus infinity beyond kMostCauses.
 [[nodiscard]] double log_odds_of_another(const RegressorSystem& system,
                                          const std::vector<int>& set,
                                          bool discrepancy);

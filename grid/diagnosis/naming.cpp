@@ -34,7 +34,7 @@ std::optional<DiagnosisFailure> suspected_tape_zero(const MeasuredHoles& set) {
           set.tape.tape_zero_offset_mm + *tape_zero_mm)};
 }
 
-/// Slips of a whole file, which no effect resembles: of data that no reader of files has looked at.
+/// Slips of a whole file, which resemble no effect, in data that no file reader has checked.
 std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
   for (std::size_t k = 1; k < measured.files().size(); ++k) {
     for (std::size_t before = 0; before < k; ++before) {
@@ -74,7 +74,7 @@ tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& o
   return analyse(*std::move(session), options);
 }
 
-/// An analysis, and the order of visits that it found and goes by.
+/// An analysis, and the order of visits that it found and uses.
 struct AnalysedInOrder {
   Analysis analysis;
   std::optional<VisitingOrderFound> order;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From what was measured to the causes that are named, with what may take a name back: one reading that
-/// makes it, or a claimed law. Private to grid/diagnosis.
+/// From measurements to named causes, and what may withdraw a name: dependence on a single reading,
+/// or a claimed law. Private to grid/diagnosis.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,14 @@ namespace chaintrue::grid::diagnosis {
 
 struct Naming {
   Analysis analysis;
-  std::optional<VisitingOrderFound> order;  ///< found, and gone by
+  std::optional<VisitingOrderFound> order;  ///< found, and used
   LawsFound laws;
   std::optional<Stability> stability;
   std::vector<CauseGivenLaw> causes_given_law;
-  std::optional<std::string> refusal;  ///< why a name was taken back that one reading makes
+  std::optional<std::string> refusal;  ///< why a name that depends on one reading was withdrawn
 };
 
-/// `causes`: what can only take a name back is left out where there is no name.
+/// `causes`: checks that can only withdraw a name are skipped if there is none.
 enum class NamingFor { report, causes };
 
 /// Fails as diagnose() does. Both uses name the same causes.

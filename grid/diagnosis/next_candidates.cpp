@@ -32,7 +32,7 @@ constexpr MachineReading kReadings[] = {
     {ReadingOf::tape_error, "y", kTapeErrorSigmaMmPerM},
 };
 
-/// Everything that might be measured at a mark, as one more visit each.
+/// All measurements at a mark, one more visit each.
 class PointCandidates {
  public:
   PointCandidates(const Analysis& a, std::size_t part)
@@ -49,7 +49,7 @@ class PointCandidates {
   }
 
   [[nodiscard]] CandidateReadings take() {
-    // Each is a next visit; only their order among them is arbitrary.
+    // Each is a next visit; their order is arbitrary.
     return {{std::make_shared<const observation::ChainLengthReadings>(
                  observation::ChainLengthReadings::in_given_order(
                      std::move(places_), false, own_.noise(), own_.noise_dof(), own_.sheet())),
@@ -106,7 +106,7 @@ class PointCandidates {
   std::vector<Candidate> candidates_;
 };
 
-/// Readings of the machine that nobody took.
+/// Readings of the machine that were not taken.
 std::optional<CandidateReadings> candidate_readings(const ObservationSet& session) {
   const std::vector<ExtraReading>& taken = session.readings();
   std::vector<ExtraReading> readings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Everything that might be measured next, as a session of its own. Private to grid/diagnosis.
+/// All possible next measurements, as a session. Private to grid/diagnosis.
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ struct NextCandidates {
   std::vector<Candidate> all;
 };
 
-/// Points over the bed and visits once more where chains were read, distances and holes where a
-/// tape was used, and readings of the machine.
+/// Points over the bed and repeated visits if chains were read, distances and holes if a tape was
+/// used, and readings of the machine.
 [[nodiscard]] NextCandidates next_candidates(const Analysis& analysis);
 
 /// One observation of candidates; `rows` are its own.

@@ -10,11 +10,11 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// New holes are looked for on this raster over what the holes span.
+/// New holes are sought on this raster over the extent of the holes.
 constexpr int kHoleColumns = 7;
 constexpr int kHoleRows = 4;
-constexpr double kApartMm = 200.0;  ///< a hole next to another says the same
-/// A new hole is measured to this many others: two place it, the third speaks.
+constexpr double kApartMm = 200.0;  ///< neighbouring holes are redundant
+/// A new hole is measured to this many others: two place it, the third checks it.
 constexpr std::size_t kArms = 3;
 
 class HoleCandidates {
@@ -68,7 +68,7 @@ class HoleCandidates {
     }
   }
 
-  /// To edges where the sheet's were measured before: a first one only says where the sheet lies.
+  /// To edges only if some were measured before: a first one only places the sheet.
   void add_edges() {
     const bool edged =
         any_of(measured_.distances, [](const HoleDistance& d) { return d.edge.has_value(); });

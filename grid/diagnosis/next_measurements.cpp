@@ -11,12 +11,12 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// An explanation as likely as this is left alone where none is named: nothing hidden keeps 0.93 in
-/// the median session of 28 points.
+/// Above this the explanation of no cause needs no more measurements: without a cause the median
+/// session of 28 points gives 0.93.
 constexpr double kLeftAlone = 0.9;
 constexpr double kPays = 0.002;  // a measurement that helps less is not worth the way
 
-/// The reading that tells members of one class apart which no points can: a chain's links.
+/// The reading that separates members of one class, which no points can: a chain's links.
 void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   if (a.decision.listed.empty() || list.size() >= kMostNextMeasurements) return;
   const CauseClass& members = a.decision.classes[a.decision.listed.front()];
@@ -79,8 +79,8 @@ std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& altern
     if (best == options.size() || now.confusion - then.confusion < kPays * now.confusion) break;
     options[best].times -= 1;
     append_all(chosen, options[best].rows);
-    // The Gaussian approximation may dip where the first points only raise doubts; more data never
-    // make the right name less likely in the mean.
+    // The Gaussian approximation may dip when the first points only raise doubts; on average more
+    // data never make the right name less likely.
     reached = std::max(reached, then.named_alone);
     result.push_back(options[best].measurement);
     result.back().raises_probability_to = reached;
@@ -101,13 +101,13 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
 
 namespace {
 
-/// What may be measured, as rows.
+/// The candidates as rows.
 struct Next {
   const ObservationSet& session;
   const RegressorSystem& system;
 };
 
-/// What the causes of a context, and a law's amplitudes with them, make of the rows to come.
+/// The prediction of future rows by a context's causes and a law's amplitudes.
 Eigen::MatrixXd columns_of(const Analysis& a,
                            const Next& next,
                            const std::vector<int>& regressors,
@@ -157,7 +157,7 @@ std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& f
     alternatives.back().probability = found.laws[k].probability;
     none -= found.laws[k].probability;
   }
-  // What parts of the bed make of the odds may leave next to nothing to the rest.
+  // Averaging over parts of the bed may leave almost no weight to the rest.
   constexpr double kLeastOfNone = 0.01;
   alternatives.push_back(
       expected_with(a, next, found.evidence[found.heaviest.front().evidence], nullptr));

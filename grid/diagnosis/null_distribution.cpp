@@ -13,7 +13,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kNoScore = -1e3;
-/// Of a strength beforehand.
+/// Prior of a strength.
 double precision() { return 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise); }
 constexpr int kBlock = 250;  // draws at a time
 

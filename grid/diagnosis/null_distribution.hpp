@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How strong the strongest of all effects looks where there is none: the largest single score over
-/// the whole catalogue, its distribution by Monte Carlo.
-///
-/// Scores of effects that resemble each other are far from independent, so that no correction by
-/// their number holds; draws hold whatever the catalogue and the points.
-/// Source: V. Rofatto et al., Remote Sensing 12 (2020) 860, on the largest statistic of many
-/// alternatives.
+/// The Monte Carlo distribution of the largest single score over the whole catalogue when no effect
+/// acts. Scores of similar effects are far from independent, so no correction for their number is
+/// valid; draws are valid for any catalogue and points. Source: V. Rofatto et al., Remote Sensing
+/// 12 (2020) 860, on the largest statistic of many alternatives.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,11 +29,11 @@ class SingleScore {
   [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
 
  private:
-  /// Of a regressor with this square and inner product with the residual, in so many rows.
+  /// For a regressor with this square and inner product with the residual, in this many rows.
   [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
-  /// A bound of it that takes no logarithm.
+  /// A bound of it without a logarithm.
   [[nodiscard]] double most(Eigen::Index k, double square, double c, double ee, double n) const;
-  /// What the regressor's best size takes of the noise's and the residual's squares.
+  /// The reduction of the residual's square by the regressor's best size, relative to noise.
   [[nodiscard]] double share_taken(std::size_t at, double square, double c, double ee) const;
   const MarginalisedSystem& marginalised_;
   double dof_;
@@ -55,8 +52,8 @@ struct NullDistribution {
                                          Eigen::Index rows,
                                          int draws,
                                          std::uint64_t seed);
-/// Of residuals as long as those of `marginalised`: noise of unknown size, the settings' share of it
-/// taken out as it is of theirs.
+/// For residuals as long as those of `marginalised`: noise of unknown size, projected on the
+/// settings in the same way.
 [[nodiscard]] NullDistribution draw_null_of_length(const SingleScore& score,
                                                    const MarginalisedSystem& marginalised,
                                                    int draws,

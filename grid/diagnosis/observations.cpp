@@ -35,22 +35,22 @@ std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings,
   return kept;
 }
 
-/// One sigma of what the machine file says of a thing that can also be read.
+/// Sigma of a value in the machine file that can also be measured directly.
 double sigma_of_statement(const Machine& machine, ReadingOf what) {
   if (what == ReadingOf::motor_spacing || what == ReadingOf::beam_rise)
     return std::sqrt(2.0) * machine.uncertainty.motor_position_mm;
   if (what == ReadingOf::ring_radius) return machine.uncertainty.ring_radius_mm;
-  // A chain's pitch may be off by half a percent, its mass by more than that: nothing contradicts.
+  // A chain's pitch may be off by half a per cent, its mass by more.
   if (what == ReadingOf::link_pitch) return 0.005 * machine.sprocket.pitch_mm;
   if (what == ReadingOf::tape_error) return 5.0;
   return machine.chain.mass_kg_per_m;
 }
 
-/// Secants of effects and the calibration's steps are good to some micrometres over a bed: readings
-/// that are better are taken to be this good, and the noise that is found says how good they were.
+/// Secants of effects and the calibration are accurate to some micrometres over a bed: better
+/// readings are given this sigma, and the noise found shows how accurate they were.
 constexpr double kFinestLengthNoiseMm = 0.01;
 
-constexpr double kContradiction = 6.0;  // sigmas: no slip of the tape, a slip of the pen
+constexpr double kContradiction = 6.0;  // sigmas: a slip of the pen, not of the tape
 
 std::optional<std::string> contradiction(const Machine& machine,
                                          const std::vector<ExtraReading>& readings) {
@@ -107,7 +107,7 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
       found->factor * usual.length_mm, found->factor * usual.position_mm, found->dof};
 }
 
-/// Pairs of holes between which nothing was measured, the farthest apart first.
+/// Pairs of holes without a measured distance, the farthest apart first.
 std::vector<std::string> unmeasured(const MeasuredHoles& set, std::size_t most) {
   std::set<std::pair<std::size_t, std::size_t>> done;
   for (const HoleDistance& d : set.distances) {
@@ -170,7 +170,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
                    "twice to show it. Give it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
-  // Visits are those of one session: an order of another says nothing about them.
+  // Orders of different sessions are unrelated.
   const bool ordered = !so_far.ordered && all_of(grid.points, [](const MeasuredPoint& p) {
     return p.order.has_value();
   });

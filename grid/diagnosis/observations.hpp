@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What was measured as a diagnosis needs it: points and distances of one machine, in any mix, as
-/// one set of observations.
+/// The measurements for a diagnosis: points and distances of one machine, in any mix, as one set of
+/// observations.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -19,11 +19,12 @@ using estimation::ObservationPart;
 using estimation::ObservationSet;
 using State = estimation::MachineState;
 
-/// Fewer points leave nothing to judge a cause by once the settings have taken their share.
+/// With fewer points no residual remains after fitting the settings.
 inline constexpr std::size_t kFewestPoints = 8;
-/// Distances tell four of the six settings; two more for a cause, two to doubt it by.
+/// Distances determine four of the six settings; two more are needed for a cause, and two to check
+/// it.
 inline constexpr std::size_t kFewestDistances = 8;
-/// Of which so many must stay when bad ones are rejected.
+/// This many must remain after rejection.
 inline constexpr std::size_t kFewestGoodDistances = 6;
 
 /// The machine is that of the first file; observations in the order of the files, points first, the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What may be asked of a diagnosis, and why there may be none.
+/// Options of a diagnosis, and reasons for its failure.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ struct DiagnosisOptions {
   bool improvement = true;  ///< error of the tool today; held-out errors, naming repeated in each fold
   bool next_measurements = true;
   bool stability = true;       ///< the naming without each point, column and row of marks
-  /// Orders of visits that the readings were tried with: each is a chance of a false alarm.
+  /// Number of orders of visits that were tried: each may give a false alarm.
   int orders_tried = 1;
-  bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
-  /// Chain or paper, which no points tell apart: the person has it that it is the chain.
+  bool order_assumed = false;  ///< the points' order is assumed, not recorded
+  /// Chain or paper, which no points distinguish: the owner states that it is the chain.
   bool accept_class = false;
-  /// Nothing but this cause is looked for: what somebody who knew it would find.
+  /// Only this cause is considered.
   std::optional<CauseId> given_cause{};
-  /// Given a pattern the probabilities are averaged over parts of the bed (bed_parts.hpp).
+  /// Average the probabilities over parts of the bed if there is a pattern (bed_parts.hpp).
   bool average_parts = true;
   Progress progress{};
 };
@@ -36,7 +36,7 @@ enum class DiagnosisReason {
   too_few_points,  ///< or distances
   no_noise,        ///< neither stated nor in repeats
   point_unreachable,
-  contradictory_settings,  ///< the machine and the grid's readings of it cannot both be
+  contradictory_settings,  ///< the machine contradicts the grid's readings of it
 };
 using DiagnosisFailure = Failure<DiagnosisReason>;
 

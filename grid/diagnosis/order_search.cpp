@@ -19,7 +19,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Models of less weight than this share of all hold too little to move p(o) by a hundredth.
+/// Models below this share of the weight cannot change p(o) by 1 %.
 constexpr double kLeastModelShare = 0.01;
 constexpr std::size_t kMostModels = 5;
 
@@ -47,7 +47,7 @@ std::optional<Measured> grid_alone(const Measured& measured) {
   return alone;
 }
 
-/// The points by place, so that the order of the file's rows is of no account.
+/// The points by place, so that the order of the file's rows does not matter.
 std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
   auto result = numbers_below(points.size());
   const auto key = [&](std::size_t i) {
@@ -59,7 +59,7 @@ std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
   return result;
 }
 
-/// Whether a point's mark was measured more than once: nobody knows which visit was the first, nor when the others were.
+/// Whether a point's mark was measured more than once: which visit was first is unknown.
 std::vector<bool> measured_again(const std::vector<MeasuredPoint>& points) {
   std::vector<bool> again(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -71,10 +71,10 @@ std::vector<bool> measured_again(const std::vector<MeasuredPoint>& points) {
   return again;
 }
 
-/// A model of the comparison, all that it holds integrated out.
+/// One compared model, with its parameters marginalised.
 struct GivenModel {
   double log_weight = 0.0;
-  double log_odds = 0.0;  ///< of one cause more
+  double log_odds = 0.0;  ///< of one more cause
   KeptRows kept;
   linear::Cholesky covariance;
   Eigen::VectorXd e;  ///< N, half solved by it
@@ -124,7 +124,7 @@ std::vector<GivenModel> leading_models(const Analysis& a, const std::vector<bool
   return result;
 }
 
-/// Columns of what depends on the order by a size alone, in the rows of the analysis.
+/// Columns of causes that depend on the order and have only a size, in the rows of the analysis.
 RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
   RegressorSystem result;
   auto set = observations_of(ordered);
@@ -218,7 +218,7 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, 
       as_size(max_element(probabilities) - probabilities.begin());
   VisitingOrderFound found{orders[best], probabilities[best], true};
   if (found.probability < kLeastModelShare) return std::nullopt;
-  // Corners differ in the few steps between lines, which marks measured again in between make others.
+  // Starting corners differ only in the few steps between lines, which repeated marks would change.
   const std::vector<bool> again = measured_again(grid_without_order(measured)->points);
   const bool tells_corners = !contains(again, true);
   if (tells_corners && found.probability >= kOrderFound) return found;

@@ -43,7 +43,7 @@ ObservationSet session_at(const Analysis& a, const std::vector<model::MarkPoint>
   for (const model::MarkPoint& mark : marks) {
     if (model.at(sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
   }
-  // Nobody goes there: no order of visits.
+  // These places are not visited: no order.
   return with_observations(
       session,
       {{std::make_shared<const observation::ChainLengthReadings>(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The machine of an analysis at places where nobody measured.
+/// The machine of an analysis at unmeasured places.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ struct MarkedArea {
 };
 [[nodiscard]] MarkedArea marked_area(const ObservationSet& session);
 
-/// A session with a point at each of these marks that the machine can reach, in no order of visits.
-/// Precondition: as above.
+/// A session with a point at each reachable mark, without an order of visits. Precondition: as
+/// above.
 [[nodiscard]] ObservationSet session_at(const Analysis& analysis,
                                  const std::vector<model::MarkPoint>& marks);
 

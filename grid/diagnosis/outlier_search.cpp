@@ -14,8 +14,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A direction shorter than this has been taken already, and one of less precision is fitted whole:
-/// no shift shows there.
+/// A shorter direction has been used already, and one of less precision is fitted completely: no
+/// shift can show there.
 constexpr double kNoDirection = 1e-9;
 
 struct FoundSet {
@@ -60,14 +60,14 @@ class MeanShifts {
     }
   }
 
-  /// One regressor whose size is known. Before any other.
+  /// Takes out one regressor of known size. Call before any other.
   void subtract(const Eigen::VectorXd& g) {
     e_ -= g;
     u_ = root_->solve(e_);
     quadratic_ = e_.squaredNorm();
   }
 
-  /// One regressor whose size is free, with the precision that its coefficient has beforehand.
+  /// Takes out one regressor of free size, with the prior precision of its coefficient.
   void free(const Eigen::VectorXd& reduced_column, double prior) {
     const Eigen::VectorXd g = root_->times(reduced_column);
     Eigen::VectorXd pg = root_->solve(reduced_column);
@@ -80,12 +80,12 @@ class MeanShifts {
     take(pg / std::sqrt(denominator));
   }
 
-  /// Whether anything but the group itself says where its readings should be.
+  /// Whether anything else determines the group's readings.
   [[nodiscard]] bool is_checked(const FreeGroup& group) const {
     return !group.direction || precision_along(group) > kNoDirection;
   }
 
-  /// (1): what the quadratic form loses without the group.
+  /// (1): the drop of the quadratic form without the group.
   [[nodiscard]] double drop_without(const FreeGroup& group) const {
     if (group.direction) {
       const Eigen::Vector2d& d = *group.direction;
@@ -190,7 +190,7 @@ std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
     const OutlierGroup& group = groups[k];
     const std::vector<Eigen::Index>& kept = marginalised.kept.rows();
     const auto at = std::lower_bound(kept.begin(), kept.end(), group.first_row);
-    // Of a unit of which one direction is gone nothing but the other is left to judge it by.
+    // With one direction of a unit gone, only the other is left to test.
     const auto last = at + (group.rows - 1);
     if (kept.end() - at < group.rows || *at != group.first_row ||
         *last != group.first_row + group.rows - 1) {
@@ -208,14 +208,14 @@ double price_of(const std::array<double, 2>& rejected) {
   return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
 }
 
-/// The group that the data would rather do without than any other: what it takes from the quadratic
-/// form, against what rejecting so many directions costs.
+/// The best group to reject: its reduction of the quadratic form against the cost of rejecting its
+/// directions.
 struct Worst {
   std::size_t position = 0;
   double drop = 0.0;
 };
 
-/// None where nothing can be rejected.
+/// Empty if nothing can be rejected.
 std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
   std::optional<Worst> worst;
   double most = kMinusInfinity;
@@ -231,7 +231,7 @@ std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGr
   return worst;
 }
 
-/// Takes a rejected group, and what it has of the directions of others, out of those that are free.
+/// Removes a rejected group, and its overlap with others' directions, from the free ones.
 void take_out(const FreeGroup& rejected, std::vector<FreeGroup>& free, std::vector<bool>& outliers) {
   std::vector<FreeGroup> left;
   for (FreeGroup& other : free) {
@@ -289,7 +289,7 @@ FoundSet search(MeanShifts shifts,
   return best;
 }
 
-/// The rows of each unit where the system has no groups: a point read wrongly spoils both.
+/// The rows of each unit if the system has no groups: a misread point spoils both.
 std::vector<OutlierGroup> groups_of(const RegressorSystem& system) {
   if (!system.groups.empty()) return system.groups;
   std::vector<OutlierGroup> groups;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sets of readings that some hypothesis would rather do without, by mean shifts: each group of rows'
-/// directions that one slip spoils has a shift of its own, the groups are added one after the other,
-/// and the best of the nested sets by its evidence counts.
+/// Finds sets of readings that some hypothesis would reject, by mean shifts: each group of rows'
+/// directions that one slip spoils has a shift of its own, the groups are added one after the
+/// other, and the nested set with the best evidence is used.
 ///
 /// Notation, in addition to evidence.hpp
 ///   P    precision of the kept rows, sizes of regressors and shifts so far unknown

@@ -14,7 +14,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A cause that holds in a part: likelier than not; in a session: as likely as a name is.
+/// A cause holds in a part if it is more likely than not; in a session if it would be named.
 constexpr double kHolds = 0.5;
 constexpr double kHoldsInSession = 0.9;
 
@@ -53,7 +53,7 @@ std::string_view quarter(double towards_rad) {
   return kNames[as_size(eighth) % kNames.size()];
 }
 
-/// What a hypothesis is called in sentences.
+/// Name of a hypothesis in sentences.
 std::string cause_words(const Hypothesis& one) {
   if (one.causes.empty()) return one.effect;
   return fmt::format("\"{}{}\"", one.causes.front().effect->cause, side_words(one.causes.front()));
@@ -65,7 +65,7 @@ bool is_named(const PartFinding& part, const Hypothesis& one) {
   });
 }
 
-/// Something named does not hold there; of a set, none of it.
+/// A named cause does not hold there; for a set, none of its causes does.
 bool denies(const Diagnosis& d, const PartFinding& part) {
   const auto holds = [](const Hypothesis& own) { return own.probability >= kHolds; };
   if (d.verdict == Verdict::named_set) {
@@ -76,7 +76,7 @@ bool denies(const Diagnosis& d, const PartFinding& part) {
   return !all_of(part.named, holds);
 }
 
-/// One answer of several quarters.
+/// One answer shared by several quarters.
 struct OtherAnswer {
   std::string words;
   std::vector<std::string_view> quarters;
@@ -84,7 +84,7 @@ struct OtherAnswer {
   double most = 0.0;
 };
 
-/// What a quarter's absence changes: another cause is the likeliest, or one that is named is not likely.
+/// The change without a quarter: another cause is the likeliest, or a named one is not likely.
 OtherAnswer answer_without(const PartFinding& part) {
   const Hypothesis* lost = nullptr;
   for (const Hypothesis& own : part.named) {
@@ -123,7 +123,7 @@ std::string words_of_quarters(const Diagnosis& d) {
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
-/// Causes that only some sessions bear out by themselves.
+/// Causes that only some sessions support alone.
 std::vector<std::string> words_of_sessions(const Diagnosis& d) {
   std::vector<std::string> result;
   if (d.sessions.empty()) return result;

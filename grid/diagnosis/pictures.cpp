@@ -11,7 +11,7 @@ namespace chaintrue::grid::diagnosis {
 
 namespace {
 
-/// What the pictures show of every unit, whitened, all rows.
+/// The values of every unit in the pictures, whitened, all rows.
 struct Residuals {
   Eigen::VectorXd before;  ///< of the calibrated machine
   Eigen::VectorXd after;   ///< with the causes named

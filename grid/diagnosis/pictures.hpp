@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A diagnosis to look at: every point and every distance with what is left there before and after
+/// The data of a diagnosis' pictures: every point and distance with its residual before and after
 /// naming. Lengths and shifts in mm, angles in rad, tensions in N.
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A matrix whose columns are multiples of fewer: what two lost links do is twice what one does, at
-/// each of hundreds of visits. Every column that is no multiple of another is held once, so that
-/// time and memory go with these.
+/// A matrix whose columns are multiples of fewer: two lost links have twice the effect of one, at
+/// each of hundreds of visits. Only distinct columns are stored, so time and memory depend on their
+/// number.
 ///
 /// \code
 ///   RegressorColumns g(rows);
@@ -28,7 +28,7 @@ class RegressorColumns {
 
   /// factor times this.
   void add(const Eigen::VectorXd& column, double factor = 1.0);
-  /// factor times what was added last.
+  /// factor times the last added column.
   void add_multiple(double factor);
 
   /// Column k is factor(k) times column index(k) of these.
@@ -46,7 +46,7 @@ class RegressorColumns {
   /// rows() x columns.size()
   [[nodiscard]] Eigen::MatrixXd dense(const std::vector<int>& columns) const;
   [[nodiscard]] RegressorColumns subset(const std::vector<Eigen::Index>& columns) const;
-  /// What a linear map of columns makes of all: `map` takes and gives a matrix of as many columns.
+  /// Applies a linear map to all columns: `map` takes and returns a matrix of as many columns.
   template <typename Map>
   [[nodiscard]] RegressorColumns mapped(const Map& map) const {
     RegressorColumns result;

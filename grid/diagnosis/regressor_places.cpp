@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kPlaces = 24;    // of a knee or a phase: neighbours have a collinearity of 0.99
 
-/// What the place of an effect is compared with, at one place of the tool.
+/// The value that an effect's place is compared with, at one place of the tool.
 double compared(const SystemPlace& own, PlaceVariable variable, model::Side side) {
   const model::Pose& pose = own.state.reading.pose;
   const model::ChainState& chain = pose.chains[side];
@@ -54,7 +54,7 @@ std::vector<double> compared(const RegressorSystem& system, PlaceVariable variab
   return there;
 }
 
-/// As many as kPlaces, evenly in the rank of those that are there.
+/// At most kPlaces, evenly by rank.
 std::vector<double> evenly_by_rank(std::vector<double> there) {
   std::vector<double> result;
   sort(there);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where or when an effect may set in, by what its place is compared with at the places of the tool. Private to
-/// grid/diagnosis.
+/// Where or when an effect may set in, by the variable of its place at the places of the tool.
+/// Private to grid/diagnosis.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Where or when an effect sets in; null of one that has no place.
+/// The parameter for where or when an effect sets in; null if it has none.
 [[nodiscard]] const model::effects::EffectParameter* place_parameter(const model::effects::Effect& effect);
 
-/// What that place is compared with.
+/// The variable that this place is compared with.
 [[nodiscard]] model::effects::PlaceVariable variable_of_place(const model::effects::Effect& effect,
                                                               const model::effects::EffectParameter& place);
 /// Between the nearest places of the tool to either side of it, in that variable: a step at one place between them
-/// is the same at all readings as one at another. Nothing where none is on a side, and for phases.
+/// is the same at all readings as one at another. Empty if a side has none, and for phases.
 struct PlaceGap {
   double below = 0.0;
   double above = 0.0;
@@ -28,7 +28,7 @@ struct PlaceGap {
                                                 CauseId cause,
                                                 double place);
 
-/// What the place is compared with at every place of the tool, of the chain of this side or of either.
+/// The variable's value at every place of the tool, for the chain of this side or of either.
 [[nodiscard]] std::vector<double> compared_at_places(const RegressorSystem& system,
                                                      model::effects::PlaceVariable variable,
                                                      model::effects::EffectSide side);

@@ -8,7 +8,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Where nothing is stated of a parameter, in its own unit: a metre is as good as nothing.
+/// Sigma of a parameter without a stated one, in its unit: a metre is practically no prior.
 constexpr double kOpenSigma = 1000.0;
 
 }  // namespace
@@ -31,7 +31,7 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   system.expected_change = set.stated_value - system.setting;
   system.sigma = set.stated_sigma.unaryExpr(
       [](double sigma) { return std::isfinite(sigma) ? sigma : kOpenSigma; });
-  // Of each effect the shares of its sides, places and numbers add up to one.
+  // The shares of an effect's sides, places and numbers sum to one.
   system.prior.shares = static_cast<double>(
       state.mechanism ? state.mechanism->effects().size()
                       : model::effects::effects_of(state.machine).size());

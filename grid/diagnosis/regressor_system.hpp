@@ -2,16 +2,16 @@
 /// \file
 /// The observations as linear equations about a state of the machine
 /// (estimation/linearised_system.hpp) with what a diagnosis adds: a regressor for every effect of
-/// the catalogue at every place where it may set in. Everything from here on knows units and places,
-/// and not how they were measured.
+/// the catalogue at every place where it may set in. From here on only units and places matter, not
+/// how they were measured.
 ///
 /// Notation, in addition
 ///   g_k  W (prediction with the effect less without it)
 ///   q    columns: settings (those of a sheet once for each sheet), then nuisances
 ///
 /// A regressor is a secant: exact at the size at which it was taken, and proportional to
-/// size^power. Coefficient b of a regressor is (size / that size)^power; a power of about one goes
-/// on through zero as a straight line.
+/// size^power. Coefficient b of a regressor is (size / that size)^power; a power of about one
+/// continues through zero as a straight line.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,13 +46,14 @@ struct Regressor {
   bool fixed = false;
   /// It acts at one visit alone.
   bool slip = false;
-  /// What machines in order do as often as not: it counts as no cause beforehand (CausePrior).
+  /// Sound machines have it as often as not, so it does not count as a cause in the prior
+  /// (CausePrior).
   bool expected = false;
-  /// The secant was taken at a size that was found: its coefficient can be held against its bounds.
+  /// The secant was taken at a fitted size, so its coefficient can be compared with its bounds.
   bool refined = false;
-  /// One sigma of the coefficient beforehand; 0: of its strength as evidence.hpp has it.
+  /// Prior sigma of the coefficient; 0: the prior of its strength in evidence.hpp.
   double coefficient_sigma = 0.0;
-  /// What the coefficient may be.
+  /// Range of the coefficient.
   double lowest = 0.0;
   double highest = 0.0;
   /// Of a cause with whole numbers: visits at which it may be.
@@ -70,15 +71,15 @@ struct OutlierGroup {
   std::optional<Eigen::Vector2d> direction{};
 };
 
-/// Where a search for outliers ends, besides kMostOutlierShare of the groups.
+/// Limits of a search for outliers, besides kMostOutlierShare of the groups.
 struct OutlierLimits {
   std::size_t fewest_groups = 0;  ///< so many stay
   Eigen::Index fewest_rows = 0;   ///< so many stay
-  /// Of groups beyond the best set so far: several bad ones can hide one another.
+  /// Groups tried beyond the best set so far: several bad ones can mask one another.
   std::size_t beyond_the_best = std::numeric_limits<std::size_t>::max();
 };
 
-/// Where a unit's lengths were read; what they do to its rows is the unit's by_reading.
+/// Where a unit's lengths were read; their effect on its rows is the unit's by_reading.
 struct LengthEntry {
   std::size_t point = 0;  ///< into the file's points
   double x_mm = 0.0;      ///< where the tool was
@@ -91,22 +92,21 @@ struct LengthEntry {
 struct DiscrepancyFamily;
 [[nodiscard]] const DiscrepancyFamily& chain_discrepancies();
 
-/// How likely causes are beforehand, by the catalogue of the mechanism that they act on.
+/// Prior probabilities of causes, by the mechanism's catalogue.
 ///
 /// Each of n causes together has a share of kPriorOfOne, kPriorOfTwo, ... by exp(log_prior) / shares.
-/// What is expected is none of the n: every such set is as likely with it as without it, so that it
-/// alone is as likely as nothing, and all else has the odds that it would have had. Each further one that
-/// is expected is as much rarer as a second cause is than one.
+/// Expected causes are not among the n: every set is as likely with one as without it, so that it
+/// alone is as likely as nothing and all other odds are unchanged. Each further expected cause is
+/// rarer by the ratio of two causes to one.
 struct CausePrior {
-  /// Where it is the sum of exp(log_prior) over all that the catalogue holds and is not expected, one
-  /// cause together has kPriorOfOne; larger where causes are rarer. No other mechanism's catalogue has a
-  /// say in it.
+  /// If this is the sum of exp(log_prior) over the catalogue's unexpected causes, single causes
+  /// together have kPriorOfOne; larger if causes are rarer.
   double shares = 1.0;
-  /// Times the odds that causes act where there is a smooth pattern that nobody listed.
+  /// Factor on the odds of causes given an unlisted smooth pattern.
   double odds_given_discrepancy = kCauseOddsGivenDiscrepancy;
 };
 
-/// A linearised system with its regressors, and what is known of its unknowns beforehand.
+/// A linearised system with its regressors and priors.
 struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
   std::vector<Regressor> regressors;
@@ -115,7 +115,7 @@ struct RegressorSystem : estimation::LinearisedSystem {
   Eigen::VectorXd expected_change;  ///< q, stated less that
   Eigen::VectorXd sigma;            ///< q, one sigma as stated
   CausePrior prior;
-  double noise_dof = 15.0;          ///< how well the noise is known, degrees of freedom
+  double noise_dof = 15.0;          ///< degrees of freedom of the noise
   /// What one slip spoils; empty: each unit is a group.
   std::vector<OutlierGroup> groups;
   OutlierLimits limits;

@@ -19,7 +19,7 @@ using model::effects::EffectParameter;
 using model::effects::EffectSide;
 using model::effects::PlaceVariable;
 
-constexpr int kMostLinks = 3;  // more than that shows to the bare eye
+constexpr int kMostLinks = 3;  // larger ones are visible to the eye
 
 std::vector<const Effect*> effects_of(const State& state) {
   if (!state.mechanism) return model::effects::effects_of(state.machine);
@@ -48,7 +48,7 @@ std::vector<model::MachineProblem> problems_with_effect(const State& state,
   return model::effects::problems_of_effects(machine);
 }
 
-/// What such a machine would give to be read, all rows.
+/// The readings of such a machine, all rows.
 std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const State& state) {
   Eigen::VectorXd all(session.rows);
   for (const ObservationPart& part : session.parts) {
@@ -80,8 +80,8 @@ Eigen::Vector2d added_at(const SystemPlace& place,
   return mm;
 }
 
-/// The whitened column of an effect that is added to a chain, or to what is written down: the poses
-/// stay.
+/// The whitened column of an effect that is added to a chain or to the written reading: the poses
+/// are unchanged.
 Eigen::VectorXd added(const RegressorSystem& system,
                       const model::Sprocket& sprocket,
                       CauseId cause,
@@ -101,7 +101,7 @@ Eigen::VectorXd added(const RegressorSystem& system,
 
 const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
 
-/// Goes on through zero as a straight line, where an odd effect changes its sign.
+/// Continues through zero as a straight line: an odd effect changes its sign.
 bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
 class Builder {
@@ -160,7 +160,8 @@ class Builder {
     system_.g.add(*g);
   }
 
-  /// A step stands in a gap between two places of the tool, the likelier the wider that is.
+  /// A step lies in a gap between two places of the tool, with probability proportional to its
+  /// width.
   void add_steps(CauseId cause, std::vector<double> values) {
     const EffectParameter& place = *place_parameter(*cause.effect);
     const PlaceVariable variable = variable_of_place(*cause.effect, place);
@@ -211,7 +212,7 @@ class Builder {
   bool refined_ = false;
 };
 
-/// Why none of the observations can show this cause; empty where one can.
+/// Why none of the observations can show this cause; empty if one can.
 std::string untestable(const ObservationSet& session, CauseId cause) {
   std::string reason;
   for (const ObservationPart& part : session.parts) {

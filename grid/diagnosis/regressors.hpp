@@ -30,13 +30,13 @@ void add_regressors(const ObservationSet& session,
                     const std::vector<SizedCause>& known,
                     RegressorSystem& system);
 
-/// Regressors anew about another state, at their values. False where such a machine cannot be.
+/// Recomputes regressors about another state, at their values. False if such a machine cannot be.
 [[nodiscard]] bool renew_regressors(const ObservationSet& session,
                                     const State& state,
                                     const std::vector<Regressor>& regressors,
                                     RegressorSystem& system);
 
-/// The whitened column of an effect of these values; empty where such a machine cannot be.
+/// The whitened column of an effect of these values; empty if such a machine cannot be.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                                        const State& state,
                                                        const RegressorSystem& system,
@@ -48,17 +48,17 @@ void add_regressors(const ObservationSet& session,
 /// d(size)/d(coefficient) there.
 [[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
 
-/// Of a size: far enough for differences, near enough for a slope.
+/// Share of a size, for difference quotients.
 inline constexpr double kNearby = 0.95;
 
-/// The coefficient's power: how the signature grows from half the size to the whole one.
+/// The coefficient's power: the growth of the signature from half the size to the whole.
 [[nodiscard]] double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half);
 
-/// The same about a size that was found, `nearby` at kNearby of it. A signature that hardly grows any
-/// more leaves its size open; one that shrinks again has no power.
+/// As above about a fitted size, with `nearby` at kNearby of it. A signature that hardly grows
+/// leaves its size open; one that shrinks has no power.
 [[nodiscard]] double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby);
 
-/// Sets what the coefficient may be from the range of the size.
+/// Sets the coefficient's range from that of the size.
 void limit(Regressor& regressor);
 
 }  // namespace chaintrue::grid::diagnosis

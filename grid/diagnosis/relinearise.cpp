@@ -16,7 +16,7 @@ constexpr double kConvergedSettingMm = 1e-3;  // of a setting
 constexpr int kSteps = 5;                   // of the search for a size
 constexpr double kLongestStep = 0.5;        // of a size
 
-/// How far the places next to a regressor's own lie.
+/// Distance of the places next to a regressor's own.
 struct Reach {
   double below = 0.0;
   double above = 0.0;
@@ -35,7 +35,7 @@ Reach reach(const RegressorSystem& system, const Regressor& own) {
     if (step < 0.0 && (result.below == 0.0 || -step < result.below)) result.below = -step;
     if (step > 0.0 && (result.above == 0.0 || step < result.above)) result.above = step;
   }
-  // A wave has no first and no last phase.
+  // Phases are cyclic.
   result.below = std::max(result.below, result.above);
   result.above = result.below;
   return result;
@@ -55,7 +55,8 @@ class Round {
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
-  /// The size whose signature is as long, along the one at hand, as the coefficient asks for.
+  /// The size whose signature, projected on the current one, has the length that the coefficient
+  /// needs.
   [[nodiscard]] double size(std::size_t which) const {
     const Regressor& own = system_.regressors[which];
     const auto& bounds = own.cause.effect->parameters.front();
@@ -123,7 +124,7 @@ class Round {
     return own.dot(reduced(marginalised_, *g)) / own.squaredNorm();
   }
 
-  /// What is left for one regressor once the others have taken their share.
+  /// The residual for one regressor after projection on the others.
   class Others {
    public:
     Others(const Round& round, std::size_t which) : round_(round), which_(which) {
@@ -201,7 +202,8 @@ void relinearise(Analysis& a) {
       moved[k].values.front() = here.size(k);
       converged = converged && std::abs(moved[k].values.front() - own[k].values.front()) <
                                kConverged * std::abs(own[k].values.front());
-      // Beside a discrepancy the best of the places tried has to do: e has the discrepancy in it.
+      // With a discrepancy the best of the places tried is used, because e contains the
+      // discrepancy.
       if (has_continuous_place(own[k]) && discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
     }
@@ -214,7 +216,7 @@ void relinearise(Analysis& a) {
   a.known.clear();
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double first = system.regressor(a.decision.regressors[k]).values.front();
-    // A secant over next to nothing has no direction.
+    // A secant over a tiny size has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kConverged * std::abs(first))) continue;
     a.known.push_back({own[k].cause, own[k].values});
   }

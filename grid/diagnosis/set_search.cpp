@@ -16,15 +16,15 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kLeastSquare = 1e-8;
-/// Of what leads so many causes are taken out in turn.
+/// This many leading causes are projected out in turn.
 constexpr std::size_t kTakenOut = 3;
 
-/// What a column takes from e'e by itself, given its square and its inner product with e.
+/// The reduction of e'e by one column, given its square and its inner product with e.
 double taken_alone(const Regressor& regressor, double c, double square) {
   return regressor.fixed ? 2.0 * c - square : c * c / square;
 }
 
-/// Adds of each cause the places that explain most of `e`, so many.
+/// Adds the places of each cause that explain most of `e`.
 void add_best(const RegressorSystem& system,
               const Eigen::MatrixXd& g,
               const Eigen::VectorXd& e,
@@ -49,8 +49,7 @@ void add_best(const RegressorSystem& system,
   take();
 }
 
-/// The best of each cause's places, once the settings have taken their share, and once one of what
-/// leads has taken its own.
+/// The best of each cause's places, after projection on the settings, and also on a leading cause.
 std::vector<int> best_of_each_cause(const RegressorSystem& system,
                                     const MarginalisedSystem& marginalised,
                                     const ComparisonOptions& options,
@@ -149,8 +148,8 @@ class SetSearch::Search {
     return !d.fixed && parameters.size() > 1 && parameters.back().integer;
   }
 
-  /// Regressors worth their place: those of no whole number, but of what sets in at a visit the best
-  /// visits, and of the others the best, alone or once one of the leading regressors has taken its share.
+  /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
+  /// visits; of the others the best, alone or after projection on a leading regressor.
   [[nodiscard]] std::vector<int> columns() const {
     std::vector<int> kept;
     std::vector<int> fixed;
@@ -205,7 +204,7 @@ class SetSearch::Search {
     }
   }
 
-  /// Upper bound of a pair's weight but for what bounds and larger noise add.
+  /// Upper bound of a pair's weight, ignoring bounds and larger noise.
   [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const {
     const Regressor& a = regressor(i);
     const Regressor& b = regressor(j);
@@ -286,7 +285,7 @@ class SetSearch::Search {
   }
 
   void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& found) {
-    // What the parent leaves, and of each regressor: a score for the cost of one inner product.
+    // The parent's residual, and each regressor's: a score for the cost of one inner product.
     const linear::PivotedCholesky own(equations_.gg(parent, parent));
     const Eigen::MatrixXd across = equations_.gg(Eigen::all, parent);
     Eigen::VectorXd left = equations_.ge;

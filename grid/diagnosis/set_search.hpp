@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sets of causes that matter in one marginalised system: one and two at a time all of them,
-/// three and four at a time grown from the best, and the leading ones once more given a model
-/// discrepancy.
+/// Searches the relevant sets of causes in one marginalised system: all of one and two, three and
+/// four grown from the best, and the leading ones again given a model discrepancy.
 #pragma once
 
 #include <memory>
@@ -25,7 +24,7 @@ class SetSearch {
   SetSearch& operator=(SetSearch&&) noexcept;
 
   [[nodiscard]] std::vector<CandidateModel> run();
-  /// After run(). Of these kernels; sets what each was found to weigh.
+  /// Call after run(). For these kernels; sets their weights.
   [[nodiscard]] std::vector<CandidateModel> run_given_discrepancies(
       const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight);
   /// Largest weight so far.

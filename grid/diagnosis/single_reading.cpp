@@ -22,7 +22,7 @@ std::optional<MadeBy> made_by(const ObservationSet& session, const Stability& st
   for (const Removal& removal : stability.removals) {
     const bool one =
         removal.what == Removal::What::point || removal.what == Removal::What::distance;
-    // A name that is less sure without a reading is not made by it.
+    // Becoming less certain without a reading does not mean that the name depends on it.
     if (!one || !removal.causes.empty() || removal.probability >= kLikelierThanNot) continue;
     if (most == nullptr || removal.support > most->support) most = &removal;
   }

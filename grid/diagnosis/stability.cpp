@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestLines = 3;
 constexpr std::size_t kFewestOnLine = 3;  // on average
-/// Of the logarithm of odds where nothing else is left: as much as a double can hold.
+/// Log odds if nothing else is left: the largest that a double can represent.
 constexpr double kMostOdds = 700.0;
 
 /// Units that read the chains at one mark.
@@ -32,7 +32,7 @@ const model::MarkPoint& mark_of(const ObservationSet& session, std::size_t unit)
   return session.places[part.first_place + unit - part.first_unit].mark;
 }
 
-/// Runs of points along a coordinate; empty where the marks do not lie in lines.
+/// Runs of points along a coordinate; empty if the marks are not in lines.
 std::vector<LeftOut> lines_along(const ObservationSet& session,
                                  Removal::What what,
                                  double model::MarkPoint::*coordinate) {
@@ -59,7 +59,7 @@ void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
   append_all(groups, more);
 }
 
-/// Each distance, and each hole with all distances that end there.
+/// Each distance, and each hole with all its distances.
 void add_distances_and_holes(const ObservationSet& session, std::vector<LeftOut>& groups) {
   std::vector<LeftOut> distances;
   std::vector<LeftOut> holes;
@@ -81,7 +81,7 @@ void add_distances_and_holes(const ObservationSet& session, std::vector<LeftOut>
   add_by_index(std::move(holes), groups);
 }
 
-/// Whether a model has what the verdict says: every cause named, or one of the set.
+/// Whether a model agrees with the verdict: every cause named, or one of the set.
 class Statement {
  public:
   explicit Statement(const Analysis& a) : a_(a) {}

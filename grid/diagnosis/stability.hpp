@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Does the name hang on a few of the readings? The comparison decided again without each point and
-/// each column and row of marks, without each distance and each hole with all that ends there.
+/// Whether the name depends on a few readings: the decision is repeated without each point, each
+/// column and row of marks, each distance, and each hole with its distances.
 ///
 /// A column is a run of marks whose x differ by less than kLineGapMm from one to the next; there
 /// are columns where at least three such runs hold three points each on average. Rows the same in
-/// y. A name stands where it is still given: alone, among several causes, or first in a set; a set
-/// stands where its first cause is still in it.
+/// y. A name holds if it is still given: alone, among several causes, or first in a set; a set
+/// holds if its first cause is still in it.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Marks of one line lie no further apart across it; marks this near to each other are one mark.
+/// Marks of one line are within this distance across it; marks this close are one mark.
 inline constexpr double kLineGapMm = 25.0;
 
-/// Units left out together (positions in the session), with what they are.
+/// A group of units that are left out together (positions in the session).
 struct LeftOut {
   Removal::What what = Removal::What::point;
   std::size_t index = 0;  ///< of a point, a distance or a hole, among those of all files
@@ -37,13 +37,12 @@ struct LeftOut {
 /// Empty where the analysis names nothing.
 [[nodiscard]] std::optional<Stability> examine_stability(const Analysis& analysis);
 
-/// What was left out and what became of the name, in a sentence or two. Precondition: the diagnosis
+/// A sentence or two: what was left out, and the effect on the name. Precondition: the diagnosis
 /// has a stability.
 [[nodiscard]] std::string stability_in_words(const Diagnosis& diagnosis);
 /// Points without each of which the verdict would not name the same (indices into the grid's).
 [[nodiscard]] std::vector<std::size_t> influential_points(const Diagnosis& diagnosis);
-/// What the name rests on: " The name rests on point 17: without it ...", or nothing where it
-/// stands.
+/// " The name rests on point 17: without it ...", or nothing if it holds.
 [[nodiscard]] std::string influence_in_words(const Diagnosis& diagnosis);
 
 /// A lasting cause acts on more than one reading: a name that a single one makes is refused.

@@ -12,7 +12,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Points of which the numbers are given; of more their count and the first of them.
+/// Up to this many points are listed; for more, their count and the first ones.
 constexpr std::size_t kMostNumbers = 5;
 constexpr double kBeyondDoubt = 0.995;
 
@@ -135,7 +135,7 @@ std::string influence_in_words(const Diagnosis& diagnosis) {
   const auto points = influential_points(diagnosis);
   for (const Kind& kind : kKinds) {
     auto changes = of_kind(*diagnosis.stability, kind.what, true);
-    // A line is worth a word where it is not one point of it alone.
+    // A line is mentioned only if not a single point of it is responsible.
     std::erase_if(changes, [&](const Removal* removal) {
       return any_of(points, [&](std::size_t point) { return lies_on(diagnosis, *removal, point); });
     });

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a sorted list is cut, what scores equally goes the same way.
-///
-/// Two phases of a wave half a turn apart have the same column but for its sign, and score equally but for rounding. Were
-/// the list cut between them, the last bit of a sine would say which of the two signs is tried.
+/// Cuts sorted lists without splitting ties. Two phases of a wave half a turn apart have the same
+/// column up to its sign and score equally up to rounding; a cut between them would depend on the
+/// last bit of a sine.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +11,13 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Scores are squares of sigmas or logarithms of odds: rounding moves them by 1e-10, and a millionth tells nothing apart.
+/// Scores are squares of sigmas or logarithms of odds: rounding changes them by 1e-10, and a
+/// difference of a millionth is irrelevant.
 inline constexpr double kTied = 1e-6;
 
 [[nodiscard]] inline bool tied(double a, double b) { return std::abs(a - b) < kTied; }
 
-/// Of a list sorted by score: the first `most`, and what ties with the last of these.
+/// The first `most` of a list sorted by score, and those that tie with the last.
 template <typename List, typename Score>
 [[nodiscard]] std::size_t count_with_ties(const List& sorted,
                                           std::size_t most,

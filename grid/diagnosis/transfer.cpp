@@ -39,7 +39,7 @@ class Placed {
   RegressorSystem sheet_;  ///< the sheet's settings are all that is free
 };
 
-/// What a model of the first session leaves of the second, its sheet not yet placed.
+/// Residuals of the second session with the first one's model, before placing its sheet.
 Eigen::VectorXd left_of(const Analysis& a,
                         const Estimate& model,
                         const ObservationSet& to,
@@ -102,7 +102,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                   const MeasuredGrid& to) {
   const auto first = observations_of(from);
   if (!first) return tl::unexpected(first.error());
-  // The second grid is taken as measured by the first one's machine, whatever its file says.
+  // The second grid is treated as measured with the first one's machine, regardless of its file.
   MeasuredGrid other = to;
   other.machine = from.machine;
   if (!other.noise) {
@@ -117,7 +117,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   const auto analysis = analyse(*first, options);
   if (!analysis) return tl::unexpected(analysis.error());
   const Analysis& a = *analysis;
-  // The other sheet was placed for itself.
+  // The other sheet was placed separately.
   State state{a.state.machine, std::vector<model::SheetPlacement>(second->sheets)};
   if (first->sheets == second->sheets) state.sheets = a.state.sheets;
   const auto system = linearise(*second, state);

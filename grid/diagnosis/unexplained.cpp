@@ -22,7 +22,7 @@ std::string_view name(Enters enters) {
 
 namespace {
 
-/// What most of the weight must say before it is said.
+/// Share of the weight that must agree before it is reported.
 constexpr double kMost = 0.5;
 
 Enters entry_of(const DiscrepancyKernel& kernel) {
@@ -49,7 +49,7 @@ Coordinate argument_of(const DiscrepancyKernel& kernel) {
   return of_one ? first : Coordinate::place;
 }
 
-/// Length of a field on the bed: of an angle or a pull by how much of it the bed holds.
+/// Length of a field on the bed; for an angle or a pull converted by its range over the bed.
 double length_on_bed_mm(const Analysis& a, const DiscrepancyField& field) {
   if (unit_of(field.of) == "mm" || field.of == Coordinate::visit) return field.length;
   std::vector<double> values;
@@ -65,7 +65,7 @@ double length_on_bed_mm(const Analysis& a, const DiscrepancyField& field) {
   return field.length * range(x) / std::max(range(values), 1e-12);
 }
 
-/// What the weight of all models with a discrepancy says of it.
+/// The discrepancy's properties by the weight of all models with one.
 struct Said {
   std::map<Coordinate, double> of;
   std::map<Enters, double> enters;
@@ -107,7 +107,7 @@ double mean_square_mm2(const Analysis& a, const Eigen::VectorXd& whitened) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// What the discrepancy of the decision makes of all rows, and its length in noise.
+/// The decision's discrepancy in all rows, and its length in units of noise.
 struct Pattern {
   Eigen::VectorXd rows;
   double signal_to_noise = 0.0;
@@ -149,9 +149,9 @@ namespace {
 constexpr double kSmoothMm = 450.0;  // length over which a discrepancy is looked for
 constexpr int kLeftOverDraws = 999;
 constexpr int kDegree = 4;
-/// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
+/// Share of the residual that a coordinate must explain, beyond what its terms explain by chance.
 constexpr double kFollowsShare = 0.2;
-/// Of what no place explains, so much must follow the visits before they are named.
+/// Share of what no place explains that must follow the visits before they are named.
 constexpr double kTimeOverPlace = 0.3;
 
 /// X in units of what each unknown may be beforehand.
@@ -171,9 +171,8 @@ Eigen::MatrixXd design_of(const Analysis& a) {
   return design;
 }
 
-/// What a fit leaves of noise, a column a draw: residuals have passed through the fit that made them, so the noise
-/// that they are held against has to pass through it too. The nuisances' share is put back, as left_of_machine()
-/// does.
+/// Noise after a fit, one column per draw: residuals come out of a fit, so the noise that they are
+/// compared with must too. The nuisances' share is put back, as left_of_machine() does.
 ///
 ///   y = B diag(s) u + z,  u and z standard normal;   r = y - X (X'X + P)^-1 X' y
 ///
@@ -201,8 +200,7 @@ Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream
   return z;
 }
 
-/// e'K e / e'e against what a fit leaves of noise: is there more in common between neighbours than
-/// chance has?
+/// e'K e / e'e against fitted noise: are neighbours more alike than by chance?
 double p_of_structure(const Analysis& a) {
   const KeptRows& kept = marginalised_system(a).kept;
   Eigen::MatrixXd e(kept.size(), kLeftOverDraws + 1);
@@ -225,7 +223,7 @@ double p_of_structure(const Analysis& a) {
   return (as_double(above) + 1.0) / (kLeftOverDraws + 1.0);
 }
 
-/// Of coordinates that explain the same, the first is named.
+/// If coordinates explain the same, the first is named.
 constexpr Coordinate kAlong[] = {Coordinate::angle_left,
                                  Coordinate::angle_right,
                                  Coordinate::length_left,
@@ -236,8 +234,8 @@ constexpr Coordinate kAlong[] = {Coordinate::angle_left,
                                  Coordinate::y,
                                  Coordinate::visit};
 
-/// Share of the square of what is left that a quartic along the coordinate takes in either chain,
-/// less what as many terms take of noise.
+/// Share of the squared residual that a quartic along the coordinate explains in either chain,
+/// minus what as many terms explain of noise.
 double share_along(const Analysis& a, Coordinate coordinate) {
   const std::vector<bool>& outliers = marginalised_system(a).outliers;
   std::vector<double> t;

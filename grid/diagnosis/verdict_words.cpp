@@ -11,12 +11,12 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// What a kind of readings and its machine are called.
+/// Words for a kind of readings and its machine.
 struct Vocabulary {
-  std::string_view readings;   ///< that do not tell causes apart
+  std::string_view readings;   ///< that do not distinguish causes
   std::string_view one_each;   ///< of which some are bad
   std::string_view bad;        ///< before the bad ones' names
-  std::string_view capital;    ///< of what shows what fits
+  std::string_view capital;    ///< before "show what fits"
   std::string_view undecided;  ///< before "tell it from this"
   std::string_view besides;
   std::string_view whole;  ///< what fits without outliers
@@ -30,7 +30,7 @@ constexpr std::string_view kRivalOfBelts =
     "nearest one "
     "that it has";
 
-/// By Observations.
+/// Indexed by Observations.
 constexpr Vocabulary kVocabularies[] = {{"points",
                                          "points",
                                          "number ",

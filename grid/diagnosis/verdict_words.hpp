@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sentences of a verdict that every machine shares, in the vocabulary of the machine at hand. Private to
-/// grid/diagnosis.
+/// The sentences of a verdict that all machines share, in the current machine's vocabulary. Private
+/// to grid/diagnosis.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// "Most likely ...", "One of 2 causes ...", "3 causes act together ...", and the pattern beside them. Empty where the
-/// verdict names no cause.
+/// "Most likely ...", "One of 2 causes ...", "3 causes act together ...", and the pattern beside
+/// them. Empty if the verdict names no cause.
 [[nodiscard]] std::string causes_in_words(const Diagnosis& diagnosis);
 
-/// That the readings follow the law that is claimed, and what it changes of what is named; empty where none is claimed.
+/// The claimed law and its effect on the names; empty if none is claimed.
 [[nodiscard]] std::string claimed_law_in_words(const Diagnosis& diagnosis);
 
-/// The outliers, one each.
+/// A sentence for each outlier.
 [[nodiscard]] std::vector<std::string> outliers_in_words(const Diagnosis& diagnosis);
-/// That nothing but these is wrong.
+/// The sentence that only these are wrong.
 [[nodiscard]] std::string only_outliers_in_words(const Diagnosis& diagnosis);
 
-/// What a verdict proves no more.
+/// What a verdict does not prove.
 [[nodiscard]] std::string not_proved_in_words(const Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An order of visits that nobody wrote down, found from the readings.
+/// An order of visits that was not recorded, estimated from the readings.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ namespace chaintrue::grid::diagnosis {
 
 struct VisitingOrderFound {
   VisitingOrder order;  ///< the likeliest
-  /// Of this order; where the corner is not known, of its lines and way from any corner.
+  /// Probability of this order; if the corner is unknown, of its lines and direction from any
+  /// corner.
   double probability = 0.0;
   bool corner_known = true;
 };

@@ -12,7 +12,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// What is held out: distances where no chain was read at marks.
+/// The held-out quantity: distances if no chain was read at marks.
 bool speaks_of_distances(const Diagnosis& d) { return d.observations == Observations::distances; }
 
 std::string improvement_words(const Diagnosis& d) {
@@ -58,7 +58,7 @@ std::string unknown_words(const Diagnosis& d) {
   return text + ".";
 }
 
-/// "zero left (0.00 mm set, 23.08 +- 1.99 found)", of each that is off.
+/// "zero left (0.00 mm set, 23.08 +- 1.99 found)", for each that is off.
 std::vector<std::string> settings_off(const Diagnosis& d) {
   std::vector<std::string> off;
   if (!d.drawing) return off;
@@ -141,7 +141,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
   return nothing_words(d, units);
 }
 
-/// Before a part is changed for the sake of one reading, that is read again.
+/// Before changing a part because of one reading, repeat the reading.
 void say_what_to_read_again(Diagnosis& d) {
   const std::vector<std::size_t> points = influential_points(d);
   if (points.size() != 1) return;
@@ -153,7 +153,6 @@ void say_what_to_read_again(Diagnosis& d) {
       fmt::format("Measure point {} again first: the answer depends on it.", points.front() + 1));
 }
 
-/// Settings of a plotter that are off.
 void say_what_to_type(Diagnosis& d) {
   if (settings_off(d).empty() || d.what_to_do.size() >= 3) return;
   d.what_to_do.emplace_back(
@@ -212,7 +211,7 @@ void say_what_to_do(Diagnosis& d) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
         "it.");
-    // Whose it is no further mark on the same sheet can tell.
+    // More marks on the same sheet cannot tell whose error it is.
     d.what_to_do.emplace_back(
         "Turn the sheet by half, or set it out with another tape, and measure again: an error that "
         "turns with it is the sheet's or the tape's; one that stays is the machine's; one that is "

@@ -20,9 +20,9 @@ struct Unit {
   std::string_view parameter;
   double factor;
   std::string_view words;  ///< {} the number
-  /// Of a negative value, {} its absolute value; empty where `words` bear a sign.
+  /// For a negative value, {} its absolute value; empty if `words` show the sign.
   std::string_view negative{};
-  std::string_view one{};  ///< of 1 and -1, where a noun is counted
+  std::string_view one{};  ///< for 1 and -1, if a noun is counted
 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -90,14 +90,14 @@ constexpr std::array kCordUnits = {
     UnitOfEffect{"", {"teeth", 1.0, "{} teeth", "", "{} tooth"}},
 };
 
-/// To its first two digits.
+/// Rounded to two digits.
 double two_digits(double value) {
   if (value == 0.0) return 0.0;
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
   return step * std::round(value / step);
 }
 
-/// As many digits as the sigma bears: its first two; of a value without one, its own first two.
+/// Rounded to the sigma's first two digits; a value without a sigma to its own.
 std::string with_sigma(double value, double sigma) {
   if (!(sigma > 0.0)) return fmt::format("{:g}", two_digits(value));
   const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6);
@@ -142,7 +142,7 @@ std::string in_workshop_units(const ParameterEstimate& estimate) {
 }
 
 std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& estimate) {
-  // What the name of a declared effect's parameter means, only its owner knows.
+  // The meaning of a declared effect's parameter is known only to its author.
   if (cause.effect->law != nullptr)
     return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
   std::span<const UnitOfEffect> of_mechanism = kSledUnits;

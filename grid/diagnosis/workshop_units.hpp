@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Numbers as a person in a workshop says them.
+/// Numbers in workshop units and words.
 #pragma once
 
 #include <string>
@@ -20,14 +20,14 @@ struct NameAndUnit {
 
 /// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and its unit.
 [[nodiscard]] std::string in_workshop_units(const ParameterEstimate& estimate);
-/// The same of an effect: an elongation of links, or of a belt.
+/// As above for an effect: an elongation of links, or of a belt.
 [[nodiscard]] std::string in_workshop_units(const CauseId& cause,
                                             const ParameterEstimate& estimate);
 
-/// Of all its parameters, parted by commas.
+/// All its parameters, separated by commas.
 [[nodiscard]] std::string sizes_in_words(const CauseId& cause,
                                          const std::vector<ParameterEstimate>& parameters);
-/// A cause with its side, and its sizes in brackets where it has any.
+/// A cause with its side, and its sizes, if any, in brackets.
 [[nodiscard]] std::string sized(const CauseId& cause,
                                 const std::vector<ParameterEstimate>& parameters);
 /// "1.2 mm too short"
@@ -36,11 +36,11 @@ struct NameAndUnit {
 /// "the angle of the left chain" for angle_left.
 [[nodiscard]] std::string coordinate_words(std::string_view coordinate);
 
-/// " on the left", " along x": after a cause; empty where it has no side.
+/// " on the left", " along x": after a cause; empty if it has no side.
 [[nodiscard]] std::string side_words(const CauseId& cause);
 
-/// What to do about these causes, in their order. Causes of several sides that ask for the same share a line, which
-/// says the sides.
+/// What to do about these causes, in their order. Causes on several sides with the same remedy
+/// share a line that lists the sides.
 [[nodiscard]] std::vector<std::string> remedies(const std::vector<Cause>& causes);
 
 /// "87 %", "99.6 %", "above 99.9 %": a probability, the same in sentences and in tables.
