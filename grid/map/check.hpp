@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a check by new readings finds, whatever hangs: is what was calibrated still valid, does
-/// re-zeroing mend it, or must it be measured again.
+/// The result of a check by new readings, for any mechanism: whether the calibration is still
+/// valid, re-zeroing restores it, or it must be measured again.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ namespace chaintrue::grid {
 enum class CheckVerdict { valid, valid_after_rezeroing, measure_again };
 [[nodiscard]] std::string_view name(CheckVerdict verdict);
 
-/// Of a smooth change that none of the hypotheses is, and of a reading that is simply wrong.
+/// Prior sigmas of a smooth change that no hypothesis covers, and of a wrong reading.
 inline constexpr double kUnknownSigmaMm = 3.0;
 inline constexpr double kOutlierSigmaMm = 20.0;
-/// A verdict with less needs more readings.
+/// A verdict with a lower probability needs more readings.
 inline constexpr double kDecided = 0.8;
 
 /// How far a quantity has changed.
@@ -31,10 +31,10 @@ struct QuantityFound {
   double sigma = 0.0;  ///< 0 where `of` states the value
 };
 
-/// What may have changed: nothing, a change of the mechanism's, unknown, or a bad point.
+/// A hypothesis: nothing changed, a change of the mechanism, an unknown change, or a bad point.
 struct CheckHypothesis {
   model::Change what = model::Change::nothing;
-  std::string side;  ///< of what, in words of files; empty: of the whole
+  std::string side;  ///< the identifier in files; empty: the whole
   CheckVerdict verdict = CheckVerdict::valid;
   double probability = 0.0;
   /// Teeth skipped, positive where too much is read; of a bad point its number, from 0.
@@ -42,15 +42,15 @@ struct CheckHypothesis {
   std::string name = {};  ///< of a bad point: "point 3"
   std::vector<QuantityFound> found = {};
 
-  /// What is read too much of a length, with its sigma, and by what share it has grown; 0 where the
-  /// hypothesis has none.
+  /// Excess of a length's reading with its sigma, and its relative growth; 0 if the hypothesis has
+  /// none.
   [[nodiscard]] QuantityFound added(std::size_t length) const;
   [[nodiscard]] QuantityFound elongation(std::size_t length) const;
-  /// Of the only quantity, or the root of the sum of squares.
+  /// For the only quantity, or the root of the sum of squares.
   [[nodiscard]] double size() const;
 };
 
-/// How far one new reading is from what was calibrated, in its own numbers.
+/// The deviation of one new reading from the calibration.
 struct CheckResidual {
   std::string name;  ///< "point 3, left chain", "A-B"
   double residual_mm = 0.0;
@@ -73,17 +73,17 @@ struct Check {
   /// False: the verdict has less than kDecided, more readings are needed.
   bool decided = true;
   std::vector<CheckHypothesis> hypotheses;  ///< most probable first
-  /// The zeros as calibrated with the most probable re-zeroing put in, a length each; of a map
-  /// without a machine they count from nothing. Empty where zeros are no numbers that are set.
+  /// The calibrated zeros after the most probable re-zeroing, one for each length; relative to 0
+  /// for a map without a machine. Empty if zeros are not settings.
   std::vector<double> new_zero_mm;
   std::vector<CheckResidual> residuals;
   std::vector<CheckUnit> units;  ///< in the order of the file
   std::string sentence;
-  /// What these readings cannot tell apart; empty where all is clear.
+  /// What these readings cannot distinguish; empty if nothing.
   std::string not_separable;
-  /// What was taken out of the readings, and what could not be; whole sentences.
+  /// Sentences: the corrections of the readings, and those that could not be made.
   std::vector<std::string> notes;
-  /// All of it is of the map for other settings than its own (check_settings.hpp).
+  /// The result is for the map with other settings than its own (check_settings.hpp).
   bool settings_have_changed = false;
   [[nodiscard]] bool is_valid_as_it_is() const {
     return decided && verdict == CheckVerdict::valid && !settings_have_changed;
@@ -95,8 +95,8 @@ enum class CheckReason {
   no_machine,   ///< commands without a controller
   no_lengths,   ///< a command that its controller cannot reach, or points without lengths
   unreachable,  ///< a place off the map, or where its machine cannot hold the tool
-  no_noise,     ///< nothing says how well new readings should agree
-  nowhere,      ///< lengths that end nowhere together
+  no_noise,     ///< the accuracy of new readings is unknown
+  nowhere,      ///< the lengths do not meet
 };
 using CheckFailure = Failure<CheckReason>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Notation as in the header; q, the changed quantities of a hypothesis.
+/// Notation as in the header; q are the changed quantities of a hypothesis.
 #include "grid/map/check_evidence.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using QuantityKind = model::ChangedQuantity::Kind;
 
-/// A hypothesis before it has met the residuals.
+/// A hypothesis before fitting.
 struct Proposal {
   CheckHypothesis hypothesis;
   double prior = 0.0;
@@ -27,7 +27,7 @@ struct Proposal {
   std::vector<std::size_t> quantity_of_q;
 };
 
-/// What a unit of a quantity adds to the residuals.
+/// The effect of a unit of a quantity on the residuals.
 Eigen::VectorXd column_of(const CheckReadings& readings, const model::ChangedQuantity& quantity) {
   if (quantity.kind == QuantityKind::parameter)
     return readings.by_parameter.col(as_index(quantity.parameter));
@@ -74,7 +74,7 @@ Proposal plain(model::Change what, CheckVerdict verdict, double prior) {
   return proposal;
 }
 
-/// Every hypothesis that the readings allow for.
+/// All hypotheses for these readings.
 std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   const model::ChangePriors& prior = model::kChangePriors;
   std::vector<Proposal> all;
@@ -93,8 +93,8 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   return all;
 }
 
-/// K with what every place may have changed by itself: kUnknownSigmaMm of each length. A place that
-/// one unit alone sees adds to that unit's noise; the others' readings share it.
+/// K plus an independent change at every place: kUnknownSigmaMm for each length. A place of a
+/// single unit adds to that unit's noise; other places are shared.
 ReadingCovariance with_unknown(const CheckReadings& readings) {
   ReadingCovariance k = readings.covariance;
   std::vector<std::size_t> unit_of;
@@ -134,7 +134,7 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
 }
 
 /// log of evidence times prior of each proposal, K being factored once. A hypothesis adds a few
-/// directions U, or makes one unit say nothing:
+/// directions U, or removes one unit's information:
 ///   x' (K + U U')^-1 x = x' K^-1 x - x' K^-1 U M^-1 U' K^-1 x,  |K + U U'| = |K| |M|,
 ///   M = I + U' K^-1 U     (W)
 class Evidence {
@@ -152,7 +152,7 @@ class Evidence {
     }
   }
 
-  /// The posterior of q goes into the hypothesis; `unit` is which one is bad, of such a hypothesis.
+  /// Stores the posterior of q; `unit` is the bad one, if that is the hypothesis.
   [[nodiscard]] double weigh(Proposal& proposal, std::size_t unit) const {
     const double prior = std::log(proposal.prior);
     if (proposal.hypothesis.what == model::Change::unknown) return prior + of_unknown();
@@ -169,13 +169,13 @@ class Evidence {
     return -log_root - 0.5 * (n + nu) * std::log1p(square / nu);
   }
 
-  /// Every place may have changed by itself.
+  /// Every place may have changed independently.
   [[nodiscard]] double of_unknown() const {
     const FactoredCovariance all(with_unknown(readings_));
     return log_density(all.log_root_det(), all.conditioned(readings_.residual_mm).squaredNorm());
   }
 
-  /// The readings of a unit say nothing: kOutlierSigmaMm is added to their noise.
+  /// A bad unit: kOutlierSigmaMm is added to its noise.
   [[nodiscard]] double of_bad_unit(std::size_t unit) const {
     const Eigen::MatrixXd& precision = precision_[unit];
     Eigen::MatrixXd m = kOutlierSigmaMm * kOutlierSigmaMm * precision;
@@ -205,7 +205,7 @@ class Evidence {
     return value + take_posterior(proposal, q, covariance);
   }
 
-  /// Fills the hypothesis; what a quantity that only grows adds to the evidence.
+  /// Fills the hypothesis; returns the addition to the evidence for a quantity that can only grow.
   static double take_posterior(Proposal& proposal,
                                const Eigen::VectorXd& q,
                                const Eigen::MatrixXd& covariance) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The evidence of new readings for each hypothesis of what has changed, whatever hangs and however
-/// it was read. Private to grid.
+/// The evidence of new readings for each hypothesis of a change, for any mechanism and kind of
+/// reading. Private to grid.
 ///
 /// Each hypothesis predicts the residuals r (measured less what was calibrated) with a covariance
 ///
 ///   K + X P X',   K = N + S S' + F F' of reading_covariance.hpp                              (1)
 ///
-/// X is what the changed quantities do to r, P their covariance beforehand. F F' is what the
-/// calibration does not know of itself. Where the size of the noise is known
+/// X is what the changed quantities do to r, P their covariance beforehand. F F' is the covariance
+/// of the calibration. If the size of the noise is known
 ///
 ///   log p = -1/2 log|V| - 1/2 r' V^-1 r,                V = K + X P X'                        (2)
 ///
@@ -16,8 +16,8 @@
 ///
 ///   log p = -1/2 log|V| - (n + nu)/2 log(1 + r' V^-1 r / nu)                                  (3)
 ///
-/// Probabilities follow by Bayes' theorem from those stated beforehand. Of a quantity that only grows
-/// half of its Gaussian counts (2 Phi(mean / sigma) of its posterior).
+/// Probabilities follow from the priors by Bayes' theorem. For a quantity that can only grow half
+/// of its Gaussian counts (2 Phi(mean / sigma) of its posterior).
 ///
 /// Sources: D. MacKay, Information Theory, Inference, and Learning Algorithms (2003), chapter 28, for
 /// evidences; A. O'Hagan and J. Forster, Bayesian Inference (2004), section 11.3, for (3).

@@ -28,7 +28,7 @@ using model::MarkPoint;
 
 using Reason = CheckFailure::Reason;
 
-/// A sheet that is said to lie exactly is held by these: an inverse of nothing has no value.
+/// Sigmas for a sheet with an exact placement: zero has no inverse.
 constexpr double kLeastShiftMm = 1e-6;
 constexpr double kLeastTurnRad = 1e-9;
 
@@ -47,7 +47,7 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
   return result;
 }
 
-/// Readings of one distance: their mean, weighted by what each is worth.
+/// Readings of one distance: their weighted mean.
 MeasuredHoles merged(const MeasuredHoles& set) {
   std::map<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>>, std::size_t> at;
   MeasuredHoles result = set;
@@ -82,7 +82,7 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
                   most));
 }
 
-/// Lays the sheet where the readings put it, as far as its prior lets them, and the marks with it.
+/// Places the sheet and its marks by the readings and its prior.
 void lay(const CompensationMap& map, CheckedPart& part) {
   const auto on_map = [](const model::SheetPlacement& sheet, MarkPoint mark) {
     const model::BedPoint place = sheet.to_bed(mark);
@@ -116,7 +116,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                                                      const MeasuredGrid& grid) {
   MeasuredGrid with_machine = grid;
   if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
-  // A map is free of what belongs to the paper and to the visit: so must be what is held against it.
+  // A map excludes effects of the paper and of the visit, so the readings must too.
   const auto corrected = corrected_data(with_machine);
   if (!corrected) {
     return failed(corrected.error().reason == FitFailure::Reason::no_lengths ? Reason::no_lengths
@@ -163,7 +163,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
     part.marks.push_back(*mark);
   }
   part.distances = *std::move(distances);
-  // Edges are those of a sheet of its own; distances between holes do not move with it.
+  // Edges belong to their sheet; distances between holes do not depend on it.
   if (any_of(set.distances,
              [](const HoleDistance& distance) { return distance.edge.has_value(); })) {
     part.sheet = observation::SheetPrior{observation::kSheetShiftMm, observation::kSheetTurnRad};
@@ -204,7 +204,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   const auto count = std::ssize(marks);
   MapAt at;
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
-  // A lattice's doubt is no linear function of the unknowns: its points stand for themselves.
+  // A lattice's uncertainty is not linear in the unknowns, so its points are used directly.
   const bool is_joint = surface != nullptr && !surface->lattice;
   at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
   Eigen::MatrixXd design(2 * count, is_joint ? surface->columns.total() : 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// New points of one file as a check of a map takes them: without repeats, without what belongs to the
-/// paper and to the visit, and laid on the map. Private to grid/map.
+/// New points of one file for the check of a map: without repeats and effects of the paper and the
+/// visit, and placed on the map. Private to grid/map.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,22 +18,22 @@
 
 namespace chaintrue::grid {
 
-/// A file of more would take more than some ten seconds, docs/reliability.md.
+/// More would take over some ten seconds (docs/reliability.md).
 inline constexpr std::size_t kMostCheckedPoints = 20000;
 inline constexpr std::size_t kMostCheckedDistances = 20000;
 inline constexpr std::size_t kMostCheckedHoles = 500;
 
-/// No reading of a workshop is nearer.
+/// No workshop reading is more accurate.
 inline constexpr double kLeastVarianceMm2 =
     observation::kKnownNuisanceMm * observation::kKnownNuisanceMm;
 
-/// Readings at one mark are as good as their mean.
+/// Readings at one mark are replaced by their mean.
 struct Repeated {
   LengthPoint point;  ///< the first of them, with the mean of all lengths
   double count = 0.0;
 };
 
-/// The new points of one file: where they are on the map, and what they say there.
+/// The new points of one file: their positions on the map, and their readings.
 struct CheckedPart {
   std::vector<model::MarkPoint> marks;  ///< on the map
   /// Of a sheet that was laid anew: how well, and where the readings put it in the map's frame. All
@@ -48,22 +48,22 @@ struct CheckedPart {
 
 [[nodiscard]] tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                                                                    const MeasuredGrid& grid);
-/// Holes lie where the map puts what their controller paid out.
+/// Holes are where the map puts the lengths that their controller paid out.
 [[nodiscard]] tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                                                                    const MeasuredHoles& set);
 
-/// The map at N places of new readings: d(lengths)/d(mark), and what it does not know of its lengths there: F F',
-/// all places together, or each for itself.
+/// The map at N places of new readings: d(lengths)/d(mark), and the covariance F F' of its lengths,
+/// jointly or for each place.
 struct MapAt {
   std::vector<model::ChainLengths> lengths;
   std::vector<Eigen::Matrix2d> by_mark;
   Eigen::MatrixXd factor;                   ///< F, 2 N x any
-  std::vector<Eigen::Matrix2d> covariance;  ///< of each place; empty where F has it
-  /// 2 N x p, by the settings of the machine; no columns of a map without one.
+  std::vector<Eigen::Matrix2d> covariance;  ///< of each place; empty if F has it
+  /// 2 N x p, by the settings of the machine; no columns for a map without one.
   Eigen::MatrixXd by_parameter;
 };
 
-/// Fails where the map has no answer at a mark, or its machine no pose.
+/// Fails if the map has no answer at a mark, or its machine no pose.
 [[nodiscard]] tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
                                                        const std::vector<model::MarkPoint>& marks,
                                                        const Progress& progress = {});

@@ -131,7 +131,7 @@ class Gathered {
     shared_columns_ += 3;
   }
 
-  /// What one end of a distance sees of the chains at its hole, and of the hole's own error.
+  /// The effect of the chains at a hole, and of the hole's error, on one end of a distance.
   void add_hole(const observation::DistanceGeometry& geometry,
                 const MeasuredHoles& set,
                 Eigen::Index at_row,
@@ -140,7 +140,7 @@ class Gathered {
                 std::size_t hole) {
     const auto column = 2 * as_index(hole);
     const Eigen::RowVector2d by_mark = geometry.by_mark.block<1, 2>(distance, column);
-    // More read on a chain than the map says for the same place: the tool is nearer to that motor.
+    // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
     const Eigen::RowVector2d by_length = -by_mark * at_.by_mark[first + hole].inverse();
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
       by_length_.emplace_back(at_row, 2 * as_index(first) + column + axis, by_length[axis]);
@@ -148,7 +148,7 @@ class Gathered {
           at_row, shared_columns_ + column + axis, set.hole_sigma_mm * by_mark[axis]);
     }
     if (at_.covariance.empty()) return;
-    // The map's own doubt at the hole, which all of its distances share.
+    // The map's uncertainty at the hole, which all of its distances share.
     const Eigen::Matrix2d root = Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
     const Eigen::RowVector2d found = by_length * root;
     const auto holes = 2 * std::ssize(set.holes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// New points held against a compensation map: residuals, their covariance, and what a change of the
-/// chains does to them. Private to grid.
+/// New points compared with a compensation map: residuals, their covariance, and the effect of a
+/// change of the chains. Private to grid.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -13,9 +13,9 @@
 
 namespace chaintrue::grid {
 
-/// Of all files together: what the map does not know of itself they share. Readings at one and the
-/// same mark, and of one and the same distance in one file, count as their mean: it says as much
-/// of the map as they do. Fails where there are too many (check_parts.hpp), before any work.
+/// For all files together, since they share the map's uncertainty. Repeated readings at a mark, or
+/// of a distance in one file, are replaced by their mean, which is as informative. Fails before any
+/// work if there are too many (check_parts.hpp).
 [[nodiscard]] tl::expected<CheckReadings, CheckFailure> check_readings(
     const CompensationMap& map, const Measured& measured, const Progress& progress = {});
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A check whose points were commanded with other settings than the map is for: do numbers that were typed
-/// in, or were not, and no change of the machine, explain what it found?
+/// A check whose points were commanded with settings other than the map's: do settings that were
+/// typed in, or were not, explain the result instead of a change of the machine?
 ///
 /// The points' chain lengths are what the controller has paid out for their commands, so each set of
-/// settings makes readings of its own. All are held against the same map; with n readings and
+/// settings makes readings of its own. All are compared with the same map; with n readings and
 ///
 ///   chi2 = sum_i (r_i / sigma_i)^2                                                          (1)
 ///
-/// the settings have changed where they take at least kFarBetter off chi2 and leave a valid map. Of m numbers
-/// that differ all, or any part of them, may be the other ones. A part has to gain 2 log(2^m - 2) more: there
-/// are so many of them, and together they are as likely beforehand as all numbers are.
+/// the settings have changed if they reduce chi2 by at least kFarBetter and leave a valid map. Of m
+/// different numbers all or some may have changed. A part has to gain 2 log(2^m - 2) more, because
+/// all parts together have the prior of the full change.
 #pragma once
 
 #include <optional>
@@ -31,8 +31,8 @@ struct ChangedSettings {
   double with_these_mm = 0.0;
 };
 
-/// `found` is what the check of `map` against `measured` says. Nothing where its own settings serve,
-/// where none of the others explain the points, or where no point gives a command.
+/// `found` is the check of `map` against `measured`. Empty if its own settings fit, if no others
+/// explain the points, or if no point gives a command.
 [[nodiscard]] std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
                                                               const Measured& measured,
                                                               const model::ControllerSettings& others,

@@ -21,7 +21,7 @@ void decide(Check& check) {
   const auto best = max_element(check.probability);
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
   check.decided = *best >= kDecided;
-  // What is reported first is what speaks most for the verdict.
+  // Reports the strongest support for the verdict first.
   const auto first = std::find_if(check.hypotheses.begin(),
                                   check.hypotheses.end(),
                                   [&](const auto& h) { return h.verdict == check.verdict; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the weighed hypotheses of a check come to: the verdict with its probability, and its
-/// sentences. Private to grid.
+/// The verdict of a check with its probability and sentences, from the hypotheses' probabilities.
+/// Private to grid.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid {
 
-/// What a check calls what was calibrated, what was read, and the mechanism's own changes.
+/// A check's words for the calibration, the readings, and changes of the mechanism.
 struct CheckWords {
   std::string subject;   ///< "the map"
   std::string readings;  ///< "points"
@@ -21,11 +21,11 @@ struct CheckWords {
   std::string again;     ///< "The map is to be measured again"
   /// A change of the mechanism's as a clause: "the zero of the left chain has shifted by +1.00 mm".
   std::function<std::string(const CheckHypothesis&)> change;
-  /// A sentence that follows `rezero`; empty: none.
+  /// Follows `rezero`; empty: none.
   std::function<std::string(const Check&)> what_to_set = {};
 };
 
-/// By the names of the mechanism's lengths and parameters.
+/// In terms of the mechanism's lengths and parameters.
 [[nodiscard]] CheckWords words_of(const model::Mechanism& mechanism);
 
 [[nodiscard]] Check judged(const CheckReadings& readings, const CheckWords& words);

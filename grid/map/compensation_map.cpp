@@ -72,8 +72,7 @@ Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
       {node(0), node(1), node(2)}, values.col(at(0)), values.col(at(1)), values.col(at(2)));
 }
 
-/// Lengths that stay the same beyond the points lead a search nowhere: it goes over the surface as
-/// that would go on.
+/// Constant lengths beyond the points stop a search, so it uses the surface's own continuation.
 std::shared_ptr<const MapField> field_to_search(const MapContents& contents,
                                                 const std::shared_ptr<const MapField>& field) {
   if (contents.outside.way != Outside::clamp ||
@@ -204,8 +203,7 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
                                   wanted.right_mm - here->lengths.right_mm);
     const Eigen::Vector2d move = here->mark_jacobian.inverse() * missing;
     if (!move.allFinite()) return tl::unexpected(MapReason::not_converged);
-    // A step may leave the domain on the way, but not run off to where the chains cannot hold the
-    // sled.
+    // A step may leave the domain temporarily, but not to where the chains cannot hold the sled.
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);
     mark.y_mm = std::clamp(mark.y_mm + move.y(), domain.y_min - 50.0, domain.y_max + 50.0);
     if (move.norm() < kConvergedMm) {

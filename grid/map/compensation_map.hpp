@@ -40,13 +40,13 @@ struct SettingResult {
   double stated = 0.0;
   double calibrated = 0.0;
   double sigma = 0.0;
-  /// Moved by more than three of its stated sigmas: what was stated is wrong, or something else
+  /// Changed by more than three of its stated sigmas: the stated value is wrong, or something else
   /// imitates it.
   bool off = false;
 };
 
-/// Errors of one way of holding points out. Chain: both chains equally. Tool: distance from where the
-/// tool was.
+/// Errors for one way of leaving points out. Chain: both chains equally. Tool: distance from where
+/// the tool was.
 struct HeldOutError {
   ErrorSummary chain;
   ErrorSummary tool;
@@ -54,26 +54,26 @@ struct HeldOutError {
   double tool_y_rms_mm = 0.0;
 };
 
-/// What the map says of its own error. Held-out errors are relative to the readings, whose noise
-/// they contain; expected errors are relative to the true machine, one sigma.
+/// The map's own error. Held-out errors are relative to the readings, whose noise they contain;
+/// expected errors are relative to the true machine, one sigma.
 struct MapAccuracy {
   HeldOutError leave_one_out;
   HeldOutError blocked;
   /// Of the tool over the measured part of the bed (controller_error.hpp).
   ErrorSummary expected_tool;
-  model::MarkPoint expected_worst_at;  ///< where the map knows least of it
+  model::MarkPoint expected_worst_at;  ///< where it is largest
 };
 
 enum class NoiseSource {
   stated,
   repeats,
   fit,
-  assumed,  ///< of a direct map where none is stated
+  assumed,  ///< for a direct map if none is stated
 };
 /// As in files.
 [[nodiscard]] std::string_view name(NoiseSource source);
 
-/// The noise that the fit went by.
+/// The noise that the fit assumed.
 struct MapNoise {
   double length_mm = 0.0;
   double position_mm = 0.0;
@@ -82,8 +82,8 @@ struct MapNoise {
   double factor_found = 1.0;
 };
 
-/// A measured point as the map sees it, in millimetres at the tool: where it landed minus where each model has it. As
-/// stated, of a point that gives a command, is the commanded place.
+/// A measured point in millimetres at the tool: where it landed minus where each model puts it. For
+/// a point with a command, "as stated" is the commanded place.
 struct MapPoint {
   model::MarkPoint mark;
   model::ChainLengths lengths;
@@ -109,8 +109,8 @@ struct MirrorTest {
   std::string sentence;
 };
 
-/// What a map made from holes and a tape is fitted to: its points are the holes, where
-/// the distances say they are, and its held-out errors those of distances, along the tape.
+/// The data of a map made from holes and a tape: its points are the holes at the positions given by
+/// the distances, and its held-out errors are those of distances, along the tape.
 struct DistancesUsed {
   int used = 0;
   int rejected = 0;
@@ -128,8 +128,8 @@ struct ModelSurface {
   std::vector<model::Setting> settings;
   /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
   Eigen::MatrixXd covariance_factor;
-  /// Takes the place of the residual's splines (its chain scales stay) where readings without noise
-  /// lie on a lattice.
+  /// Replaces the residual's splines (not its chain scales) if noise-free readings lie on a
+  /// lattice.
   std::optional<LatticeResidual> lattice = std::nullopt;
 };
 
@@ -139,12 +139,12 @@ struct DirectSurface {
   std::vector<double> y_nodes_mm;
   model::PerSide<Eigen::MatrixXd> lengths_mm;  ///< (ix, iy)
   interp::TensorEnds ends;
-  /// Estimated from what happens when inner lines are left out.
+  /// Estimated by leaving out inner lines.
   double interpolation_sigma_mm = 0.0;
 };
 
-/// What the map's surfaces do beyond the measured points. The calibrated machine and its chains'
-/// scales go on everywhere; sigmas tell what each way is worth.
+/// How the map's surfaces continue beyond the measured points. The calibrated machine and its
+/// chains' scales continue everywhere; sigmas show the accuracy of each way.
 enum class Outside {
   continued,  ///< the surfaces' own smooth continuation, the best guess
   refuse,     ///< no answer where the status would be extrapolated
@@ -166,8 +166,8 @@ struct MapContents {
   double edge_mm = 0.0;
   interp::Rectangle domain;
   OutsideRule outside;
-  /// What sigmas are multiplied by where the status is extrapolated, at least 1: there another map of
-  /// the same readings may be as right (diagnosis/causes_fit.hpp).
+  /// Factor on sigmas where the status is extrapolated, at least 1: another map of the same
+  /// readings may be as good there (diagnosis/causes_fit.hpp).
   double sigma_factor_beyond = 1.0;
   MapNoise noise;
   MapAccuracy accuracy;
@@ -180,8 +180,8 @@ struct MapContents {
   std::vector<std::string> notes;
 };
 
-/// The slopes at the edges that `clamped` ends hold: those of the parabola through the outermost
-/// three nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
+/// The slopes at the edges for `clamped` ends: those of the parabola through the outermost three
+/// nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
 [[nodiscard]] interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
                                                  const std::vector<double>& y_nodes_mm,
                                                  const Eigen::MatrixXd& values);
@@ -211,14 +211,14 @@ class CompensationMap {
  public:
   /// \throws std::invalid_argument where a surface without a machine shall fade.
   explicit CompensationMap(MapContents contents);
-  /// The same map, continued in another way.
+  /// This map with another continuation.
   [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const;
-  /// The same map with this said of its error, and of its mirror image.
+  /// This map with these statements of its error and mirror symmetry.
   [[nodiscard]] CompensationMap with_accuracy(MapAccuracy accuracy) const;
   [[nodiscard]] CompensationMap with_mirror(std::optional<MirrorTest> mirror) const;
-  /// The same map with these sentences before its own.
+  /// This map with these sentences before its own.
   [[nodiscard]] CompensationMap with_notes_first(std::vector<std::string> notes) const;
-  /// The same map with sigmas beyond the measured part so many times as large.
+  /// This map with sigmas beyond the measured part multiplied by a factor.
   [[nodiscard]] CompensationMap with_sigma_beyond(double factor) const;
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
@@ -248,9 +248,8 @@ class CompensationMap {
   std::shared_ptr<const MapField> field_;
 };
 
-/// The machine that the controller believes in where a file does not say otherwise: the map's, with
-/// the settings as they were stated, not as they were calibrated. Empty for a map without a
-/// machine.
+/// The controller's machine unless a file states another: the map's, with the settings as they were
+/// stated, not as they were calibrated. Empty for a map without a machine.
 [[nodiscard]] std::optional<model::Machine> stated_machine(const CompensationMap& map);
 
 }  // namespace chaintrue::grid

@@ -136,8 +136,8 @@ ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
 
 namespace {
 
-/// An ideal controller goes by the machine file. What a diagnosis wrote into it since is not what the
-/// commands went by.
+/// An ideal controller uses the machine file. What a diagnosis added later did not affect the
+/// commands.
 bool is_what_the_controller_believes(const model::Machine& machine) {
   return machine.controller.kind != model::ControllerKind::ideal ||
          none_of(machine.effects,
@@ -147,7 +147,7 @@ bool is_what_the_controller_believes(const model::Machine& machine) {
 }  // namespace
 
 std::optional<ErrorSummary> error_in_use(const CompensationMap& map) {
-  // A controller without settings of its own believes the file, not what was calibrated.
+  // A controller without stated settings uses the file, not the calibration.
   const auto machine = stated_machine(map);
   if (!machine || !is_what_the_controller_believes(*machine)) return std::nullopt;
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
@@ -162,7 +162,7 @@ void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
   if (places.empty()) return;
   accuracy.expected_tool =
       summary_of_errors(places, Eigen::VectorXd::Zero(2 * std::ssize(places)));
-  // By less than that a place's mirror image differs in rounding: the first stays.
+  // A place's mirror image differs by less, through rounding: the first is kept.
   constexpr double kWorse = 1.0 + 1e-6;
   double worst_mm = -1.0;
   for (const MeasuredPlace& place : places) {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How far from where it is sent a machine puts the tool, over the measured area: as it is used today,
-/// with other numbers typed in, or with a map. One definition for all of them:
+/// The error of the tool over the measured area: with the settings in force, with others typed in,
+/// or with a map. All use one definition:
 ///
 ///   e(p) = J(p)^-1 (paid_out(p) - map(p)) + S(p) z                                          (1)
 ///
-/// where the tool lands minus where it was sent. The first part is what the map says of a controller,
-/// to first order: where the tool is a millimetre off, it is wrong by 1 um. The second is what is
-/// uncertain of the map itself (length_map.hpp).
+/// where the tool lands minus where it was sent. The first part is a controller's error by the map,
+/// to first order: 1 um off for an error of a millimetre. The second is the map's uncertainty
+/// (length_map.hpp).
 ///
 ///   rms      root of the mean over the area of E|e|^2
-///   largest  what max |e| over the area, its edge included, does not exceed in 95 of 100 sessions
+///   largest bound of max |e| over the area and its edge in 95 of 100 sessions
 ///            (largest_error.hpp)
 ///
 /// Notation
 ///   p  a place                            paid_out  the lengths that a controller pays out for it
-///   J  d(left, right)/d(p) of the map     S, z      what is uncertain of the tool, and normal numbers
+///   J  d(left, right)/d(p) of the map     S, z      the tool's uncertainty, and normal numbers
 ///
 /// \code
 ///   if (const auto error = error_in_use(map)) say(error->rms_mm, error->maximum_mm);
@@ -32,7 +32,7 @@
 
 namespace chaintrue::grid {
 
-/// A place of the measured area as the map has it.
+/// A place of the measured area on the map.
 struct MeasuredPlace {
   model::BedPoint commanded;
   model::ChainLengths lengths;
@@ -47,14 +47,15 @@ struct MeasuredPlace {
 /// points, and its edge at the same spacing. Places that the map does not answer are left out.
 [[nodiscard]] std::vector<MeasuredPlace> measured_places(const LengthMap& map,
                                                          const std::vector<model::BedPoint>& hull);
-/// `frame` says what the controller is sent by: the numbers of the marks, or places on the bed.
+/// `frame` states what the controller's commands refer to: the numbers of the marks, or places on
+/// the bed.
 [[nodiscard]] std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame);
 
-/// What a controller pays out for a command; nothing where it cannot go there.
+/// The lengths that a controller pays out for a command; empty if it cannot go there.
 using PaidOut = std::function<std::optional<model::ChainLengths>(model::BedPoint)>;
 [[nodiscard]] PaidOut paid_out_by(const model::Machine& machine);
 
-/// The first part of (1) at every place, x and y one below the other; nothing where the controller
+/// The first part of (1) at every place, x and y one below the other; empty if the controller
 /// cannot go to one.
 [[nodiscard]] std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
                                                                const std::vector<MeasuredPlace>& places);
@@ -63,13 +64,13 @@ using PaidOut = std::function<std::optional<model::ChainLengths>(model::BedPoint
 [[nodiscard]] ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
                                              const Eigen::VectorXd& errors_mm);
 
-/// How far the machine misses as it is used today: the controller with its settings in force is sent
-/// to the marks' numbers, the sheet lying where it lay. Nothing of a map without a machine, of an
-/// ideal controller whose machine a diagnosis has extended, or where the controller cannot go to a
-/// measured place.
+/// The machine's error as used today: the controller with its settings in force is sent to the
+/// marks' numbers, the sheet being where it was. Empty for a map without a machine, for an ideal
+/// controller whose machine a diagnosis has extended, or if the controller cannot go to a measured
+/// place.
 [[nodiscard]] std::optional<ErrorSummary> error_in_use(const CompensationMap& map);
 
-/// Says of the map what (1) is where the tool is sent by the map itself.
+/// Adds to the map's statements (1) for a tool sent by the map.
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy);
 
 }  // namespace chaintrue::grid

@@ -21,7 +21,7 @@ using model::effects::Station;
 
 bool is_of_the_paper(const Effect& effect) { return effect.station == Station::paper; }
 
-/// The machine with those effects alone for which `keep` is true.
+/// The machine with only those effects for which `keep` is true.
 template <class Keep>
 Machine with_effects_that(Machine machine, Keep keep) {
   std::erase_if(machine.effects, [&](const AppliedEffect& applied) {

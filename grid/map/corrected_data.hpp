@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The data as they would be without what belongs to the paper and to the visit: marks where they
-/// truly are, readings without drift, skips, miscounts and hysteresis. A map over the bed is made
-/// from these and never holds such an effect.
+/// The data without effects of the paper and the visit: true positions of marks, readings without
+/// drift, skips, miscounts and hysteresis. A map over the bed is made from these and never contains
+/// such an effect.
 ///
 ///   mark' = MarkFrame^-1(mark)        reading' = reading - (reading with visit effects - without)
 ///
@@ -21,18 +21,17 @@
 namespace chaintrue::grid {
 
 struct CorrectedData {
-  /// Its machine has none of the effects that were taken out, so that correcting it again changes
-  /// nothing.
+  /// Its machine has none of the removed effects, so correcting it again changes nothing.
   MeasuredGrid grid;
-  /// What was taken out, and what could not be; whole sentences.
+  /// Sentences: what was removed, and what could not be.
   std::vector<std::string> notes;
 };
 
-/// A grid without a machine, or whose machine has no such effects, comes back as it is.
+/// A grid without a machine, or whose machine has no such effects, is returned unchanged.
 [[nodiscard]] tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid);
 
-/// Distances as a true tape reads them, and a machine without the same effects, so that they can be
-/// fitted with such data. A set without a machine comes back as it is.
+/// Distances as read by a true tape, and a machine without these effects, to be fitted with such
+/// data. A set without a machine is returned unchanged.
 [[nodiscard]] MeasuredHoles with_true_tape(MeasuredHoles set);
 
 }  // namespace chaintrue::grid

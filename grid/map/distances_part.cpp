@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is special to distances between holes: a hook offset that was left out makes all of them
+/// Treatment specific to distances between holes: a hook offset that was left out makes all of them
 /// contradict the machine, and a sheet without measured edges is laid by its holes.
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ class DistancesPart final : public FitPart {
  private:
   [[nodiscard]] const MeasuredHoles& set() const { return distances_->set(); }
 
-  /// Of sets of holes alone the points are the holes, and errors those of distances.
+  /// For sets of holes alone the points are the holes, and errors are those of distances.
   void add_holes(MapDraft& draft, const Fitting& fitting, const FittedDistances& fit) const {
     for (FittedHole hole : fit.holes) {
       hole.predicted = fitting.in_frame(fit.file, hole.predicted);
@@ -82,7 +82,7 @@ class DistancesPart final : public FitPart {
     draft.tape_sigma_mm = set().tape.sigma_mm;
   }
 
-  /// Of a file alone: how large the noise is relative to what was stated.
+  /// For a single file: the noise relative to the stated one.
   void note_noise(double factor, std::vector<std::string>& notes) const {
     if (factor <= kNoiseDisagreement) return;
     notes.push_back(

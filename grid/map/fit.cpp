@@ -60,7 +60,7 @@ std::vector<double> without(std::vector<double> lines, std::size_t line) {
   return lines;
 }
 
-/// What a map without one inner line says of that line's nodes, each line in turn.
+/// The prediction of each inner line's nodes by a map without that line.
 struct LineErrors {
   std::vector<HeldOutResidual> residuals;
   /// The error that the full grid has between its lines, one sigma: halving the spacing divides a

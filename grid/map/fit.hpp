@@ -18,15 +18,15 @@
 namespace chaintrue::grid {
 
 enum class SurfaceKind {
-  residual,  ///< the calibrated machine and a smooth correction of what it leaves
+  residual,  ///< the calibrated machine and a smooth correction of its residuals
   direct,  ///< splines through the lengths themselves; points on full rows and columns, no machine
 };
 
 struct FitOptions {
   SurfaceKind surface = SurfaceKind::residual;
-  /// Of the direct surface's edges.
+  /// End conditions of the direct surface.
   interp::TensorEnds ends;
-  /// What the map does beyond the points.
+  /// The map's continuation beyond the points.
   OutsideRule outside;
   Progress progress{};
 };
@@ -36,9 +36,9 @@ enum class FitReason {
   not_a_grid,  ///< the direct surface needs full rows and columns
   no_lengths,  ///< a point gives a command that its controller cannot reach, or no controller is
                ///< stated
-  point_unreachable,  ///< a point where the stated machine cannot hold the sled
+  point_unreachable,  ///< the stated machine cannot hold the sled at a point
   rank_deficient,
-  impossible_readings,  ///< the grid's readings leave no possible machine
+  impossible_readings,  ///< no machine is possible with the grid's readings
   not_converged,
 };
 using FitFailure = Failure<FitReason>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A measured file among those that are fitted together: its observation, and what is special to
-/// its kind. joint_fit() uses nothing else of a file. Private to grid/map.
+/// A measured file in a joint fit: its observation, and the treatment specific to its kind.
+/// joint_fit() uses nothing else of a file. Private to grid/map.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@
 
 namespace chaintrue::grid {
 
-/// What was fitted, and its estimate. The observations of the files come first, in their order.
+/// The input of the fit, and its estimate. The observations of the files come first, in their
+/// order.
 struct Fitting {
   estimation::EstimationInput input;
   estimation::Estimate estimate;
@@ -26,7 +27,7 @@ struct Fitting {
   [[nodiscard]] model::MarkPoint in_frame(std::size_t file, model::MarkPoint mark) const;
 };
 
-/// What the files' parts of a map are gathered in.
+/// Collects the files' parts of a map.
 struct MapDraft {
   MapContents map;
   std::vector<model::MarkPoint> good;  ///< places that count, in the map's frame
@@ -46,7 +47,7 @@ class FitPart {
   FitPart& operator=(const FitPart&) = delete;
   virtual ~FitPart() = default;
 
-  model::Machine machine;  ///< as stated; of a grid without what was taken out of its data
+  model::Machine machine;  ///< as stated; for a grid without the effects removed from its data
   std::shared_ptr<const observation::Observation> observation;
   interp::NoiseScale noise;
   interp::Rectangle domain;
@@ -57,13 +58,13 @@ class FitPart {
   std::size_t fewest_good = 0;           ///< units that a map of this file alone needs
   std::optional<SheetUncertainty> sheet;
 
-  /// Steps of the work where the noise is to be found, too, of a file alone.
+  /// Work steps if the noise has to be estimated too, for a single file.
   static constexpr int kStepsToFindNoise = 4;
-  /// Fits again, by whatever tells the noise of readings that state none. For a file alone.
+  /// Fits again with the noise estimated, if none is stated. For a single file.
   [[nodiscard]] virtual tl::expected<void, FitFailure> find_noise(Fitting& /*alone*/) { return {}; }
   /// States the noise that was found of this file alone.
   virtual void take_noise(const Fitting& /*alone*/) {}
-  /// Why too few units of the file alone are good.
+  /// Why a single file has too few good units.
   [[nodiscard]] virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;
   /// Puts the file, `file` by its number, into the map. `name` is empty where it is the only one.
   virtual void add_to(MapDraft& draft,
@@ -72,12 +73,12 @@ class FitPart {
                       const std::string& name) const = 0;
 };
 
-/// Fails where the file states no machine, or readings that leave no possible one.
+/// Fails if the file states no machine, or readings with which none is possible.
 [[nodiscard]] tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& grid);
 /// \throws std::invalid_argument for a set without distances.
 [[nodiscard]] tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& set);
 
-/// The machine with its readings put in, where that is a possible one. `what` has the readings.
+/// The machine with its direct readings applied, if it is possible. `what` has the readings.
 [[nodiscard]] tl::expected<void, FitFailure> check_readings_of(
     const model::Machine& machine, const std::vector<ExtraReading>& readings, const char* what);
 

@@ -15,7 +15,7 @@ namespace {
 
 using model::MarkPoint;
 
-/// A tape's zero offset is spoken of from here on: one sound file of 370 has as much.
+/// Sigmas from which a tape's zero offset is reported: one sound file in 370 exceeds it.
 constexpr double kTapeZeroSigmas = 3.0;
 
 ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_rejected) {

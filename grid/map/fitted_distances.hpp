@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What an estimate (grid/estimation) says of distances between holes: settings (each stated one is
-/// a datum with its sigma), a length scale of either chain, the sheet's placement where its edges
-/// were measured and, where the distances ask for it, a smooth correction of the chain lengths.
-/// Where the holes are follows from these (tape_distances.hpp).
+/// The results of an estimate (grid/estimation) for distances between holes: settings (each stated
+/// one is a datum with its sigma), a length scale of either chain, the sheet's placement where its
+/// edges were measured and, where the distances ask for it, a smooth correction of the chain
+/// lengths. Where the holes are follows from these (tape_distances.hpp).
 #pragma once
 
 #include <optional>
@@ -27,8 +27,7 @@ struct FittedDistance {
   [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
 };
 
-/// By how much the readings of a file are all too long, where the tape's zero offset was not known
-/// exactly.
+/// The common excess of a file's readings, if the tape's zero offset was not known exactly.
 struct FoundTapeZero {
   double mm = 0.0;
   double sigma_mm = 0.0;
@@ -41,7 +40,7 @@ struct FittedHole {
   model::MarkPoint place;       ///< where the distances say it is
 };
 
-/// What an estimate says of one set of distances among its observations.
+/// An estimate's results for one set of distances among its observations.
 struct FittedDistances {
   std::size_t file = 0;  ///< the observation's number
   std::vector<FittedDistance> distances;
@@ -59,11 +58,11 @@ struct FittedDistances {
 /// What a map of holes is fitted to.
 [[nodiscard]] DistancesUsed distances_used(const std::vector<FittedDistance>& distances,
                                            double tape_sigma_mm);
-/// Of the readings: which were rejected, and what is wrong with all of them.
+/// Sentences: which readings were rejected, and what is wrong with all of them.
 [[nodiscard]] std::vector<std::string> distance_notes(const MeasuredHoles& set,
                                                       const FittedDistances& fit);
 
-/// The surface's intervals: a bend of the whole bed is what some twenty distances can show.
+/// The surface's intervals: some twenty distances can show only a bend of the whole bed.
 inline constexpr int kHolesIntervalsX = 4;
 inline constexpr int kHolesIntervalsY = 3;
 /// The bed, as far as a sheet may reach beyond it.

@@ -11,7 +11,8 @@
 namespace chaintrue::grid {
 namespace {
 
-/// A chain residual (read minus predicted) as an error of the tool: where it landed minus where the model has it.
+/// A chain residual (read minus predicted) as an error of the tool: where it landed minus where the
+/// model puts it.
 Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vector2d& chain_mm) {
   return -(mark_jacobian.inverse() * chain_mm);
 }
@@ -55,8 +56,8 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
   });
 }
 
-/// Where the tool landed minus where the uncalibrated machine has it: the command, or where the lengths put it; zero
-/// where that machine has no pose.
+/// Where the tool landed minus where the uncalibrated machine puts it: the command, or the position
+/// of the lengths; zero if that machine has no pose.
 Eigen::Vector2d error_as_stated(const model::ReadingModel& model,
                               const model::SheetPlacement& sheet,
                               const LengthPoint& point) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What an estimate (grid/estimation) says of points with their chain lengths.
+/// The results of an estimate (grid/estimation) for points with their chain lengths.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ struct PointsFit {
                                                      const estimation::Estimate& estimate,
                                                      std::size_t observation);
 
-/// Points, and blocks of them, that were left out; bad ones do not count.
+/// Points, and blocks of them, left out; without bad ones.
 [[nodiscard]] MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points);
 
 /// Each point of the map alongside the grid's machine as stated.

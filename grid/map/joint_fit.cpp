@@ -115,8 +115,7 @@ estimation::EstimationInput estimation_input(const Parts& parts) {
   return input;
 }
 
-/// A map that keeps less than two thirds of a file's readings is not the map of those readings: so
-/// many are no writing errors.
+/// A map must keep two thirds of a file's readings: more rejections are not writing errors.
 tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>& files,
                                                  const Parts& parts,
                                                  const estimation::Estimate& estimate) {
@@ -143,7 +142,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
   return {};
 }
 
-/// One file, its noise found where nobody stated it.
+/// One file, with its noise estimated if it is not stated.
 tl::expected<Fitting, FitFailure> fit_alone(FitPart& part, estimation::EstimationInput input) {
   auto fitting = Fitting::of(std::move(input));
   if (!fitting) return fitting;
@@ -151,7 +150,7 @@ tl::expected<Fitting, FitFailure> fit_alone(FitPart& part, estimation::Estimatio
   return fitting;
 }
 
-/// Grids that state no noise are fitted alone for it.
+/// Grids without stated noise are fitted alone to estimate it.
 tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& files, Parts& parts) {
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k]->noise.knowledge != interp::NoiseKnowledge::unknown) continue;
@@ -170,7 +169,7 @@ tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& fil
   return {};
 }
 
-/// Sessions whose chains hang otherwise than in the one that the map holds for.
+/// Sessions whose chains were hung differently from the map's session.
 void note_zeros(const std::vector<MeasuredFile>& files,
                 const estimation::Estimate& estimate,
                 std::vector<std::string>& notes) {
@@ -244,10 +243,10 @@ double stated_noise_mm2(const std::vector<FittedPoint>& points, const MapNoise& 
   return sum / std::max(count, 1);
 }
 
-/// Where readings scatter clearly more than stated, what is left out a block at a time says more of
-/// the map's error than the fit does, which has all of the scatter for noise.
+/// If readings scatter clearly more than stated, left-out blocks estimate the map's error better
+/// than the fit, which treats all of the scatter as noise.
 CompensationMap with_held_out_error(CompensationMap map, const std::vector<FittedPoint>& points) {
-  // With 12 degrees of freedom of what is stated and 40 of the fit noise alone does so once in 500.
+  // With 12 degrees of freedom stated and 40 in the fit noise does so once in 500.
   constexpr double kClearly = 2.0;
   const MapNoise& noise = map.contents().noise;
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
@@ -267,7 +266,7 @@ CompensationMap with_held_out_error(CompensationMap map, const std::vector<Fitte
                        larger_mm)});
 }
 
-/// What the map says of itself, gathered file by file.
+/// The map's statements about itself, collected file by file.
 CompensationMap map_of(const std::vector<MeasuredFile>& files,
                        const Parts& parts,
                        const Fitting& fitting,

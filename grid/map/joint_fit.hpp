@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Grids and sets of holes of one machine, one file or any number of any mix, in one joint estimate
-/// and one map: what they share, the machine, its chains' scales and the residual surface, is learnt
-/// from all of them.
+/// and one map: the machine, its chains' scales and the residual surface are estimated from all of
+/// them.
 ///
 /// The map's frame is that of the first file's marks; every other file has a sheet of its own, whose
-/// placement is estimated and belongs to it alone. Between two grids a chain's zero may have been set
-/// anew: each but the first has zeros of its own. The map's zeros are those of the first grid, which is the
-/// one to give first: what the machine is like now. A hole is where its chain lengths put it, so
-/// that each set's own controller says what was paid out. Each file keeps its own stated noise; one
-/// factor over all of them is found, known by the fewest degrees of freedom that any of them
-/// states. Of a grid that states no noise it is found from its points first. Readings of the machine
-/// count from every file.
+/// placement is estimated and belongs to it alone. A chain's zero may have been reset between two
+/// grids: each but the first has separate zeros. The map's zeros are those of the first grid, so
+/// give the most recent one first. A hole is where its chain lengths put it, so each set's
+/// controller determines what was paid out. Each file keeps its own stated noise; one factor over
+/// all of them is found, known by the fewest degrees of freedom that any of them states. For a grid
+/// without stated noise it is estimated from its points first. Readings of the machine count from
+/// every file.
 ///
 /// \code
 ///   const auto fit = joint_fit({{"grid.json", grid}, {"holes.json", holes}});   // or one of them
@@ -31,7 +31,7 @@
 namespace chaintrue::grid {
 
 struct JointFitOptions {
-  /// What the map does beyond the points.
+  /// The map's continuation beyond the points.
   OutsideRule outside{};
   Progress progress{};
 };
@@ -43,9 +43,9 @@ struct JointFit {
   CompensationMap map;
 };
 
-/// Fails in words where a file has no machine or another machine's settings than the first, or where
-/// a third of a file's readings contradict the others. The machine's effects of the paper and of the
-/// visit are taken out of grids first (corrected_data.hpp).
+/// Fails if a file has no machine or different settings from the first, or if a third of a file's
+/// readings contradict the others. The machine's effects of the paper and of the visit are removed
+/// from grids first (corrected_data.hpp).
 /// \throws std::invalid_argument without a file, or for a set of holes without distances.
 [[nodiscard]] tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
                                                            const JointFitOptions& options = {});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the largest of many errors does not exceed in 95 of 100 sessions.
+/// The bound of the largest of many errors in 95 of 100 sessions.
 ///
 ///   e(p) = m(p) + S(p) z,   z ~ N(0, 1)                                                     (1)
 ///
-/// m is what is expected at a place, S what is uncertain of it (LengthMap::tool_spread), z the same at
+/// m is the expected error at a place, S its uncertainty (LengthMap::tool_spread), z the same at
 /// all places: the bound is the 95 % quantile of max |e(p)| over draws of z. Errors at neighbouring
-/// places hang together, so that neither the largest sigma nor the sum of all chances says it. Same
+/// places are correlated, so neither the largest sigma nor a sum of probabilities gives it. Same
 /// places, same bound.
 ///
 /// S is averaged over the size of the noise, which few repeats leave uncertain (interp/reml.hpp). Normal z of that
@@ -25,9 +25,9 @@ namespace chaintrue::grid {
 
 class LargestError {
  public:
-  /// \throws std::invalid_argument where `spread_mm` has other columns than those before.
+  /// \throws std::invalid_argument if the number of columns of `spread_mm` changes.
   void add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2Xd& spread_mm);
-  /// 0 of no place.
+  /// 0 without places.
   [[nodiscard]] double bound_mm() const;
 
  private:

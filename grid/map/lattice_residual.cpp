@@ -71,7 +71,7 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Plac
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
     if (fit.points[i].bad) continue;
     const LengthPoint& point = fit.points[i].point;
-    // The fit reached every point at these very settings.
+    // The fit reached every point with these settings.
     const model::ChainLengths lengths = model.at(fit.sheet().to_bed(point.mark)).value().lengths;
     const auto [ix, iy] = places.of_point[i];
     values.left(ix, iy) =
@@ -82,8 +82,8 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Plac
   return values;
 }
 
-/// What the longer line says of a node that is left out, NaN where it cannot be filled: what the
-/// surface's own error between the nodes is measured by.
+/// The longer line's prediction of a left-out node, NaN if it cannot be filled: the measure of the
+/// surface's error between the nodes.
 double predicted(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, Eigen::Index iy) {
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
@@ -115,7 +115,7 @@ Eigen::Matrix2Xd spread_of_nodes(const Eigen::MatrixXd& weights,
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     const Eigen::Matrix2d covariance =
         node + own_mm2.reshaped()[i] * Eigen::Matrix2d::Identity();
-    // Of two rows: the lower root in closed form, which a covariance of 0 has too.
+    // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.
     const double first = std::sqrt(covariance(0, 0));
     const double across = first > 0.0 ? covariance(0, 1) / first : 0.0;
     spread.col(2 * i) = weights.reshaped()[i] * Eigen::Vector2d(first, across);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the calibrated machine and its chains' scales leave at the nodes of a lattice, joined by a
-/// spline that passes through every measured node.
+/// The residual of the calibrated machine and its chains' scales at the nodes of a lattice,
+/// interpolated by a spline through every measured node.
 ///
 ///   correction_i(q) = e_i f_i(q) + t_i(q)                                                   (1)
 ///
@@ -32,7 +32,7 @@ struct LatticeResidual {
   model::PerSide<Eigen::MatrixXd> values_mm;  ///< (ix, iy)
   /// One sigma of a node's value beyond the readings' noise: zero where it was measured.
   Eigen::MatrixXd doubt_mm;
-  /// One sigma between the nodes, from what lines predict of a node left out of them.
+  /// One sigma between the nodes, from predictions of left-out nodes by their lines.
   double interpolation_sigma_mm = 0.0;
 };
 
@@ -70,10 +70,10 @@ struct LatticeFit {
   std::vector<Eigen::Vector2d> left_out_residual_mm;
 };
 
-/// Through what `fit` leaves with its penalised surface taken away. Nothing where the points do not
-/// stand alone on the nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes
-/// empty, where the readings bear noise (the fit then has clearly fewer effective parameters than
-/// readings), or where the lines predict left-out points far worse.
+/// Through the residuals of `fit` without its penalised surface. Empty unless the points are single
+/// nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, the readings
+/// are free of noise (with noise the fit has clearly fewer effective parameters than readings), and
+/// the lines predict left-out points nearly as well.
 [[nodiscard]] std::optional<LatticeFit> fit_lattice(const PointsFit& fit);
 
 /// Points nearer than this to a line of the lattice lie on it: the rounding of written
@@ -83,7 +83,7 @@ inline constexpr double kOnLineMm = 0.01;
 /// The distinct coordinates, rising; of those within kOnLineMm of each other the least.
 [[nodiscard]] std::vector<double> lines_of(std::vector<double> coordinates_mm);
 
-/// The line that a coordinate, one of those which made the lines, lies on.
+/// The line of a coordinate, which must be one of those used to form the lines.
 [[nodiscard]] Eigen::Index line_of(const std::vector<double>& lines_mm, double coordinate_mm);
 
 }  // namespace chaintrue::grid

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a calibrated machine is asked, whatever hangs: its lengths for a point, with their sigmas and
-/// how far the point is from what was measured, and the point for lengths.
+/// The interface of a calibrated machine, for any mechanism: lengths for a point, with their sigmas
+/// and the point's distance from what was measured, and the point for lengths.
 ///
 /// The first two lengths place the tool: a controller pays them out, and they alone decide where it
 /// is. Others follow it there.
@@ -33,7 +33,7 @@ enum class MapReason {
   not_converged,  ///< the inverse found no point
 };
 [[nodiscard]] std::string_view sentence_of(MapReason reason);
-/// Of `unreachable` it has the cause.
+/// Set for `unreachable`.
 using MapFailure = Failure<MapReason>;
 [[nodiscard]] MapFailure unreachable(const model::MechanismFailure& why);
 
@@ -53,15 +53,16 @@ class LengthMap {
   [[nodiscard]] virtual std::span<const std::string_view> length_names() const = 0;
   [[nodiscard]] virtual tl::expected<LengthsAnswer, MapFailure> query(
       model::BedPoint point) const = 0;
-  /// The first two alone, some times faster: what a path needs between its corners.
+  /// Only the first two, several times faster: for points of a path between its corners.
   [[nodiscard]] virtual tl::expected<model::ChainLengths, MapFailure> lengths(
       model::BedPoint point) const = 0;
-  /// Where the tool is when these are paid out.
+  /// The tool's position for these lengths.
   [[nodiscard]] virtual tl::expected<model::BedPoint, MapFailure> tool(
       model::ChainLengths lengths) const = 0;
   [[nodiscard]] virtual MapStatus status(model::BedPoint point) const = 0;
-  /// What is uncertain of the tool that is sent to a point which lengths() answers: x and y, mm, one sigma
-  /// of one direction of the posterior a column, the same directions everywhere. No columns where nothing is.
+  /// Uncertainty of the tool sent to a point which lengths() answers: x and y, mm, one column for
+  /// one sigma of each direction of the posterior, the same directions everywhere. No columns if
+  /// nothing is uncertain.
   [[nodiscard]] virtual Eigen::Matrix2Xd tool_spread(model::BedPoint /*point*/) const {
     return Eigen::Matrix2Xd(2, 0);
   }

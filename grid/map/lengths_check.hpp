@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Whether a calibrated mechanism still holds, from lengths that it has read since at places that are
-/// known or not.
+/// Checks whether a calibrated mechanism is still valid, from lengths read since at known or
+/// unknown places.
 ///
-/// Residuals and their derivatives are those of the observation (belt_lengths.hpp), linearised about
-/// the mechanism as calibrated; what that does not know of itself is its parameters' covariance. What
-/// may have changed the mechanism says (mechanism_change.hpp).
+/// Residuals and their derivatives are those of the observation (belt_lengths.hpp), linearised
+/// about the calibrated mechanism, whose uncertainty is its parameters' covariance. The mechanism
+/// lists the possible changes (mechanism_change.hpp).
 ///
 /// \code
 ///   const auto check = check_lengths({mechanism, covariance, 0.4, 23.0}, places);
@@ -24,7 +24,7 @@
 
 namespace chaintrue::grid {
 
-/// A mechanism with the values that were found, and how well.
+/// A mechanism with its calibrated values and their covariance.
 struct FittedMechanism {
   std::shared_ptr<const model::Mechanism> mechanism;
   Eigen::MatrixXd covariance;  ///< of its parameters
@@ -34,13 +34,13 @@ struct FittedMechanism {
   double position_mm = 0.0;  ///< one sigma of a known position, on each axis
 };
 
-/// Places of which so few lengths count that they check nothing are left out.
+/// Places with too few lengths for a check are left out.
 /// \throws std::invalid_argument for a noise that is not positive.
 [[nodiscard]] tl::expected<Check, CheckFailure> check_lengths(
     const FittedMechanism& fitted,
     const std::vector<observation::LengthsAtPlace>& places,
     const CheckWords& words);
-/// In words of the mechanism's own names.
+/// In terms of the mechanism's names.
 [[nodiscard]] tl::expected<Check, CheckFailure> check_lengths(
     const FittedMechanism& fitted, const std::vector<observation::LengthsAtPlace>& places);
 

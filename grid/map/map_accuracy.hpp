@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a finished map says of its points: held-out errors, their noise and the mirror claim.
+/// A finished map's statements about its points: held-out errors, their noise and the mirror claim.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,8 @@ struct HeldOutResidual {
 /// Zero everywhere for no residuals.
 [[nodiscard]] HeldOutError summarise(const std::vector<HeldOutResidual>& residuals);
 
-/// What one reading is good to: at the tool, both axes together, rms over the good points. Every page says
-/// this of the readings.
+/// The accuracy of one reading: at the tool, both axes together, rms over the good points. Reported
+/// on every page.
 [[nodiscard]] double noise_at_tool_mm(const CompensationMap& map);
 
 /// R at (x, y) against L at (-x, y), over the good points whose mirror image lies on the measured

@@ -43,7 +43,7 @@ std::string words_of_chains(const CheckHypothesis& h) {
   return "a motor has moved";
 }
 
-/// A Maslow's firmware holds no zeros: it takes them from where the chains are set.
+/// A Maslow's firmware stores no zeros: they follow from where the chains are set.
 bool sets_chains(const CompensationMap& map) {
   if (map.machine() == nullptr) return false;
   const model::ControllerKind kind = map.machine()->controller.kind;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A few new points against a compensation map: has anything changed since it was measured, what, and
-/// does re-zeroing mend it.
-///
-/// What may have changed is what two chains say of it (chain_mechanism.hpp), its evidence that of
-/// check_evidence.hpp. K there is the noise of the new readings, what the map does not know of itself,
-/// and where a sheet lies that was laid anew, as well as its file says.
+/// Compares a few new points with a compensation map: whether anything has changed since it was
+/// measured, what, and whether re-zeroing corrects it. The possible changes are those of two chains
+/// (chain_mechanism.hpp), with the evidence of check_evidence.hpp. K there is the noise of the new
+/// readings, the map's uncertainty, and the stated placement of a new sheet.
 ///
 /// \code
 ///   const auto check = check_map(map, grid);          // or holes
@@ -22,8 +20,8 @@
 
 namespace chaintrue::grid {
 
-/// Any mix of files. What the files' machine has of effects of the paper and of the visit is taken out
-/// of the readings first (corrected_data.hpp), as it is for a map.
+/// Any mix of files. Effects of the paper and of the visit of the files' machine are removed from
+/// the readings first (corrected_data.hpp), as it is for a map.
 [[nodiscard]] tl::expected<Check, CheckFailure> check_map(const CompensationMap& map,
                                                           const Measured& measured,
                                                           const Progress& progress = {});

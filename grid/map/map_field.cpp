@@ -183,8 +183,8 @@ class DirectField final : public MapField {
     return lengths(mark);
   }
 
-  /// Each node errs by the readings' noise, the place's error as its slope carries it into the
-  /// chains; what lies between the nodes by the estimate of the interpolation's own error.
+  /// Each node has the readings' noise, with the place's error carried into the chains by the
+  /// slope; between the nodes the interpolation's estimated error is added.
   [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
       MarkPoint mark) const override {
     const MapLengths here = lengths(mark);
@@ -227,7 +227,7 @@ std::shared_ptr<MapField> field_of(const MapContents& contents) {
   return std::make_shared<ModelField>(surface);
 }
 
-/// In the order of Outside. Where nothing is answered, the search for the inverse may still step.
+/// In the order of Outside. The search for the inverse may step where there is no answer.
 constexpr std::array<interp::OutsidePolicy, 5> kPolicies = {interp::OutsidePolicy::linear,
                                                             interp::OutsidePolicy::linear,
                                                             interp::OutsidePolicy::fade,

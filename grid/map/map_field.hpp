@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What answers at a mark, behind CompensationMap: the machine's part and one surface for each
-/// chain, continued beyond the measured points as the map says. Internal to grid/map.
+/// The implementation of CompensationMap at a mark: the machine's part and one surface for each
+/// chain, continued beyond the measured points as the map states. Internal to grid/map.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid {
 
-/// Immutable, thread safe. Marks anywhere; whether an answer may be used is the map's to say.
+/// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 class MapField {
  public:
   /// Of both lengths, a row each: one sigma of one direction of what is uncertain a column, the same
@@ -26,8 +26,8 @@ class MapField {
   [[nodiscard]] static std::shared_ptr<const MapField> make(const MapContents& contents);
 
   [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::MarkPoint mark) const;
-  /// Where the map's way of going on beyond the points answers otherwise than the surfaces
-  /// themselves would, the difference is a direction of its own, one sigma.
+  /// If the map's continuation beyond the points differs from the surfaces' own, the difference is
+  /// a separate direction, one sigma.
   [[nodiscard]] tl::expected<WithSpread, MapFailure> with_spread(
       model::MarkPoint mark) const;
   [[nodiscard]] virtual model::MarkPoint to_mark(model::BedPoint bed) const {
@@ -46,7 +46,7 @@ class MapField {
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 
  private:
-  /// What the map's way adds to the surfaces' own continuation; nothing within the points.
+  /// The map's continuation minus the surfaces' own; zero within the points.
   struct Change {
     Eigen::Vector2d lengths_mm = Eigen::Vector2d::Zero();
     Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();

@@ -10,7 +10,8 @@
 namespace chaintrue::grid {
 namespace {
 
-/// Where the tool landed minus where this controller takes it to be; the sheet stays where it was laid.
+/// Where the tool landed minus where this controller assumes it; the sheet's placement is
+/// unchanged.
 void tell_of(const model::ControllerKinematics& controller, MapPoint& point) {
   const auto believed = controller.command(point.lengths);
   if (!believed) return;

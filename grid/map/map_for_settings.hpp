@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The map of the same physical machine once its controller holds other settings.
-///
-/// What was measured is which chain lengths hold the tool at which place: L(x, y), R(x, y). No number
-/// that is typed in changes these, nor what is known of them; it changes what the controller pays out
-/// for a command, and so what is left to compensate. Where points gave commands, their lengths have
-/// been those that the settings of that day pay out, and stay so.
+/// The map of the same physical machine after its controller gets other settings. The measured
+/// lengths L(x, y), R(x, y) that hold the tool at a place do not depend on typed-in numbers; these
+/// change what the controller pays out for a command, and so what remains to compensate. Points
+/// with commands keep the lengths paid out with the settings of that day.
 ///
 /// \code
 ///   const auto typed = settings_to_type(map);
@@ -21,15 +19,14 @@
 
 namespace chaintrue::grid {
 
-/// How far the tool was beyond its points with the settings as stated is reported of `now`. `note` is
-/// added to the map's notes, unless it is empty. \throws std::invalid_argument for a map without a
-/// machine.
+/// The tool's error with the settings as stated is reported for `now`. `note` is added to the map's
+/// notes, unless it is empty. \throws std::invalid_argument for a map without a machine.
 [[nodiscard]] CompensationMap map_for_settings(const CompensationMap& map,
                                                const model::Controller& now,
                                                const std::string& note);
 
-/// Files whose commands went to a controller that held `settings`; a file that names no machine is
-/// left to the map's.
+/// Files whose commands went to a controller with `settings`; a file without a machine uses the
+/// map's.
 [[nodiscard]] Measured commanded_with(const Measured& measured, const model::Controller& now);
 
 }  // namespace chaintrue::grid

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A compensation map in the frame that points are asked in: by the numbers of its marks, or as places
-/// on the bed, the sheet's placement taken out.
+/// A compensation map in the frame of the queries: numbers of its marks, or places on the bed with
+/// the sheet's placement removed.
 #pragma once
 
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
 
-/// What x and y count in.
+/// The frame of x and y.
 enum class MapFrame { marks, bed };
 
 class MapInFrame final : public LengthMap {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What every map of an estimate is assembled from. Nothing is fitted here.
+/// Assembles a map from an estimate. Nothing is fitted here.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,10 @@ namespace chaintrue::grid {
 /// F of C = F F', lower triangular; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it
 /// be factorised.
 [[nodiscard]] Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance);
-/// The estimate's machine, its surface and what is known of both.
+/// The estimate's machine, its surface and their covariance.
 [[nodiscard]] ModelSurface model_surface(const estimation::Estimate& estimate);
-/// `stated` is the machine that the estimate began with, `sheet` what was known of the first sheet:
-/// without one its placement is stated and exact.
+/// `stated` is the machine that the estimate started from, `sheet` the prior of the first sheet:
+/// without one its placement is exact.
 [[nodiscard]] std::vector<SettingResult> setting_results(
     const model::Machine& stated,
     const estimation::Estimate& estimate,
@@ -24,10 +24,10 @@ namespace chaintrue::grid {
 /// A sentence for each setting that is off.
 void note_settings_off(const std::vector<SettingResult>& settings,
                        std::vector<std::string>& notes);
-/// The map with what it says of its own error, which it is asked for itself.
+/// The map with its statements of its error, computed from the map.
 [[nodiscard]] CompensationMap with_expected_error(MapContents contents);
 
-/// A noise that the readings contradict by this much is worth a sentence.
+/// A noise that the readings contradict by this much is reported.
 inline constexpr double kNoiseDisagreement = 1.5;
 
 }  // namespace chaintrue::grid

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How far a place is from what was measured: the convex hull of the points, its neighbourhood, and
-/// the domain beyond which nothing is answered.
+/// A place's position relative to the measured points: their convex hull, its neighbourhood, and
+/// the domain outside which there are no answers.
 #pragma once
 
 #include <string_view>
@@ -13,11 +13,11 @@
 
 namespace chaintrue::grid {
 
-/// Stands with every answer of a map.
+/// Part of every answer of a map.
 enum class MapStatus {
   inside,        ///< between measured points
   edge,          ///< beyond the outermost points by at most half their spacing
-  extrapolated,  ///< farther, but on the bed: continued smoothly, with the sigma that this deserves
+  extrapolated,  ///< farther, but on the bed: continued smoothly, with a larger sigma
   outside,       ///< off the bed, or where the chains cannot hold the sled: no lengths
 };
 

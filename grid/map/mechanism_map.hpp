@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The map of a calibrated mechanism, whatever it is: lengths and tool by the mechanism itself, on a
-/// sheet that lies in its frame as it was found to.
+/// The map of any calibrated mechanism: lengths and tool by the mechanism, on a sheet with its
+/// fitted placement.
 ///
 ///   lengths(p) = f(in_frame(p)),   tool(l) = on_sheet(f^-1(l))                              (1)
 ///
-/// Sigmas come of mechanisms and sheets that are one sigma away, a column of the covariance's root
-/// each: the sum of squares of what their lengths differ by, with what the sheet is uncertain of by
-/// itself.
+/// Sigmas come from mechanisms and sheets one sigma away, one for each column of the covariance's
+/// root: the sum of squares of their lengths' differences, plus the sheet's own uncertainty.
 ///
 /// \code
 ///   const auto map = MechanismMap::of(fitted, measured_points);
@@ -30,7 +29,7 @@ class SheetInFrame {
   virtual ~SheetInFrame() = default;
   [[nodiscard]] virtual model::ToolPosition in_frame(model::BedPoint sheet) const = 0;
   [[nodiscard]] virtual model::BedPoint on_sheet(model::ToolPosition position) const = 0;
-  /// Of each axis, besides what the covariance of the fit says.
+  /// On each axis, besides the fit's covariance.
   [[nodiscard]] virtual double own_variance_mm2(model::BedPoint /*sheet*/) const { return 0.0; }
 };
 
@@ -39,7 +38,7 @@ struct PlacedMechanism {
   std::shared_ptr<const SheetInFrame> sheet;
 };
 
-/// What is one sigma away, and from what.
+/// A state one sigma away, and the centre.
 struct MechanismSpread {
   PlacedMechanism centre;
   std::vector<PlacedMechanism> others;

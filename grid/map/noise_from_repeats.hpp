@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The size of the noise from points that were measured more than once, and the floor that rounding
-/// (grid/statistics.hpp) sets to it: second visits that agree exactly say only that the scatter is below
-/// the step of the rule.
+/// (grid/statistics.hpp) sets to it: second visits that agree exactly show only that the scatter is
+/// below the resolution of the rule.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace chaintrue::grid {
 
 /// Of the marks of points that give a command, and of the lengths of those that give lengths.
 [[nodiscard]] observation::PointNoise rounding_noise(const MeasuredGrid& grid);
-/// What was stated, not below it.
+/// The stated noise, but not below this floor.
 [[nodiscard]] StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid);
 
 struct RepeatNoise {
@@ -23,8 +23,8 @@ struct RepeatNoise {
 };
 
 /// From the scatter of a fit's residuals within each group of repeats, not below what rounding
-/// leaves; outliers do not count. Empty where there are fewer than four degrees of freedom (two
-/// repeats): that is too little to go by; and where repeats with all their digits agree exactly.
+/// leaves; outliers do not count. Empty with fewer than four degrees of freedom (two repeats),
+/// which is too few, and if repeats with all digits agree exactly.
 [[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
                                                             const observation::PointNoise& noise,
                                                             const observation::PointNoise& rounding);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is special to points with their chain lengths: where nobody stated their noise it is found,
-/// and readings without noise on a lattice are met by a surface through every one of them.
+/// Treatment specific to points with their chain lengths: unstated noise is estimated, and
+/// noise-free readings on a lattice are interpolated.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,15 +17,15 @@
 namespace chaintrue::grid {
 namespace {
 
-/// A stated noise of zero means readings with all digits; this much is left of it and of any finer
-/// one. Given settings known to a millimetre the squares of finer weights leave no digit for what
-/// the points do not tell: at 1e-6 mm the fit is taken for undetermined.
+/// The least noise: a stated zero means readings with all digits. With settings known to a
+/// millimetre the squares of finer weights leave no digits for what the points do not determine: at
+/// 1e-6 mm the fit appears undetermined.
 constexpr double kLeastNoiseMm = 1e-5;
 
 constexpr WorkStep kSmoother{"a smoother correction", 2, FitPart::kStepsToFindNoise};
 constexpr WorkStep kNoise{"how large the noise is", 3, FitPart::kStepsToFindNoise};
 
-/// The bed, as far as hand-laid marks may lie beyond it, and all points.
+/// The bed, the margin for hand-laid marks beyond it, and all points.
 interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
   const model::Bed& bed = grid.machine->bed;
   double beyond = 0.0;
@@ -44,12 +44,12 @@ interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPo
   return domain;
 }
 
-/// A stated noise of nothing at all states nothing: it is found from the points.
+/// A stated noise of zero counts as unstated: it is estimated from the points.
 bool states_noise(const MeasuredGrid& grid) {
   return grid.noise && (grid.noise->length_mm > 0.0 || grid.noise->position_mm > 0.0);
 }
 
-/// A surface through every node leaves nothing there, and has left-out residuals of its own.
+/// A surface through every node has no residuals there, but its own left-out residuals.
 void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& lattice) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].bad) continue;
@@ -172,7 +172,7 @@ class PointsPart final : public FitPart {
   }
 
  private:
-  /// The observation of the points as their noise is known now.
+  /// The observation of the points with the current noise.
   void observe() {
     observation = std::make_shared<const observation::ChainLengthReadings>(
         chain_length_readings(points_, noise_, noise.degrees_of_freedom, grid_.sheet));
@@ -182,8 +182,8 @@ class PointsPart final : public FitPart {
     return {fitting.estimate, fitted_points(points_, fitting.estimate, file)};
   }
 
-  /// Readings with all their digits, as a simulator or a very good measurement gives them, bear a
-  /// smoother surface than noisy ones. It is taken where it predicts left-out points a fifth better.
+  /// Readings with all digits, from a simulator or a very good measurement, support a smoother
+  /// surface than noisy ones. It is used if it predicts left-out points a fifth better.
   void prefer_smoother(Fitting& alone) const {
     constexpr double kClearlyBetter = 0.8;
     estimation::EstimationInput smoother = alone.input;
@@ -203,17 +203,15 @@ class PointsPart final : public FitPart {
   ///
   ///   sum over good points |y - (1 + e) f(theta)|^2 / s^2 + |theta / sigma|^2 + |e / kScaleSigma|^2
   ///
-  /// with s, the size of what is left, by restricted maximum likelihood.
-  ///
-  /// The joint fit weighs a setting against the bend of the surface that would replace it: right for
-  /// naming settings, but what it leaves to the surface need not be small. A surface through all the
-  /// nodes errs between them in proportion to what it has to carry, so for it the settings are those
-  /// that leave least at the nodes. For machines whose lengths err by 0.8 mm more than any model says
-  /// that lowers the largest error between 4 x 7 to 7 x 13 nodes by a fifth to a half.
+  /// with s, the residual's size, by restricted maximum likelihood. The joint fit trades a setting
+  /// against the bending of the surface that would replace it: right for estimating settings, but
+  /// the part left to the surface need not be small. The error of a surface through all nodes is
+  /// proportional to its size, so here the settings minimise the residual at the nodes. For
+  /// machines whose lengths have unmodelled errors of 0.8 mm this lowers the largest error between
+  /// 4 x 7 to 7 x 13 nodes by a fifth to a half.
   ///
   /// Covariances of the settings and scales grow by the square of what they moved: the joint fit's
-  /// estimate remains the best one of the settings themselves. Unchanged where the least squares
-  /// fail.
+  /// estimate remains the best one of the settings themselves. Unchanged if the least squares fail.
   [[nodiscard]] Fitting with_plain_calibration(Fitting fit) const {
     estimation::EstimationInput input = fit.input;
     input.observations.front() = std::make_shared<const observation::ChainLengthReadings>(
@@ -239,7 +237,7 @@ class PointsPart final : public FitPart {
     return fit;
   }
 
-  /// Of a file alone: how large the noise is relative to what was stated.
+  /// For a single file: the noise relative to the stated one.
   static void note_noise(MapDraft& draft) {
     const MapNoise& noise = draft.map.noise;
     if (noise.source == NoiseSource::stated && noise.factor_found > kNoiseDisagreement) {
@@ -267,10 +265,10 @@ class PointsPart final : public FitPart {
 
   MeasuredGrid grid_;  ///< corrected
   std::vector<LengthPoint> points_;
-  observation::PointNoise rounding_;  ///< of the readings as they were written
+  observation::PointNoise rounding_;  ///< of the readings as written
   observation::PointNoise noise_;
   NoiseSource source_ = NoiseSource::fit;
-  /// Takes the place of the surface where readings without noise lie on a lattice.
+  /// Replaces the surface if noise-free readings lie on a lattice.
   std::optional<LatticeFit> lattice_;
 };
 

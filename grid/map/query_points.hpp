@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Many points asked at once: each answer is that of the point alone, to the last bit, or its reason.
+/// Batch queries: each answer equals that of the point alone, to the last bit, or is its failure.
 ///
 /// \code
 ///   const std::vector<model::MarkPoint> path = {{0.0, 0.0}, {10.0, 0.0}};

@@ -116,7 +116,7 @@ Eigen::VectorXd FactoredCovariance::pulled(const Eigen::VectorXd& conditioned) c
 }
 
 std::vector<Eigen::MatrixXd> FactoredCovariance::precision_of_units() const {
-  // Rows enough for a fast solve, few enough to need little memory.
+  // Enough rows for a fast solve, few enough for little memory.
   constexpr std::size_t kUnits = 256;
   std::vector<Eigen::MatrixXd> result;
   result.reserve(whitening_.size());
@@ -135,7 +135,7 @@ std::vector<Eigen::MatrixXd> FactoredCovariance::precision_of_units() const {
       const Eigen::MatrixXd& white = whitening_[u];
       const auto own = solved.middleCols(row, white.rows());
       const double prior = by_row.middleCols(row, white.rows()).squaredNorm();
-      // What all other readings leave open of a unit is no more than what was open before them.
+      // The variance of a unit given all other readings is at most its prior variance.
       const linear::SymmetricEigen parts(linear::gram(own));
       const Eigen::VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
       const Eigen::MatrixXd turned = parts.eigenvectors().transpose() * white;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The covariance of n new readings, in the parts that make it affordable to invert. Private to
-/// grid/map.
+/// The covariance of n new readings, split so that it is cheap to invert. Private to grid/map.
 ///
 ///   K = N + S S' + F F'                                                                        (1)
 ///
 ///   N   each unit's own noise, 1 or 2 rows of a unit                           n x n, by blocks
 ///   S   errors that some readings share: of a hole, of the sheet's size, of a tape's zero  n x k, sparse
-///   F   what the map does not know of itself                                   n x m, m <= n
+///   F  the map's uncertainty                                   n x m, m <= n
 ///
 /// With N = L L', G = L^-1 [S F] and M = I + G' G it is M that is factored, (k + m)^3, not K:
 ///

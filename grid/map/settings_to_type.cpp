@@ -22,7 +22,7 @@ namespace {
 using model::ControllerSettings;
 using model::Machine;
 
-/// What settings are held against.
+/// What settings are compared with.
 struct Truth {
   Machine machine;  ///< as calibrated, with the controller in force
   /// Such a machine in the frame of the bed.
@@ -48,7 +48,7 @@ bool is_holey(const Machine& machine) {
   return machine.controller.kind == model::ControllerKind::holey;
 }
 
-/// Those that the firmware has; it may lack what was never typed in.
+/// The settings that the firmware has; it may lack some that were never entered.
 std::vector<FreeSetting> free_settings(const Machine& machine) {
   using S = ControllerSettings;
   const double motor_mm = machine.uncertainty.motor_position_mm;
@@ -83,7 +83,7 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
   std::vector<FreeSetting> present;
   for (const FreeSetting& setting : all) {
     const bool written = (machine.controller.settings.*setting.value).has_value();
-    // What is known exactly does not move.
+    // Exactly known values are fixed.
     if (written && setting.sigma > 0.0) present.push_back(setting);
   }
   return present;
@@ -155,7 +155,7 @@ tl::unexpected<SettingsFailure> no_machine() {
                 "points again with --machine, and without --surface direct");
 }
 
-/// Over the area, without what is uncertain of it.
+/// Over the area, without its uncertainty.
 double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& errors) {
   double squares_mm2 = 0.0;
   int within = 0;
@@ -167,18 +167,20 @@ double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& e
   return std::sqrt(squares_mm2 / std::max(within, 1));
 }
 
-/// The best settings, rounded; nothing where the controller cannot go to a place with any on the way.
+/// The best settings, rounded; empty if the controller cannot go to a place with any intermediate
+/// ones.
 std::optional<ControllerSettings> best_settings(const Truth& truth,
                                                 const std::vector<MeasuredPlace>& places) {
   const std::vector<FreeSetting> free = free_settings(truth.machine);
-  // Below a twentieth of a millimetre no bed is cut, and places tell no more than the points that
-  // they come from.
+  // No cut is more accurate than a twentieth of a millimetre, and places carry no more information
+  // than the points that they come from.
   constexpr double kFinestMm = 0.05;
   const double sigma_mm = std::max(truth.sigma_mm, kFinestMm);
   const double told = truth.points == 0 ? 1.0 : as_double(truth.points) / as_double(places.size());
   const double weight = told / (sigma_mm * sigma_mm);
   ControllerSettings settings = truth.machine.controller.settings;
-  // The formulas bend little over some millimetres: the third step is below what is typed.
+  // The formulas are nearly linear over some millimetres: the third step is below the typed
+  // resolution.
   constexpr int kSteps = 4;
   for (int step = 0; step < kSteps; ++step) {
     const auto better = improved(truth.machine, settings, free, places, weight);
@@ -189,7 +191,7 @@ std::optional<ControllerSettings> best_settings(const Truth& truth,
   return settings;
 }
 
-/// The tool's error that the best settings for such a machine leave.
+/// The tool's error with the best settings for such a machine.
 std::optional<double> left_with(const Truth& truth, const Machine& machine) {
   const std::vector<MeasuredPlace> places = truth.places(machine);
   if (places.empty()) return std::nullopt;
@@ -225,7 +227,7 @@ std::vector<std::pair<std::string, Machine>> machines_without(const Machine& mac
 }
 
 std::vector<Lacking> lacking_of(const Truth& truth, double left_mm) {
-  // What is typed in is mended to a hundredth of that by nobody.
+  // Smaller improvements by typing in settings are irrelevant.
   constexpr double kWorthSayingMm = 0.05;
   std::vector<Lacking> lacking;
   for (const auto& [what, machine] : machines_without(truth.machine)) {
@@ -253,7 +255,7 @@ tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
   result.settings = in_force;
   result.as_it_is = result.typed = summary_of_errors(places, *before);
   result.points = truth.points;
-  // An error no larger than the map's own may be the map's; a tenth of it is not worth new numbers.
+  // An error below the map's own may be the map's; a gain of a tenth is not worth new numbers.
   constexpr double kBeyondTheMap = 2.0;
   constexpr double kWorthTyping = 0.9;
   double left_mm = rms_of(places, *before);

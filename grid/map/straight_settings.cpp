@@ -103,7 +103,7 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
   const Eigen::MatrixXd free = all_by_free(anchors);
   auto unknowns = start_of(*map.machine(), anchors);
   constexpr int kMostSteps = 50;
-  // Far below what is typed, four digits of a millimetre.
+  // Far below the typed resolution, 1e-4 mm.
   constexpr double kConverged = 1e-7;
   bool converged = false;
   for (int step = 0; step < kMostSteps && !converged; ++step) {

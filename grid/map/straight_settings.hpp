@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The settings with which a controller that takes chains for straight lines comes nearest to a map:
-/// FluidNC's WallPlotter and grblHAL's wall plotter.
+/// The best settings for a controller that models chains as straight lines: FluidNC's WallPlotter
+/// and grblHAL's wall plotter.
 ///
 ///   paid(p) = map(p0) + c (|p - a| - |p0 - a|)                                              (1)
 ///
-/// for each chain, with its anchor a and what c counts too little, where the machine is switched on with
-/// the tool at p0, 0, 0 of the sheet. Least squares of the tool's error (controller_error.hpp) over the
-/// measured part, by Gauss and Newton. grblHAL takes its anchors as level.
+/// for each chain, with its anchor a and the factor c of its count, if the machine is switched on
+/// with the tool at p0, 0, 0 of the sheet. Least squares of the tool's error (controller_error.hpp)
+/// over the measured part, by Gauss and Newton. grblHAL takes its anchors as level.
 ///
 /// Sources: bdring/FluidNC, Kinematics/WallPlotter.cpp; grblHAL/core, kinematics/wall_plotter.c.
 ///
@@ -32,7 +32,7 @@ struct StraightSettings {
   model::PerSide<model::BedPoint> anchors;
   /// c of (1): steps per millimetre are to be these times those of a chain that is counted right.
   model::PerSide<double> more_steps;
-  /// By what the straight distance from 0, 0 is longer than the map's length there, mm.
+  /// The straight distance from 0, 0 minus the map's length there, mm.
   model::ChainLengths longer_mm;
   /// Of the tool, over the measured part.
   ErrorSummary left_over;
