@@ -19,7 +19,7 @@ namespace {
 using model::Side;
 using Reason = EstimationFailure::Reason;
 
-/// A weight that changes by this much moves nothing by more than a few hundredths of its sigma.
+/// A smaller change of a weight changes results by at most a few hundredths of a sigma.
 constexpr double kConvergedWeight = 1e-2;
 /// Passes with soft weights only, so that several bad units cannot hide each other.
 constexpr int kSoftRounds = 4;
@@ -60,8 +60,8 @@ double Estimator::step_to(const State& next, const ConvergenceRule& rule) const 
   const Unknowns& unknowns = problem_->unknowns();
   for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
     if (unknowns.sigma(i) <= kKnownSigma) continue;
-    // Of what nothing was known beforehand the readings' own sigma is the measure; of readings
-    // without noise a micrometre.
+    // Without a prior the sigma from the readings is the measure; for noise-free readings a
+    // micrometre.
     constexpr double kLeastSigma = 1e-3;
     const double sigma = std::isfinite(unknowns.sigma(i))
                              ? unknowns.sigma(i)
@@ -76,7 +76,7 @@ double Estimator::step_to(const State& next, const ConvergenceRule& rule) const 
   return step;
 }
 
-/// The unit of one row that fits worst, where the others alone put it too far out.
+/// The worst-fitting one-row unit, if it is too far from the prediction by the others.
 std::optional<std::size_t> Estimator::worst_alone() const {
   constexpr double kSuspect = 2.5;
   std::optional<std::size_t> worst;
@@ -132,14 +132,14 @@ void Estimator::begin_weights() {
   distances_ = Eigen::VectorXd::Zero(units);
 }
 
-/// Settings of which nothing is known beforehand may begin far off: steps that are damped until they
-/// lower the sum of squares (K. Madsen, H. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares
-/// Problems (2004), section 3.2), down to where the passes converge by themselves.
+/// Settings without a prior may start far off: steps are damped until they reduce the sum of
+/// squares (K. Madsen, H. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems
+/// (2004), section 3.2), down to where the passes converge by themselves.
 tl::expected<void, EstimationFailure> Estimator::approach() {
   constexpr int kMostSteps = 100;
   constexpr double kLargestDamping = 1e12;
-  // Of the sum of squares: a step that lowers it by less is a small part of a sigma. The second is for
-  // readings without noise.
+  // Relative reduction of the sum of squares: smaller steps are a small part of a sigma. The second
+  // is for noise-free readings.
   constexpr double kNear = 1e-6;
   constexpr double kNearNothing = 1e-12;
   const Unknowns& layout = problem_->layout();
@@ -220,22 +220,22 @@ tl::expected<void, EstimationFailure> Estimator::converge() {
     converged_ =
         !update_weights(pass) && step < rule.step_sigmas && pass + 1 >= rule.fewest_rounds;
     if (perhaps_last && (converged_ || last)) {
-      // What is reported of the units belongs to the weights that the fit was solved with.
+      // The reported units belong to the weights of the last solution.
       weights_ = solved_with;
       break;
     }
-    // Otherwise chosen anew only when the bad units are first rejected.
+    // Otherwise chosen again only when the bad units are first rejected.
     smoothing = pass == kSoftRounds ? Smoothing::choose : Smoothing::keep;
   }
   return {};
 }
 
-/// A surface as smooth as the readings ask for, where they speak for one.
+/// A surface with the smoothness preferred by the readings, if they support one.
 tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   interp::FitOptions plain;
   plain.prior = interp::SmoothingPrior::none;
   plain.correct_covariance = false;
-  // V without a surface; of an unknown noise its prior is in it (reml.hpp).
+  // V without a surface; for unknown noise it includes the prior (reml.hpp).
   const bool unknown = input_.noise.knowledge == interp::NoiseKnowledge::unknown;
   const double without = fit_.minus_two_log_reml + (unknown ? std::log(fit_.sigma2) : 0.0);
   auto bent = std::make_unique<JointProblem>(input_, true);
@@ -244,7 +244,7 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   state.surface.scale = state_.surface.scale;
   if (auto done = bent->linearise(state); !done) return done;
   const auto with = interp::fit_penalised(bent->weighted(weights_), plain);
-  if (!with) return {};  // what the readings do not determine they do not ask for
+  if (!with) return {};  // readings that do not determine a surface do not support one
   // The polynomials' prior, added to V as a constant.
   const double prior = 2.0 * as_double(bent->unknowns().surface().polynomials) *
                        std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));

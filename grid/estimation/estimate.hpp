@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The one joint estimate: the machine's settings, each sheet's placement, both chains' scales and
-/// the residual surface from any mix of observations of one machine.
+/// The joint estimate: the machine's settings, each sheet's placement, both chains' scales and the
+/// residual surface from any mix of observations of one machine.
 ///
 /// Each stated setting enters as a datum with its stated sigma; the chains' scales and the
-/// surfaces' polynomials have weak priors of their own, so that what a setting can explain is
-/// explained by the setting. Nuisances that belong to the noise (a hole's own error) are as large
-/// with the readings' noise as was stated, whatever the noise turns out to be; the others (a
-/// tape's zero, a sheet's size) are data of known sigma, and so are readings that cannot be outliers.
+/// surfaces' polynomials have weak priors of their own, so that settings explain what they can.
+/// Nuisances that belong to the noise (a hole's own error) are as large with the readings' noise as
+/// was stated, whatever the noise turns out to be; the others (a tape's zero, a sheet's size) are
+/// data of known sigma, and so are readings that cannot be outliers.
 ///
 ///   y = f(theta, s) + B b + W^-1 e,   e ~ N(0, s^2 I),   b_noise ~ N(0, s^2 sigma_b^2)        (1)
 ///
 /// s, one noise factor over what was stated, and the surfaces' smoothness are chosen by restricted
-/// maximum likelihood (interp/reml.hpp); of readings stated with different degrees of freedom the
-/// fewest count. The model is linearised anew until it converges.
+/// maximum likelihood (interp/reml.hpp); for different stated degrees of freedom the fewest are
+/// used. The model is linearised again until it converges.
 ///
-/// A frame that nothing was measured to is free: in each direction in which an observation's
-/// readings do not notice where its sheet lies, it is laid so that the places, as a whole, lie where
+/// A sheet that no reading refers to is free: in each direction in which an observation does not
+/// depend on its sheet's placement, the sheet is placed so that its places, as a whole, are where
 /// they were commanded. These directions are eliminated, exactly.
 ///
 /// Readings that do not fit the rest are first weighted down, then rejected, unit by unit: by the
@@ -56,18 +56,17 @@
 
 namespace chaintrue::grid::estimation {
 
-/// One sigma of a chain's length scale beforehand: twice a new chain's usual error, 0.0005 to
-/// 0.0015.
+/// Prior sigma of a chain's length scale: twice a new chain's usual error, 0.0005 to 0.0015.
 inline constexpr double kScaleSigma = 0.002;
-/// One sigma beforehand of what the penalty leaves free in the residual surfaces: their height at
-/// the bed's centre, the rise from there to its edge and, for order 3, the bow.
+/// Prior sigmas of the unpenalised part of the residual surfaces: their height at the bed's centre,
+/// the rise from there to its edge and, for order 3, the bow.
 inline constexpr double kFreePartSigmaMm = 1.0;
 /// Chance 4e-5 for a good point: 1 in 900 grids of 28 good points loses one.
 inline constexpr double kBadPointDistance = 4.5;
 /// Chance 1.5e-3 for a good reading (Student's t, some 30 degrees of freedom): one set of twenty
 /// readings in thirty-five loses one.
 inline constexpr double kBadDistanceSigmas = 3.5;
-/// Of a surface over none, in natural units, where the readings have to ask for it: twenty to one.
+/// Log evidence of a surface over none that the readings must give: twenty to one.
 inline constexpr double kSurfaceEvidence = 3.0;
 /// With fewer units of one row than these none is rejected.
 inline constexpr std::size_t kFewestSingleRows = 5;
@@ -75,8 +74,8 @@ inline constexpr std::size_t kFewestSingleRows = 5;
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kMachineUnknowns = model::kMachineSettings.size() + 2;
 
-/// What is known of a mechanism's parameters, as deviations from what was stated; of two chains, of both scales as
-/// well, which come last.
+/// Prior of a mechanism's parameters, as deviations from the stated values; for two chains also of
+/// both scales, which come last.
 struct ParameterKnowledge {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
@@ -86,31 +85,31 @@ struct ParameterKnowledge {
 
 enum class SurfaceUse {
   none,
-  smoothed,     ///< always, as smooth as the readings ask for
-  on_evidence,  ///< where the readings speak for it (kSurfaceEvidence)
+  smoothed,     ///< always, with the smoothness preferred by the readings
+  on_evidence,  ///< if the readings support it (kSurfaceEvidence)
 };
 
-/// Units whose left-out residuals are wanted with all of them left out together.
+/// Units to be left out together for their residuals.
 using UnitGroup = std::vector<std::size_t>;
 
 /// When a single reading of a unit is rejected whose readings may be outliers one by one (reading_shifts.hpp), the
 /// worst first; those that fit once a worse one is gone count again.
 struct ReadingLimits {
   double rejected_beyond = 4.5;  ///< normal deviate
-  double most_share = 0.12;      ///< of all readings: beyond it the rest does not judge itself
-  /// None is rejected where the noise found is larger: the fit is none.
+  double most_share = 0.12;      ///< of all readings: beyond it the rest is not reliable
+  /// None is rejected if the noise found is larger: the fit is not sound.
   double most_noise = kInfinity;
 };
 
 struct EstimationInput {
   model::Machine machine;  ///< as stated
-  /// In place of two chains of `machine`: its values are where the passes begin. A mechanism of other
+  /// Replaces the two chains of `machine`: its values are the starting point. A mechanism of other
   /// than two lengths has no scales and no surface.
   std::shared_ptr<const model::Mechanism> mechanism = nullptr;
   /// The marks' frame of the first is that of the surface and of the map.
   observation::Observations observations;
   interp::NoiseScale noise;
-  /// Of smoothing and noise, besides the readings (interp/reml.hpp).
+  /// Prior of smoothing and noise (interp/reml.hpp).
   interp::SmoothingPrior noise_prior = interp::SmoothingPrior::avoids_boundary;
   SurfaceUse surface = SurfaceUse::smoothed;
   /// Order of the derivatives that the surfaces' penalty squares: 2, a thin plate, or 3, smoother
@@ -144,16 +143,16 @@ struct UnitEstimate {
   [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
 };
 
-/// A reading that was rejected by itself; the rest of its unit counts.
+/// A reading that was rejected alone; the rest of its unit counts.
 struct ReadingEstimate {
   std::size_t observation = 0;
   observation::UnitReading reading;  ///< its unit into the observation's
-  double residual_mm = 0.0;               ///< read less what all others make of it
+  double residual_mm = 0.0;               ///< read minus the prediction by all others
   double sigmas = 0.0;
 };
 
 struct PlaceEstimate {
-  /// Where the machine as stated has it, a free sheet laid as its frame is defined.
+  /// Position by the stated machine, with a free sheet placed as defined above.
   model::MarkPoint as_stated;
   model::MarkPoint mark;
   Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
@@ -165,18 +164,18 @@ struct SessionZero {
   double sigma_mm = 0.0;
 };
 
-/// "left chain 5.0 +- 0.1 mm more", both where both are beyond what noise does; empty where neither is.
+/// "left chain 5.0 +- 0.1 mm more", both if both exceed the noise; empty if neither does.
 [[nodiscard]] std::string words_of(const std::array<SessionZero, 2>& zeros);
 
-/// What belongs to one observation.
+/// Results of one observation.
 struct ObservationEstimate {
   model::SheetPlacement sheet;
   Eigen::VectorXd predicted;  ///< in the order of the observation's rows
   std::vector<PlaceEstimate> places;
   Eigen::VectorXd nuisance;
   Eigen::VectorXd nuisance_sigma;
-  /// By how much the zero of either chain is more in this session than in the machine, mm, with one
-  /// sigma; nothing where the machine's zeros are those of this session.
+  /// Zero of either chain in this session minus the machine's, mm, with one sigma; empty if the
+  /// machine's zeros are those of this session.
   std::optional<std::array<SessionZero, 2>> zeros{};
 };
 
@@ -188,7 +187,7 @@ struct Estimate {
   FitColumns columns;
   ResidualSurface surface;  ///< without one: scales, and splines of nothing
   bool has_surface = false;
-  double surface_log_evidence = 0.0;  ///< of the surface over none, where it was asked for
+  double surface_log_evidence = 0.0;  ///< of the surface over none, if requested
   Eigen::MatrixXd covariance;         ///< of all that a map is made of, columns.total() squared
   ParameterKnowledge knowledge;         ///< of the parameters, afterwards
   double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
@@ -196,9 +195,9 @@ struct Estimate {
   std::vector<UnitEstimate> units;  ///< of readings that may be outliers
   std::vector<ObservationEstimate> observations;
   std::vector<ReadingEstimate> rejected_readings;
-  /// False where settings or weights still moved after the last pass.
+  /// False if settings or weights still changed in the last pass.
   bool converged = true;
-  /// With the values found; of two chains that of `machine`. Its parameters are the first of
+  /// With the fitted values; for two chains that of `machine`. Its parameters are the first of
   /// map_unknowns and of covariance.
   std::shared_ptr<const model::Mechanism> mechanism = nullptr;
 };

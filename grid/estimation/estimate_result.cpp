@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the last pass of an estimate tells: units, observations, covariances.
+/// Results of the last pass of an estimate: units, observations, covariances.
 #include <fmt/format.h>
 
 #include <cmath>

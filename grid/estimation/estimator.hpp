@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The passes of estimate() and what they leave. Private to grid/estimation.
+/// The passes of estimate() and their state. Private to grid/estimation.
 ///
-/// estimate.cpp repeats linearise, solve and weigh until a pass moves nothing; rejected_readings.cpp
-/// leaves out single readings; estimate_result.cpp reads the estimate off the last pass.
+/// estimate.cpp repeats linearise, solve and weigh until a pass changes nothing;
+/// rejected_readings.cpp leaves out single readings; estimate_result.cpp makes the estimate from
+/// the last pass.
 #pragma once
 
 #include <Eigen/Core>

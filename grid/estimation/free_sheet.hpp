@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A sheet in the directions in which the readings do not notice where it lies: there its frame is
-/// defined by laying it so that the places, as a whole, lie where they were commanded. That tells
-/// nothing of the machine. Private to grid/estimation.
+/// A sheet in the directions in which the readings do not depend on its placement: its frame is
+/// defined so that the places, as a whole, are where they were commanded. This carries no
+/// information about the machine. Private to grid/estimation.
 ///
 /// Notation
 ///   m_i  marks of the places
 ///   c_i  where they were commanded
 ///   G    d(all m)/d(unknowns)
-///   g    what the unknowns have moved the marks by where they stand now
+///   g    the displacement of the marks by the current unknowns
 ///   M    3 x 2N, the displacement of all places from their commands: shift x, shift y, turn (small)
 ///   x_f  the free directions, which follow from the other unknowns x_r:
 ///
@@ -40,10 +40,10 @@ struct PlacesOnSheet {
   std::vector<Eigen::Index> free_rows;  ///< of M, in the same order
 };
 
-/// (1) of one observation, added to what others have.
+/// Adds (1) of one observation.
 void add_free_directions(const PlacesOnSheet& places, FreeDirections& free);
 
-/// Where the marks would be with the free directions put right and all else as it is.
+/// The marks with the free directions corrected and all else unchanged.
 [[nodiscard]] std::vector<model::MarkPoint> placed_as_a_whole(const PlacesOnSheet& places);
 
 }  // namespace chaintrue::grid::estimation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The problem that a fit is asked: weighted rows, and what is known beforehand.
+/// The problem of a fit: weighted rows and priors.
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -41,8 +41,8 @@ void JointProblem::add_rows(interp::PenalisedProblem& problem,
   problem.add_rows(design.topRows(rows), response.head(rows));
 }
 
-/// What is known of the settings and scales, and readings of the machine itself: data of known
-/// sigma, which the noise factor does not scale.
+/// Priors of settings and scales, and readings of the machine itself: data of known sigma, which
+/// the noise factor does not scale.
 void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
   const Eigen::Index count = unknowns_->settings() + unknowns_->scales();
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(count, count);
@@ -50,7 +50,7 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
   for (Eigen::Index i = 0; i < unknowns_->settings(); ++i)
     precision(i, i) = 1.0 / (unknowns_->sigma(i) * unknowns_->sigma(i));
   precision.diagonal().tail(unknowns_->scales()).setConstant(1.0 / (kScaleSigma * kScaleSigma));
-  // Nothing where the mechanism begins at what was stated.
+  // Zero if the mechanism starts at the stated values.
   const Eigen::VectorXd stated = unknowns_->stated_deviations();
   pull.head(stated.size()) = precision.diagonal().head(stated.size()).cwiseProduct(stated);
   for (Eigen::Index i = 0; i < sure_design_.rows(); ++i) {
@@ -59,7 +59,7 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
     pull += row.transpose() * sure_response_[i];
   }
   problem.prior_precision.topLeftCorner(count, count) = precision;
-  // No reading of the machine touches the scales: they stand apart.
+  // No reading of the machine depends on the scales.
   const Eigen::Index coupled = unknowns_->settings();
   problem.prior_mean.head(coupled) =
       linear::PivotedCholesky(precision.topLeftCorner(coupled, coupled)).solve(pull.head(coupled));
@@ -106,7 +106,7 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: the same causes act on both surfaces.
   problem.ridge = {unknowns_->first_penalised_of(Side::left), 2 * surface.penalised};
-  // Where the splines' own penalty would weigh as much as the data.
+  // The lambda at which the splines' penalty weighs as much as the data.
   for (std::size_t u = 0; u < units_.size(); ++u) {
     const double weight = weights[as_index(u)];
     for (const observation::PlaceColumns& place : units_[u].places) {

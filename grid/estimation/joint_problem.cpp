@@ -38,10 +38,10 @@ double spacing_mm_of(const std::vector<MarkPoint>& points) {
   return std::sqrt(interp::ConvexHull(in_plane).area() / as_double(points.size()));
 }
 
-/// Intervals a little wider than the square that each place has to itself: three more coefficients
-/// than intervals on each axis still let noise-free points be met; the penalty makes what is too
-/// many of them harmless, and beyond some 200 a surface more would only cost time. The smoother
-/// surface is for points that are met closely, and closer ones show.
+/// Intervals slightly wider than the square of each place: with three more coefficients than
+/// intervals on each axis noise-free points can still be interpolated; the penalty makes excess
+/// ones harmless, and more than some 200 per surface would only cost time. The smoother surface is
+/// for accurate points, which resolve more.
 interp::BsplineBasis basis_for(const EstimationInput& input, bool has_surface) {
   if (!has_surface) return {input.domain, 1, 1};
   if (input.intervals_x > 0 && input.intervals_y > 0)
@@ -54,8 +54,8 @@ interp::BsplineBasis basis_for(const EstimationInput& input, bool has_surface) {
   return {input.domain, intervals(input.domain.width(), 12), intervals(input.domain.height(), 8)};
 }
 
-/// Chain lengths at given marks are linear in the correction, whatever it is, so that it can be left
-/// out of what the passes linearise about; where the tool went follows from the correction.
+/// Chain lengths at given marks are linear in the correction, so it can be omitted from the point
+/// of linearisation; the tool's position depends on the correction.
 bool is_linear_in_correction(const Observation& observation) {
   return observation.places().empty() || observation.kind().reads_chains;
 }
@@ -147,7 +147,7 @@ std::vector<SurfaceCorrection> JointProblem::corrections_of(const State& state) 
   return corrections;
 }
 
-/// What the places observe of the surface; where they stay, once.
+/// The part of the surface that the places observe; computed once if they are fixed.
 void JointProblem::observe(std::vector<MarkPoint> places) {
   surface_marks_ = std::move(places);
   if (unknowns_ && !places_move_) return;
@@ -159,7 +159,7 @@ void JointProblem::observe(std::vector<MarkPoint> places) {
   unknowns_.emplace(set_, surface);
 }
 
-/// e f + s, as the state has it.
+/// e f + s at the state.
 Eigen::Vector2d JointProblem::correction_at(std::size_t place,
                                             const SystemPlace& at,
                                             const State& state) const {

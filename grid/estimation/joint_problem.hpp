@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Readings and what is known beforehand as one penalised problem at one linearisation, and the way
-/// back from its unknowns to settings and splines. Private to grid/estimation.
+/// Readings and priors as one penalised problem at one linearisation, and the conversion of its
+/// unknowns to settings and splines. Private to grid/estimation.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,31 +19,30 @@
 
 namespace chaintrue::grid::estimation {
 
-/// Where the iteration stands.
+/// The iteration's state.
 struct State {
-  Eigen::VectorXd settings;  ///< unknowns of machine and sheets; all others are nothing
+  Eigen::VectorXd settings;  ///< unknowns of machine and sheets; all others are 0
   ResidualSurface surface;   ///< with the scales
 };
 
 class JointProblem {
  public:
-  /// `input` outlives the problem. `rejected` has an entry for each unit, or none.
+  /// `input` must outlive the problem. `rejected` has an entry for each unit, or none.
   JointProblem(const EstimationInput& input, bool has_surface, RejectedReadings rejected = {});
 
   [[nodiscard]] State stated() const;
-  /// In words.
   [[nodiscard]] EstimationFailure unreachable(const UnreachablePlace& failure) const;
   /// Fails where the machine has no pose at a place.
   tl::expected<void, EstimationFailure> linearise(const State& state);
-  /// With a weight for each unit; 0 sets it aside.
+  /// With a weight for each unit; 0 rejects it.
   [[nodiscard]] interp::PenalisedProblem weighted(const Eigen::VectorXd& weights) const;
-  /// Of each observation, as the state has the surface. The state outlives them.
+  /// For each observation, with the state's surface. The state must outlive them.
   [[nodiscard]] std::vector<SurfaceCorrection> corrections_of(const State& state) const;
   /// The state that a fit of the problem leads to.
   [[nodiscard]] State state_of(const interp::PenalisedFit& fit) const;
 
   [[nodiscard]] const Unknowns& unknowns() const { return *unknowns_; }
-  /// The same before anything was linearised, without a surface's.
+  /// As above before linearisation, without a surface's.
   [[nodiscard]] const Unknowns& layout() const { return layout_; }
   [[nodiscard]] bool has_surface() const { return has_surface_; }
   /// Some places follow from the machine: they move with what is estimated.
@@ -55,18 +54,18 @@ class JointProblem {
   /// Of a unit; none where the unit is an outlier as a whole.
   [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const;
   [[nodiscard]] const RejectedReadings& rejected() const { return rejected_; }
-  /// Rows that count, less what the fit took.
+  /// Counted rows minus the fit's effective parameters.
   [[nodiscard]] double dof(const interp::PenalisedFit& fit) const;
-  /// The same of many readings under a surface; null: the dense one costs no more.
+  /// The local design for many readings under a surface; null if the dense one is as fast.
   [[nodiscard]] const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
-  /// Marks of an observation's places, a free sheet laid as its frame is defined.
+  /// Marks of an observation's places, with a free sheet placed as its frame is defined.
   [[nodiscard]] const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
   }
-  /// What of a map's unknowns the places observe, and what keeps its prior.
+  /// The part of a map's unknowns that the places observe, and the part that keeps its prior.
   [[nodiscard]] Eigen::MatrixXd map_covariance(const interp::PenalisedFit& fit,
                                                const FitColumns& columns) const;
-  /// Of all unknowns, free directions with what they follow from.
+  /// Covariance of all unknowns, including the free directions.
   [[nodiscard]] Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const;
   [[nodiscard]] Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const;
 

@@ -22,7 +22,7 @@ double chi(Eigen::Index n, double z) {
 UnitRule rule_of(Eigen::Index rows) {
   if (rows == 1) return {1.96, kBadDistanceSigmas, true};
   if (rows == 2) return {2.4477, kBadPointDistance, false};
-  // The same chances as of two rows: 5 % and 4e-5.
+  // The same probabilities as for two rows: 5 % and 4e-5.
   return {chi(rows, 1.6449), chi(rows, 3.9444), false};
 }
 
@@ -48,7 +48,7 @@ void LeftOut::prepare_units() {
 void LeftOut::prepare_all() {
   if (by_root_.size() > 0) return;
   const linear::Cholesky factor(fit_.covariance);
-  // Positive but for rounding.
+  // Positive up to rounding.
   by_root_ = linear::product(problem_.design(),
                              factor.is_positive_definite()
                                  ? factor.lower()

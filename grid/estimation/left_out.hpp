@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Units against a fit without them, and what weight that leaves them. Private to
-/// grid/estimation.
+/// Units compared with a fit without them, and the resulting weights. Private to grid/estimation.
 ///
 /// With weights w, whitened rows X and residuals r of a unit, C the covariance of the unknowns and
-/// s^2 the noise of a fit that has the unit, without it
+/// s^2 the noise of a fit with the unit; without it
 ///
 ///   r_out = (I - w X C X' / s^2)^-1 r,   cov r_out = s^2 I + X C_out X'                        (1)
 ///   X C_out X' = s^2 (s^2 I - w X C X')^-1 X C X'
@@ -20,26 +19,26 @@
 
 namespace chaintrue::grid::estimation {
 
-/// A fit of a problem with these weights. All outlive this.
+/// A fit of a problem with these weights. All must outlive this.
 class LeftOut {
  public:
   LeftOut(const JointProblem& problem,
           const interp::PenalisedFit& fit,
           const Eigen::VectorXd& weights)
       : problem_(problem), fit_(fit), weights_(weights) {}
-  /// Who asks for all units has their X C X' found together first, in a fraction of the time.
+  /// Call first if all units are needed: X C X' of all takes a fraction of the time.
   void prepare_units();
-  /// The same for groups, too.
+  /// Likewise for groups.
   void prepare_all();
 
   struct Conditioned {
     Eigen::VectorXd residual;
     Eigen::MatrixXd covariance;
   };
-  /// Residual and covariance of a unit. Where the unit all but determines what the fit says of it,
-  /// I - w X C X' / s^2 is rounding: the rest is then fitted anew, at the smoothing of the whole.
+  /// Residual and covariance of a unit. If the unit nearly determines its own prediction, I - w X C
+  /// X' / s^2 is rounding: the rest is then fitted again with the smoothing of the whole.
   [[nodiscard]] Conditioned conditioned(std::size_t unit) const;
-  /// The whitened residual of a unit with it left out. Rejected readings are not in the fit.
+  /// The whitened left-out residual of a unit. Rejected readings are not in the fit.
   [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const;
   /// Those of a group of units with all of them left out. \throws std::logic_error before
   /// prepare_all().
@@ -50,7 +49,7 @@ class LeftOut {
 
  private:
   [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const;
-  /// The fit of the rest, at the smoothing of the whole; empty where there is none.
+  /// The fit of the rest, with the smoothing of the whole; empty if there is none.
   [[nodiscard]] std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const;
   /// X C X'.
   [[nodiscard]] Eigen::MatrixXd spread_of(std::size_t unit) const;
@@ -65,11 +64,11 @@ class LeftOut {
   Eigen::MatrixXd by_root_;  ///< X R of all units, C = R R'; empty before prepare_all()
 };
 
-/// What happens to a unit at a distance.
+/// The treatment of a unit by its distance.
 struct UnitRule {
   double full_weight_within;  ///< 95 % of good units
   double rejected_beyond;
-  bool worst_first;  ///< one at a time, by what the others make of it with their own noise
+  bool worst_first;  ///< one at a time, against the others' prediction and noise
 };
 [[nodiscard]] UnitRule rule_of(Eigen::Index rows);
 

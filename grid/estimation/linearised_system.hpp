@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All readings of one machine about one state, brought to units of noise: the one linear system of
-/// an estimate, a check and a diagnosis.
+/// All readings of one machine about one state, in units of noise: the linear system shared by
+/// estimates, checks and diagnoses.
 ///
 /// Notation as in observation.hpp; W = diag(W_u) whitens unit by unit (unit_whitening.hpp):
 ///
@@ -27,8 +27,8 @@
 
 namespace chaintrue::grid::estimation {
 
-/// What an observation is linearised about: the view, and its own settings there less what was
-/// stated (the machine's, then its sheet's).
+/// The point of linearisation of an observation: the view, and its settings there minus the stated
+/// ones (the machine's, then its sheet's).
 struct ObservedFrom {
   observation::View view;
   Eigen::VectorXd settings;
@@ -36,8 +36,8 @@ struct ObservedFrom {
 
 /// How f is found.
 enum class Prediction {
-  place_by_place,  ///< each place as if it were the only one
-  visit_by_visit,  ///< with what the machine keeps from one visit to the next
+  place_by_place,  ///< each place independently
+  visit_by_visit,  ///< with the machine's memory between visits
 };
 
 /// Rows that are good or bad together.
@@ -50,7 +50,8 @@ struct SystemUnit {
   bool reads_chains = false;  ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
-  /// What a millimetre of each reading adds to the rows, whitened; empty: the unit is an outlier as a whole.
+  /// The effect of a millimetre of each reading on the whitened rows; empty: the unit is an outlier
+  /// as a whole.
   Eigen::MatrixXd by_reading{};
 
   /// From the readings' units to those of noise, and back: the rows of this unit, at most two.
@@ -63,7 +64,7 @@ struct SystemUnit {
   [[nodiscard]] double sigma() const { return 1.0 / whitening.matrix()(0, 0); }
 };
 
-/// A place as the state has it.
+/// A place at the state.
 struct SystemPlace {
   std::size_t observation = 0;
   std::size_t place = 0;  ///< into the observation's
@@ -71,7 +72,7 @@ struct SystemPlace {
   model::MarkPoint mark;  ///< as it was written, or commanded
   int order = 0;
   bool ordered = false;  ///< chains were read here, at this visit
-  model::Bed bed;        ///< of the machine that stood here
+  model::Bed bed;        ///< of the machine at rest here
 };
 
 /// (1), n rows.
@@ -95,7 +96,7 @@ struct PlaceOfObservation {
 };
 using UnreachablePlace = Failure<model::MechanismReason, PlaceOfObservation>;
 
-/// `from` has one entry for each observation.
+/// Precondition: `from` has one entry for each observation.
 [[nodiscard]] tl::expected<LinearisedSystem, UnreachablePlace> linearise(
     const ObservationSet& set,
     const std::vector<ObservedFrom>& from,

@@ -65,7 +65,7 @@ void LocalDesign::add_rows(const Eigen::VectorXd& response,
     for (Eigen::Index i = 0; i < units_[u].rows; ++i) {
       const Eigen::Index at = units_[u].first_row + i;
       const auto& row = rows_[as_size(at)];
-      // Columns rise along a row but where two places meet: what is above the diagonal is added
+      // Columns rise along a row except where two places meet: entries above the diagonal are added
       // below it.
       for (std::size_t a = 0; a < row.size(); ++a) {
         const double value = weight * row[a].second;
@@ -83,7 +83,7 @@ void LocalDesign::add_rows(const Eigen::VectorXd& response,
   gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
   linear::add_product(
       problem.gram, 1.0, linear::transposed(to_unknowns_), linear::product(gram, to_unknowns_));
-  // Symmetric but for rounding.
+  // Symmetric up to rounding.
   problem.gram.triangularView<Eigen::StrictlyUpper>() = problem.gram.transpose();
   linear::add_product(problem.moment, 1.0, linear::transposed(to_unknowns_), moment);
 }

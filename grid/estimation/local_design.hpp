@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The design of many readings by what they touch: few unknowns densely, the surface only through
-/// the splines at their own place. Private to grid/estimation.
+/// The design of many readings in sparse form: few unknowns densely, the surface only through the
+/// splines at each place. Private to grid/estimation.
 ///
 ///   X = D M,   M = diag(I, B, B)                                                              (1)
 ///   X' w X = M' (D' w D) M,   X_u C X_u' = D_u (M C M') D_u'                                  (2)
@@ -22,7 +22,7 @@
 
 namespace chaintrue::grid::estimation {
 
-/// Units and response are those of the dense design; they outlive this.
+/// Units and response are those of the dense design; they must outlive this.
 class LocalDesign {
  public:
   /// `marks` are the places of all units, in the surface's frame.
@@ -33,7 +33,7 @@ class LocalDesign {
               const interp::BsplineBasis& basis,
               const std::vector<model::MarkPoint>& marks);
 
-  /// With more rows than this for each unknown it is worth its q^3.
+  /// Worth its q^3 with more rows than this per unknown.
   static constexpr Eigen::Index kRowsForEachUnknown = 4;
 
   /// Adds X' w X, X' w y, y' w y and the rows of positive weight; a weight for each unit.

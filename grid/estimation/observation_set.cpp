@@ -13,7 +13,7 @@
 namespace chaintrue::grid::estimation {
 namespace {
 
-/// Rows, places and units of a part after all others.
+/// Appends the rows, places and units of a part.
 void append(ObservationPart part, ObservationSet& set) {
   const observation::Observation& own = *part.observation;
   const std::size_t number = set.parts.size();
@@ -33,13 +33,13 @@ void append(ObservationPart part, ObservationSet& set) {
   set.parts.push_back(std::move(part));
 }
 
-/// The columns of zeros and nuisances, and what is stated of all columns.
+/// The columns of zeros and nuisances, and the stated values of all columns.
 void add_columns(ObservationSet& set) {
   const Eigen::Index parameters = set.parameters();
   Eigen::Index columns = parameters + 3 * as_index(set.sheets);
   bool is_first = true;
   for (ObservationPart& part : set.parts) {
-    // Nothing is said of the zeros of a mechanism that is not two chains.
+    // Only for two chains: other mechanisms have no such zeros.
     if (set.settings.empty() || !part.reads_chains()) continue;
     if (!is_first) {
       part.zero_columns = {columns, columns + 1};
@@ -135,7 +135,7 @@ Eigen::Index ObservationSet::sheet_column(std::size_t sheet) {
 std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part) const {
   std::vector<Eigen::Index> columns;
   for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
-  // What was read to follow up may stand in the frame of a sheet that it does not depend on.
+  // Follow-up readings may be in the frame of a sheet that they do not depend on.
   const bool has_sheet = part.sheet && part.observation->sheet();
   for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
     columns.push_back(sheet_column(*part.sheet) + as_index(k));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// All observations of one machine: their rows one below the other, their places and units numbered
-/// through, and the columns of what is unknown with what is stated of it.
+/// through, and the columns of the unknowns with their stated values.
 ///
 /// Columns: the machine's settings, three for each sheet that somebody laid, two for each session whose
-/// chain zeros are its own, the nuisances of each observation. Between two sessions in which chains are read
-/// a chain may have been hung anew: the zeros of all but the first are other than the machine's by what is
-/// estimated. Sets of holes share the machine's: distances hardly tell zeros, and the five published sets of
-/// one machine predict each other worse with zeros of their own (0.65 mm left out, 0.60 without). Units
-/// (observation.hpp) are those whose readings may be outliers; readings that cannot be outliers have
-/// rows and are no units.
+/// chain zeros are its own, the nuisances of each observation. A chain may have been re-hung
+/// between two sessions of chain readings: the zeros of all but the first differ from the machine's
+/// by an estimated amount. Sets of holes share the machine's zeros: distances hardly determine
+/// them, and the five published sets of one machine predict each other worse with separate zeros
+/// (0.65 mm left out, 0.60 without). Units (observation.hpp) are those whose readings may be
+/// outliers; readings that cannot be outliers have rows and are no units.
 ///
 /// \code
 ///   const ObservationSet set = observation_set(machine, {points, holes});
@@ -30,12 +30,12 @@
 
 namespace chaintrue::grid::estimation {
 
-/// What is stated without any uncertainty is taken as known this well, in mm or rad.
+/// Sigma of values stated without uncertainty, in mm or rad.
 inline constexpr double kKnownSigma = 1e-7;
 
-/// One sigma beforehand of what a chain's zero is other in another session, mm: a zero that is set anew by
-/// eye comes out within some millimetres. A grid tells it to tenths of a millimetre, so that a prior as wide
-/// as this pulls a shift of a whole link by hundredths.
+/// Prior sigma of a change of a chain's zero between sessions, mm: a zero set again by eye is
+/// within some millimetres. A grid determines it to tenths of a millimetre, so this prior pulls a
+/// shift of a whole link only by hundredths.
 inline constexpr double kSessionZeroSigmaMm = 3.0;
 
 /// Settings of the machine: the first columns.
@@ -49,8 +49,8 @@ struct ObservationPart {
   std::size_t first_unit = 0;
   std::optional<std::size_t> sheet;            ///< which of the set's; none: the bed's frame
   std::vector<Eigen::Index> nuisance_columns;  ///< among all columns
-  /// By how much the zero of either chain is more in this session than in the machine, among all columns;
-  /// none of the session that the machine's zeros are those of.
+  /// Columns of the zeros of this session minus the machine's; empty for the session that defines
+  /// the machine's.
   std::vector<Eigen::Index> zero_columns{};
   [[nodiscard]] bool reads_chains() const { return observation->kind().reads_chains; }
 };
@@ -72,21 +72,21 @@ struct NumberedUnit {
 
 struct ObservationSet {
   model::Machine stated;
-  /// What hangs: two chains of `stated`, or another mechanism, of which `stated` says nothing.
+  /// The mechanism: two chains of `stated`, or another one, which `stated` does not describe.
   std::shared_ptr<const model::Mechanism> mechanism;
   std::vector<ObservationPart> parts;
   std::vector<NumberedPlace> places;
   std::vector<NumberedUnit> units;
-  /// Of two chains, those of a sheet once for each; empty of another mechanism.
+  /// For two chains, those of a sheet once for each; empty for another mechanism.
   std::vector<model::Setting> settings;
   std::size_t sheets = 0;
   std::size_t own_zeros = 0;     ///< sessions whose chain zeros are their own
   Eigen::VectorXd stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
   Eigen::VectorXd
-      stated_sigma;  ///< q, one sigma of these, at least kKnownSigma; infinite: nothing is known
+      stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
   Eigen::Index rows = 0;
   Eigen::Index observed_rows = 0;  ///< those of units
-  /// How well the noise is known; of several observations that of the one that knows least.
+  /// Degrees of freedom of the noise: the fewest of all observations.
   double noise_dof = 15.0;
   bool noise_from_repeats = false;
   /// With fewer units left, none is rejected.
@@ -99,7 +99,7 @@ struct ObservationSet {
   [[nodiscard]] Eigen::Index nuisances() const {
     return stated_value.size() - setting_columns() - 2 * as_index(own_zeros);
   }
-  /// Whether two chains hang, of which `stated` says all.
+  /// Whether the mechanism is two chains, described by `stated`.
   [[nodiscard]] bool is_of_chains() const { return !settings.empty(); }
   [[nodiscard]] bool reads_chains() const;
   [[nodiscard]] bool has_distances() const;
@@ -110,13 +110,13 @@ struct ObservationSet {
   }
   /// The readings of the machine itself; none where there are none.
   [[nodiscard]] const std::vector<ExtraReading>& readings() const;
-  /// Whether the readings know of the setting in this column at all.
+  /// Whether the readings depend on the setting in this column.
   [[nodiscard]] bool knows(std::size_t column) const;
   /// The first of the three columns of a sheet.
   [[nodiscard]] static Eigen::Index sheet_column(std::size_t sheet);
   /// Columns of an observation's own settings, as observation::columns_of() has them.
   [[nodiscard]] std::vector<Eigen::Index> columns_of(const ObservationPart& part) const;
-  /// What these units are together: "points", "distances", "readings" where there are both.
+  /// Word for these units: "points", "distances", or "readings" for both.
   [[nodiscard]] std::string_view units_word() const;
 };
 
@@ -128,8 +128,8 @@ struct ObservationSet {
     const observation::Observations& observations,
     std::shared_ptr<const model::Mechanism> mechanism = nullptr);
 
-/// The same machine with other observations in place of the set's, each in the frame (sheet and
-/// nuisances) of one of its parts; nuisances that it has beyond the part's come after all columns.
+/// The machine with other observations, each in the frame (sheet and nuisances) of one of the set's
+/// parts; additional nuisances come after all columns.
 struct FollowUp {
   std::shared_ptr<const observation::Observation> observation;
   std::size_t in_place_of = 0;
@@ -150,11 +150,11 @@ template <class What>
   return result;
 }
 
-/// A machine with its settings somewhere, and where each sheet lies.
+/// Values of a machine's settings and of each sheet's placement.
 struct MachineState {
   model::Machine machine;
   std::vector<model::SheetPlacement> sheets;
-  /// Of another mechanism than two chains; then `machine` says nothing.
+  /// For a mechanism other than two chains; then `machine` is unused.
   std::shared_ptr<const model::Mechanism> mechanism = nullptr;
   [[nodiscard]] model::SheetPlacement sheet_of(const ObservationPart& part) const {
     return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
@@ -165,17 +165,17 @@ struct MachineState {
   }
 };
 [[nodiscard]] MachineState stated_state(const ObservationSet& set);
-/// Zeros of other sessions and nuisances are nothing in every state: what they do is linear.
+/// Zeros of other sessions and nuisances are 0 in every state: their effect is linear.
 [[nodiscard]] Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
 /// \throws std::invalid_argument for another mechanism than two chains that cannot have these values.
 [[nodiscard]] MachineState with_settings(const ObservationSet& set,
                                          MachineState state,
                                          const Eigen::VectorXd& values);
-/// The same, or why there is no such machine.
+/// As above, or why there is no such machine.
 [[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(
     const ObservationSet& set, MachineState state, const Eigen::VectorXd& values);
 
-/// A unit in a workshop's words.
+/// Words for a unit.
 [[nodiscard]] std::string name_of(const ObservationSet& set, std::size_t unit);
 
 }  // namespace chaintrue::grid::estimation

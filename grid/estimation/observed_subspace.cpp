@@ -50,8 +50,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
     null_space_.resize(size, 0);
     return;
   }
-  // The rows are T' Q': the columns of Q are what the points see, the rest of the space what they
-  // do not.
+  // The rows are T' Q': the columns of Q span what the points observe.
   const linear::Qr parts = linear::qr(bend_rows_.transpose());
   const Eigen::MatrixXd turned = linear::product(root, parts.q);
   penalised_basis_ = turned.leftCols(points);

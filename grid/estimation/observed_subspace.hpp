@@ -45,7 +45,7 @@ class ObservedSubspace {
   [[nodiscard]] const Eigen::MatrixXd& null_space_coefficients() const { return null_space_; }
   /// Trace of P.
   [[nodiscard]] double penalty_trace() const { return penalty_trace_; }
-  /// Sum over the splines of phi(q)^2, a mark each.
+  /// Sum over the splines of phi(q)^2, for each mark.
   [[nodiscard]] const Eigen::VectorXd& squares() const { return squares_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a sheet lies, by weighted least squares (Gauss-Newton) on whatever was read on it:
+/// The placement of a sheet by weighted least squares (Gauss-Newton) on any readings:
 ///
 ///   minimise  sum_i |r_i(t)|^2_(W_i) + |t / sigma|^2,    t = (x_mm, y_mm, rotation_rad)
 ///
@@ -40,8 +40,8 @@ class PlacementNormal {
   Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
 };
 
-/// Adds what was read to the equations about a placement; false where the machine has no pose, which
-/// ends the search where it is.
+/// Adds the readings to the equations about a placement; false if the machine has no pose, which
+/// ends the search.
 using LinearisedAt = std::function<bool(const model::SheetPlacement&, PlacementNormal&)>;
 
 /// Eight steps from the identity: a shift of 50 mm and a turn of 0.03 rad converge in four. Without a

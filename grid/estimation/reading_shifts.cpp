@@ -9,7 +9,7 @@
 namespace chaintrue::grid::estimation {
 namespace {
 
-/// Of a direction's square: what is less is rounding.
+/// Share of a direction's square below which it is rounding.
 constexpr double kNoDirection = 1e-12;
 
 }  // namespace
@@ -53,8 +53,8 @@ ReadingShift shift_of(const FittedRows& rows,
     return shift;
   }
   const double kept = own - spread / s2;
-  // The share is of a whole reading: what it adds to the rows is less than its own sigma by what its
-  // place takes.
+  // The share refers to a whole reading: its effect on the rows is reduced by the estimate of its
+  // place.
   const double whole = unit.whitening.matrix().row(0).squaredNorm();
   if (kept < kOwnWord * whole || n < 2.0) return shift;
   shift.residual_mm = r / kept;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Single readings of units as mean shifts: what a reading is off by from what all others make of it,
-/// and how far that is out. Private to grid/estimation.
+/// Single readings of units as mean shifts: the deviation of a reading from the prediction by all
+/// others, and its significance. Private to grid/estimation.
 ///
 /// Notation, of a unit with whitened rows X and residuals r in a fit with covariance C, noise s^2 and
 /// n degrees of freedom
-///   d     what a millimetre of the reading adds to the rows
-///   N     orthonormal complement of what the unit's rejected readings (but this one) add
+///   d   effect of a millimetre of the reading on the rows
+///   N     orthonormal complement of the effects of the unit's other rejected readings
 ///   d~ = N' d,   r~ = N' r,   S = N' X C X' N,   M = I - S / s^2
 ///
 /// Of a reading that counts
@@ -37,17 +37,17 @@ using RejectedReadings = std::vector<std::vector<Eigen::Index>>;
 [[nodiscard]] Eigen::MatrixXd without_readings(const SystemUnit& unit,
                                                const std::vector<Eigen::Index>& rejected);
 
-/// Less than this left of its own weight: nothing but the reading tells where it should be.
+/// If less than this share of its weight remains, no other reading determines it.
 inline constexpr double kOwnWord = 1e-6;
 
 /// The normal deviate of the same chance as Student's t.
 [[nodiscard]] double normal_deviate(double t, double dof);
-/// (2), of a residual r of which the share `kept` of its own weight is not its own word.
+/// (2), for a residual r with the share `kept` of its weight after leaving it out.
 [[nodiscard]] double deleted_deviate(double r, double kept, double s2, double dof);
 
 struct ReadingShift {
   double residual_mm = 0.0;  ///< read less what all others make of it
-  double sigmas = 0.0;  ///< 0 where nothing else tells of the reading
+  double sigmas = 0.0;  ///< 0 if no other reading determines it
 };
 
 /// A fit to the rows of a linearised system.

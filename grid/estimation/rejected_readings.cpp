@@ -45,7 +45,7 @@ std::optional<Estimator::Shift> Estimator::best_rejected() const {
   return best;
 }
 
-/// Fits again with these readings rejected; false, and nothing changed, where that has no answer.
+/// Fits again with these readings rejected; false and unchanged if that fails.
 bool Estimator::converge_without(RejectedReadings rejected) {
   std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
   for (std::size_t u = 0; u < rejected.size(); ++u) {

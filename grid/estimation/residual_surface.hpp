@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the calibrated model leaves: one smooth correction for each chain.
+/// The residual of the calibrated model: one smooth correction for each chain.
 ///
 ///   correction_i(q) = e_i f_i(q) + s_i(q)                                                   (1)
 ///
@@ -13,7 +13,7 @@
 /// follows the chain's length is a far better guess between and beyond the points than one that
 /// knows only x and y.
 ///
-/// Coefficients stand in the order: settings, e_left, e_right, s_left, s_right (FitColumns).
+/// Order of the coefficients: settings, e_left, e_right, s_left, s_right (FitColumns).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Splits points into compact blocks of the bed, for held-out errors that a neighbour cannot
-/// flatter.
+/// Splits points into compact blocks of the bed, so that neighbours do not make held-out errors too
+/// small.
 #pragma once
 
 #include <cstddef>

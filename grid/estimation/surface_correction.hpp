@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A residual surface as a correction of what an observation's machine gives, in the frame of that
+/// A residual surface as a correction of an observation's machine, in the frame of that
 /// observation's marks. Private to grid/estimation.
 #pragma once
 
@@ -12,12 +12,12 @@
 
 namespace chaintrue::grid::estimation {
 
-/// The surface outlives this.
+/// The surface must outlive this.
 class SurfaceCorrection final : public observation::LengthCorrection {
  public:
-  /// Of marks in the surface's own frame.
+  /// For marks in the surface's frame.
   explicit SurfaceCorrection(const ResidualSurface& surface) : surface_(surface) {}
-  /// Of marks on another sheet than that whose marks the surface goes by.
+  /// For marks on a sheet other than the surface's.
   SurfaceCorrection(const ResidualSurface& surface,
                     model::SheetPlacement surface_sheet,
                     model::SheetPlacement own_sheet)

@@ -22,7 +22,7 @@
 
 namespace chaintrue::grid::estimation {
 
-/// How many columns a surface has for each chain: polynomials and the penalised basis.
+/// Columns of a surface for each chain: polynomials and the penalised basis.
 struct SurfaceColumns {
   Eigen::Index polynomials = 0;
   Eigen::Index penalised = 0;
@@ -32,9 +32,9 @@ class Unknowns {
  public:
   Unknowns(const ObservationSet& set, SurfaceColumns surface);
 
-  /// How many parameters the mechanism has: the first unknowns.
+  /// Number of the mechanism's parameters: the first unknowns.
   [[nodiscard]] Eigen::Index parameters() const { return stated_->values().size(); }
-  /// How many settings there are: parameters, and those of the first sheet.
+  /// Number of settings: parameters, and those of the first sheet.
   [[nodiscard]] Eigen::Index settings() const { return settings_; }
   /// Two, or none: a surface corrects the lengths of two chains.
   [[nodiscard]] Eigen::Index scales() const { return stated_->lengths().size() == 2 ? 2 : 0; }
@@ -56,18 +56,18 @@ class Unknowns {
   }
   [[nodiscard]] Eigen::Index total() const { return total_; }
 
-  /// One sigma beforehand of a setting's, a sheet's or a zero's column, infinite where nothing is known; 0 of
-  /// the others.
+  /// Prior sigma of a setting's, sheet's or zero's column, infinite without a prior; 0 for the
+  /// others.
   [[nodiscard]] double sigma(Eigen::Index column) const { return sigma_[column]; }
   /// Columns of an observation's own settings: the machine's, then its sheet's.
   [[nodiscard]] std::vector<Eigen::Index> columns_of(std::size_t observation) const;
-  /// Where each column of the observation set is among the unknowns.
+  /// Index of each column of the observation set among the unknowns.
   [[nodiscard]] const std::vector<Eigen::Index>& of_set() const { return of_set_; }
 
-  /// What was stated of the parameters less the values that they deviate from.
+  /// Stated parameters minus the values that they deviate from.
   [[nodiscard]] Eigen::VectorXd stated_deviations() const;
 
-  /// The mechanism and the sheets that a vector of all unknowns stands for.
+  /// The mechanism and the sheets for a vector of all unknowns.
   [[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(
       const Eigen::VectorXd& unknowns) const;
   [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& unknowns,
