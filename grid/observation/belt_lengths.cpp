@@ -16,7 +16,7 @@ const Kind belt_lengths{"belt_lengths", "point", "points", "point", false};
 
 namespace {
 
-/// Rows of a block that several places share stand in units of so many.
+/// Rows that several places of a block share are in units of this many.
 constexpr Eigen::Index kBlockUnitRows = 2;
 
 std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) {
@@ -150,8 +150,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
   }
 }
 
-/// As rows_of() of four lengths that all count at one place, which most places are: without a matrix
-/// whose size is not known beforehand.
+/// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
 BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
   const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
   const Eigen::Matrix4d q = Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Lengths of a mechanism that has more of them than a position has coordinates, four belts for one,
-/// with the tool at a place whose position is known or is not.
+/// Lengths of a mechanism that has more of them than a position has coordinates, such as four
+/// belts, with the tool at a known or unknown place.
 ///
 ///   l    lengths that count, m of them, one sigma each
-///   f    what the mechanism makes of them at q                                m
+///   f    predicted by the mechanism at q                                m
 ///   J    d(f)/d(q)                                                            m x 2
 ///
 /// A place that is known is a unit of m rows, y = l with covariance sigma^2 I + sigma_q^2 J J', as a
@@ -13,16 +13,15 @@
 ///
 ///   y = 0,   predicted = -Q' (l - f),   A = Q' df/dtheta,   covariance sigma^2 I_(m-2)       (1)
 ///
-/// What two lengths say is spent on the position; m - 2 rows remain and check the rest. A is the
-/// derivative but for dQ, which is multiplied by what the lengths miss at q and is left out: the
-/// least squares are the same, and passes converge as fast. Where fewer than three lengths count a
-/// place has no rows and is no unit. A single reading may be an outlier: what it adds to the rows is its column
-/// of Q'.
+/// Two lengths determine the position; m - 2 rows remain as checks. A is the derivative without dQ,
+/// which is multiplied by the residuals at q and is neglected: the least squares are the same, and
+/// passes converge as fast. With fewer than three counted lengths a place has no rows and is not a
+/// unit. A single reading may be an outlier: its effect on the rows is its column of Q'.
 ///
 /// Places that taped distances join are a block: positions, lengths and distances of a block are
-/// found, and projected out, together. Its rows are one below the other in units of two, the
-/// distances brought to the lengths' sigma. A distance that ends at no place is a unit of its own; one
-/// that ends where fewer than two lengths count says nothing and is left out.
+/// found, and projected out, together. Its rows are in units of two, the distances scaled to the
+/// lengths' sigma. A distance that ends at no place is a separate unit; one that ends where fewer
+/// than two lengths count carries no information and is left out.
 ///
 /// Source: G. Golub and V. Pereyra, The differentiation of pseudo-inverses and nonlinear least squares
 /// problems whose variables separate, SIAM J. Numer. Anal. 10 (1973) 413; L. Kaufman, BIT 15 (1975)
@@ -52,12 +51,12 @@ struct LengthsAtPlace {
   Eigen::VectorXd lengths_mm;
   std::vector<bool> counting;  ///< of each length; empty: all
   model::MechanismVisit visit;
-  /// Where the tool was, in the mechanism's frame; empty: nobody measured it.
+  /// Where the tool was, in the mechanism's frame; empty: unknown.
   std::optional<model::ToolPosition> known = std::nullopt;
   /// Lengths that count and that the position is found without; empty: none.
   std::vector<bool> rejected = {};
-  /// Of a position that nobody measured: q to linearise about. The residuals are those there, to first order
-  /// the same whatever q is near by. Empty: q of (1).
+  /// For an unknown position: q to linearise about. The residuals are those there; to first order
+  /// they do not depend on a nearby q. Empty: q of (1).
   std::optional<model::ToolPosition> about = std::nullopt;
 
   [[nodiscard]] bool counts(Eigen::Index length) const {
@@ -109,15 +108,15 @@ class BeltLengthReadings final : public Observation {
   [[nodiscard]] std::shared_ptr<const Observation> about_others(
       const std::vector<UnitReading>& rejected) const override;
 
-  /// Every place of which two lengths count, and every distance that ends at no place, once.
+  /// Every place with two counted lengths, and every distance that ends at no place, once.
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
   [[nodiscard]] const std::vector<TapedDistance>& distances() const { return distances_; }
   [[nodiscard]] tl::expected<BlockLine, Unreachable> block_line(const View& view,
                                                                 const Block& block,
                                                                 bool with_parameters) const;
 
-  /// A unit of one place about a view: its part of predicted(), A and C, and what a millimetre more of
-  /// each length at its place does to its rows.
+  /// A unit of one place about a view: its part of predicted(), A and C, and the effect of a
+  /// millimetre of each length at its place on its rows.
   struct UnitLine {
     Eigen::VectorXd predicted;
     Eigen::MatrixXd by_parameter;
@@ -130,12 +129,12 @@ class BeltLengthReadings final : public Observation {
                                                             std::size_t unit,
                                                             bool with_parameters) const;
 
-  /// Where a view puts the tool at a place: where it is known to be, or q.
+  /// The tool's position at a place for a view: the known one, or q.
   [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> position_of(
       const View& view, std::size_t place) const;
   /// In the order of places().
   [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }
-  /// The unit's place; of a block of several its first.
+  /// The unit's place; for a block of several its first.
   [[nodiscard]] std::size_t place_of(std::size_t unit) const { return place_of_unit_.at(unit); }
 
  private:

@@ -24,7 +24,7 @@ double BeltLengthReadings::distance_weight(std::size_t distance) const {
   return ratio * ratio;
 }
 
-/// Where a distance's ends stand among a block's places.
+/// Indices of a distance's ends among a block's places.
 std::array<std::optional<std::size_t>, 2> BeltLengthReadings::slots_of(const Block& block,
                                                                        std::size_t distance) const {
   const auto slot_of = [&](const TapeEnd& end) -> std::optional<std::size_t> {
@@ -85,7 +85,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
   return line;
 }
 
-/// Of places that distances join: by Gauss and Newton from where lengths alone put each.
+/// For places that distances join: Gauss-Newton, starting from the lengths alone.
 tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& view,
                                                                    const Block& block,
                                                                    BlockLine& line) const {
@@ -123,7 +123,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
       positions.push_back(own.known ? *own.known : *own.about);
       continue;
     }
-    // From where all lengths together put it, from the middle where they put it nowhere.
+    // Starts where all lengths together put it, or at the middle if they do not meet.
     const std::vector<bool> deciding = deciding_lengths(own);
     auto position = view.mechanism->locate(own.lengths_mm, own.visit);
     if (!position || !deciding.empty()) {

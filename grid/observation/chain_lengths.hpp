@@ -31,7 +31,7 @@ class ChainLengthReadings final : public Observation {
                       PointNoise noise,
                       double noise_dof,
                       std::optional<SheetPrior> sheet);
-  /// The same in the order of `places`.
+  /// As above, in the order of `places`.
   [[nodiscard]] static ChainLengthReadings in_given_order(std::vector<Place> places,
                                                           bool ordered,
                                                           PointNoise noise,

@@ -65,7 +65,7 @@ tl::expected<std::vector<DrawnMeasures::Located>, Unreachable> DrawnMeasures::lo
 
 namespace {
 
-/// (1) as a row: what is measured, and how the three points move it.
+/// (1) as a row: the measure and its derivatives by the three points.
 struct MeasureRow {
   double value_mm = 0.0;
   Eigen::RowVector2d by_from, by_to, by_middle;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a person measured on a drawing that the machine made: lengths between drawn crosses, and the
-/// bow of a line, with a string held along it.
+/// Measurements on a drawing that the machine made: lengths between drawn crosses, and the bow of a
+/// line, with a string held along it.
 ///
-///   K_i   lengths that the controller paid out for cross i (two; a controller that counts right)
+///   K_i   lengths that the controller paid out for cross i (two, counted correctly)
 ///   q_i   where the tool was: f(q_i) = K_i, dq_i/dtheta = -J_i^-1 df/dtheta
-///   u, n  along the line from a to b, and across it to the left of who walks from a to b
+///   u, n along the line from a to b, and across it, to the left going from a to b
 ///
 ///   length   |q_b - q_a|,           derivative u (dq_b - dq_a)
 ///   bow      n (q_m - q_a),         derivative n (dq_m - dq_a - t (dq_b - dq_a))            (1)
 ///
 /// m is the drawn point at which the bow was measured and t its share of the way along the string.
-/// Both are of the drawing alone: where the sheet lay does not matter, and neither does the drawing's
-/// turn. A row for each measure, which is good or bad by itself.
+/// Both are independent of the sheet's placement and of the drawing's rotation. Each measure is one
+/// row and may be an outlier independently.
 ///
 /// \code
 ///   const DrawnMeasures readings(points, measures, 15.0);
@@ -40,11 +40,11 @@ struct DrawnMeasure {
   std::size_t from = 0;
   std::size_t to = 0;
   std::size_t middle = 0;  ///< of a bow
-  double value_mm = 0.0;   ///< of a bow positive to the left of who walks from `from` to `to`
+  double value_mm = 0.0;   ///< of a bow positive to the left going from `from` to `to`
   double sigma_mm = 0.5;
 };
 
-/// (1) of three points; of a length the last is not looked at.
+/// (1) for three points; for a length the last is ignored.
 [[nodiscard]] double measured_between(DrawnMeasure::Kind kind,
                                       const Eigen::Vector2d& from,
                                       const Eigen::Vector2d& to,
@@ -52,8 +52,8 @@ struct DrawnMeasure {
 
 class DrawnMeasures final : public Observation {
  public:
-  /// Sorts the measures by their points. `noise_dof` is how well their sigmas are known. \throws
-  /// std::invalid_argument for a sigma that is not positive or a point that is not there.
+  /// Sorts the measures by their points. `noise_dof` are the degrees of freedom of their sigmas.
+  /// \throws std::invalid_argument for a sigma that is not positive or a missing point.
   DrawnMeasures(std::vector<DrawnPoint> points,
                 std::vector<DrawnMeasure> measures,
                 double noise_dof);

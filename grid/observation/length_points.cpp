@@ -25,7 +25,7 @@ void take_ring_radius(Machine& machine, const ExtraReading& reading) {
   ring->radius_mm = (stated * ring->radius_mm + read * reading.value) / (stated + read);
 }
 
-/// A reading takes the place of an elongation that was stated for the same chain.
+/// A reading replaces an elongation that was stated for the same chain.
 void take_link_pitch(Machine& machine, const ExtraReading& reading) {
   std::erase_if(machine.effects, [&](const model::AppliedEffect& applied) {
     return applied.effect == "chain_pitch_error" && applied.side == reading.side;
@@ -35,7 +35,7 @@ void take_link_pitch(Machine& machine, const ExtraReading& reading) {
                              {{"elongation", reading.value / machine.sprocket.pitch_mm - 1.0}}});
 }
 
-/// A tape's error that was read takes the place of one that was stated.
+/// A measured tape error replaces a stated one.
 void take_tape_error(Machine& machine, const ExtraReading& reading) {
   const std::string side = reading.side.empty() ? "both" : reading.side;
   std::erase_if(machine.effects, [&](const model::AppliedEffect& applied) {
@@ -128,7 +128,7 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
 
 namespace {
 
-/// Readings of one thing become one, weighed by their sigmas, in the order of their first.
+/// Readings of one quantity are combined, weighted by their sigmas, in the order of the first.
 std::vector<ExtraReading> combined(const std::vector<ExtraReading>& readings) {
   std::vector<ExtraReading> result;
   for (const ExtraReading& reading : readings) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A grid's points as chain lengths, and a machine as its extra readings correct it: what a fit
-/// starts from.
+/// The input of a fit: a grid's points as chain lengths, and a machine corrected by its extra
+/// readings.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct LengthPoint {
   std::size_t index = 0;  ///< into the grid's points
   model::MarkPoint mark;
   model::ChainLengths lengths;
-  /// The command to the controller, where the lengths come of a command.
+  /// The command to the controller, if the lengths come from one.
   std::optional<model::BedPoint> commanded = std::nullopt;
 };
 
@@ -47,9 +47,9 @@ inline constexpr double kRepeatDistanceMm = 25.0;
 [[nodiscard]] std::vector<std::vector<std::size_t>> repeat_groups(
     const std::vector<LengthPoint>& points);
 
-/// Readings that state a part of the machine anew replace what it stated: sled_mass_kg and
-/// chain_mass_kg_per_m as they are, ring_radius_mm weighed against the stated one by their sigmas,
-/// link_pitch_mm as a chain_pitch_error.
+/// Readings that replace a part of the stated machine: sled_mass_kg and chain_mass_kg_per_m as they
+/// are, ring_radius_mm weighed against the stated one by their sigmas, link_pitch_mm as a
+/// chain_pitch_error.
 [[nodiscard]] model::Machine with_readings(model::Machine machine,
                                            const std::vector<ExtraReading>& readings);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Everything that was measured of one machine: any mix of grids and sets of holes, file by file.
-/// Points and distances are numbered through in the order of the files of their kind.
+/// All measurements of one machine: any mix of grids and sets of holes, file by file. Points and
+/// distances are numbered through in the order of the files of their kind.
 ///
 /// \code
 ///   Measured measured(grid);            // or a set of holes
@@ -38,7 +38,7 @@ class Measured {
   Measured(MeasuredHoles set);  // NOLINT: and so are holes
   Measured(std::initializer_list<MeasuredFile> files) : files_(files) {}
 
-  /// Without a name in messages they bear their own.
+  /// Without a given name they keep their own in messages.
   void add(MeasuredGrid grid);
   void add(MeasuredHoles set);
   void add(MeasuredFile file) { files_.push_back(std::move(file)); }
@@ -49,7 +49,7 @@ class Measured {
   [[nodiscard]] std::vector<const MeasuredHoles*> holes() const;
   /// Null where there is none.
   [[nodiscard]] MeasuredGrid* first_grid();
-  /// What the first file calls itself; empty where there is none.
+  /// The name in the first file; empty if there is none.
   [[nodiscard]] std::string name() const;
   /// That the first file states.
   [[nodiscard]] std::optional<model::Machine> machine() const;
@@ -58,12 +58,12 @@ class Measured {
   std::vector<MeasuredFile> files_;
 };
 
-/// Whether two files hold the same readings at the same marks to the last digit: a copy, since nobody reads a
-/// machine twice without a tenth of a millimetre between.
+/// Whether two files hold the same readings at the same marks to the last digit: a copy, since two
+/// sessions always differ by tenths of a millimetre.
 [[nodiscard]] bool same_readings(const MeasuredFile& one, const MeasuredFile& other);
 
-/// The first setting that two machines do not share, in words of the file that states the other;
-/// empty where they share all.
+/// The first setting that differs between two machines, in terms of the second file; empty if all
+/// agree.
 [[nodiscard]] std::string difference_of_settings(const model::Machine& first,
                                                  const model::Machine& other);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a person measured: marks on the bed, the chain lengths read there, and how well.
+/// A set of measurements: marks on the bed, the chain lengths read there, and their noise.
 #pragma once
 
 #include <optional>
@@ -22,20 +22,20 @@ struct MeasuredPoint {
   std::optional<int> order;
 };
 
-/// One sigma as the person states it, and how well it is known (degrees of freedom of the estimate).
+/// One sigma as stated, and the degrees of freedom of the estimate.
 struct StatedNoise {
   double length_mm = 0.2;
   double position_mm = 0.3;
   double dof = 15.0;
 };
 
-/// The marks' frame was placed by hand, this well (one sigma).
+/// The marks' frame was placed by hand with these sigmas.
 struct SheetUncertainty {
   double shift_mm = 20.0;
   double rotation_mrad = 10.0;
 };
 
-/// What is read that is not a point, in the order of the names, by which readings are sorted.
+/// Readings other than points, in the order of their names, by which they are sorted.
 enum class ReadingOf {
   beam_rise,      ///< mm
   chain_mass,     ///< kg per m
@@ -59,7 +59,7 @@ struct ExtraReading {
 struct MeasuredGrid {
   std::string name;
   std::optional<model::Machine> machine;
-  /// Absent: estimated from repeats, or from the fit's residuals, and said so.
+  /// Absent: estimated from repeats, or from the fit's residuals, and reported.
   std::optional<StatedNoise> noise;
   std::optional<SheetUncertainty> sheet;
   std::vector<ExtraReading> readings;

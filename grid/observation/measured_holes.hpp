@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What an owner with a drill bit and a tape measures: holes cut at commanded places, distances
-/// between them and to the sheet's edges. Where the holes are is not measured; it follows from what
-/// the controller paid out and is solved with the machine.
+/// Measurements with a drill bit and a tape: holes cut at commanded places, distances between them
+/// and to the sheet's edges. Where the holes are is not measured; it follows from what the
+/// controller paid out and is solved with the machine.
 ///
 /// \code
 ///   MeasuredHoles set;
@@ -48,14 +48,13 @@ struct HoleDistance {
 };
 
 struct Tape {
-  /// One sigma of a reading: half a millimetre is what a careful eye makes of a tape.
+  /// One sigma of a reading: half a millimetre for careful reading of a tape.
   double sigma_mm = 0.5;
-  /// Every reading is longer than the distance by this much (the hook was not used, or a mark at
-  /// 100 mm was held to the hole).
+  /// Every reading is longer than the distance by this much (the hook was not used, or the 100 mm
+  /// mark was held to the hole).
   double tape_zero_offset_mm = 0.0;
-  /// How well that is known, one sigma: a hook with play, edges of holes taken for their centres.
-  /// All readings of a set share it: what was measured on another day, the tape held anew, is a set
-  /// of its own. Absent: exactly.
+  /// One sigma of that: a hook with play, edges of holes taken for their centres. All readings of a
+  /// set share it, so measurements of another day are a separate set. Absent: exact.
   std::optional<double> tape_zero_offset_sigma_mm = std::nullopt;
 };
 
@@ -74,7 +73,7 @@ struct MeasuredHoles {
   /// One sigma on each axis of a hole's displacement from where its chain lengths put it: friction of
   /// the sled, drift of the drill.
   double hole_sigma_mm = 0.3;
-  /// How well these two are known, in degrees of freedom.
+  /// Degrees of freedom of these two.
   double noise_dof = 15.0;
   SheetSize sheet;
   std::vector<ExtraReading> readings;  ///< of the machine itself
@@ -88,16 +87,16 @@ struct MeasuredHoles {
 [[nodiscard]] double length_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// "A-B", "A to the top edge".
 [[nodiscard]] std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
-/// What the commands say the distance is, on a sheet laid as the bed.
+/// The commanded distance, on a sheet aligned with the bed.
 [[nodiscard]] double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance);
 
 /// The amount by which nearly all distances are longer than commanded, equally for short and long
-/// ones; nothing where there is none above 8 mm. It suggests a zero offset that was not stated (or
-/// stated twice, where negative).
+/// ones; empty if not above 8 mm. It suggests a zero offset that was not stated (or, if negative,
+/// stated twice).
 [[nodiscard]] std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set);
 
-/// A distance-only set tells the motors' spacing, both chain zeros and both chains' scales; fewer
-/// distances than these leave the answer to what was stated.
+/// Distances alone determine the motors' spacing, both chain zeros and both chains' scales; with
+/// fewer distances the result depends on the stated values.
 inline constexpr std::size_t kFewestHoleDistances = 5;
 
 }  // namespace chaintrue::grid

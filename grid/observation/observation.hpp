@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The one currency of calibration and diagnosis: an observation, numbers that somebody read, with
-/// what the machine makes of them. Estimators and diagnosis use nothing else of how something was
-/// measured; a kind of observation is one file pair here and one line in kinds.def.
+/// The common interface of all measurements: an observation is a set of readings with their
+/// prediction by the machine. Estimators and diagnosis depend on nothing else; a kind of
+/// observation is one file pair here and one line in kinds.def.
 ///
 /// Notation
 ///   y      what was read                       n numbers, mm or the reading's own unit
-///   f      what a machine would give to be read there
+///   f   the machine's prediction
 ///   theta  parameters of the mechanism, then of the sheet                 p of them
 ///   b      nuisances: errors that several readings share, each about zero with a sigma   q of them
-///   c_i    what is added to the two chains at place i (effects, a surface) [mm]
+///   c_i    added to the two chains at place i (effects, a surface) [mm]
 ///
 ///   y = f + A (theta - theta_0) + B b + sum_i D_i c_i + noise,   noise of unit u ~ N(0, C_u)   (1)
 ///
@@ -42,10 +42,10 @@
 
 namespace chaintrue::grid::observation {
 
-/// What a kind is called, in files and in sentences. One constant for each line of kinds.def.
+/// The names of a kind in files and sentences. One constant for each line of kinds.def.
 struct Kind {
   std::string_view id;        ///< of the .def and of files
-  std::string_view unit;      ///< "point", "distance": what is good or bad as one
+  std::string_view unit;      ///< "point", "distance": the unit for outliers
   std::string_view units;     ///< "points"
   std::string_view place;     ///< "point", "hole"; empty where the tool stood nowhere
   bool reads_chains = false;  ///< lengths at a place were read, not paid out by a controller
@@ -58,7 +58,7 @@ struct Place {
   model::MarkPoint mark;        ///< as it was written, or commanded
   model::ChainLengths lengths;  ///< read there, or paid out to get there
   int order = 0;                ///< of the visit
-  /// The command to the controller, where the lengths come of a command at this mark.
+  /// The command to the controller, if the lengths come from a command at this mark.
   std::optional<model::BedPoint> commanded = std::nullopt;
 };
 
@@ -69,18 +69,18 @@ struct Unit {
   std::size_t index = 0;  ///< into the file's points, or distances
 };
 
-/// How well the frame of the marks is known that somebody laid on the bed by hand.
+/// Sigmas of the marks' frame, if it was placed on the bed by hand.
 struct SheetPrior {
   double shift_sigma_mm = 0.0;
   double rotation_sigma_rad = 0.0;
-  /// Directions in which the readings notice at all where it lies.
+  /// Directions of its placement on which the readings depend.
   bool knows_x = true;
   bool knows_y = true;
   bool knows_rotation = true;
   [[nodiscard]] bool knows(model::Setting setting) const;
 };
 
-/// A correction of the machine's lengths over the sheet, as a fit has it.
+/// A fit's correction of the machine's lengths over the sheet.
 class LengthCorrection {
  public:
   virtual ~LengthCorrection() = default;
@@ -96,8 +96,8 @@ class LengthCorrection {
                               const Eigen::Matrix2d& by_mark) const = 0;
 };
 
-/// What is linearised about: a mechanism, where the sheet of the marks lies, and what corrects the
-/// mechanism's lengths.
+/// The point of linearisation: a mechanism, the placement of the marks' sheet, and a correction of
+/// the mechanism's lengths.
 struct View {
   explicit View(std::shared_ptr<const model::Mechanism> what_hangs)
       : mechanism(std::move(what_hangs)) {}
@@ -110,7 +110,8 @@ struct View {
        model::SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr);
 
-  /// Of two chains; for kinds that read chains alone. \throws std::logic_error for another mechanism.
+  /// The two-chain model, for kinds that read only chains. \throws std::logic_error for another
+  /// mechanism.
   [[nodiscard]] const model::ReadingModel& chains() const;
 
   std::shared_ptr<const model::Mechanism> mechanism;
@@ -118,14 +119,14 @@ struct View {
   const LengthCorrection* correction = nullptr;
 };
 
-/// Which columns of A are wanted: of the mechanism's parameters, in its order, then of the three of
+/// The requested columns of A: of the mechanism's parameters, in its order, then of the three of
 /// the sheet.
 struct Columns {
   bool parameters = false;
   bool sheet = false;
 };
 
-/// A place of two chains as a view has it.
+/// A place of two chains for a view.
 struct ChainPlaceState {
   model::PointReading reading;  ///< of the machine alone
   model::MarkPoint mark;        ///< on the sheet; of a hole where the machine puts it
@@ -143,8 +144,9 @@ struct PlaceColumns {
 struct UnitState {
   Eigen::MatrixXd covariance;  ///< C_u
   std::vector<PlaceColumns> places;
-  /// Where single readings of a unit may be outliers: what a millimetre of each adds to its rows, rows x
-  /// readings; a column of nothing for a reading that does not count. Empty: the unit is an outlier as a whole.
+  /// If single readings of a unit may be outliers: the effect of a millimetre of each on its rows,
+  /// rows x readings; a zero column for a reading that does not count. Empty: the unit is an
+  /// outlier as a whole.
   Eigen::MatrixXd by_reading = {};
 };
 
@@ -179,24 +181,24 @@ class Observation {
   [[nodiscard]] const std::vector<Place>& places() const { return places_; }
   /// In the order of their rows, which they cover without a gap.
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
-  /// y, as the kind corrects what was read by what is known exactly.
+  /// y: the readings after exact corrections.
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// One sigma of each nuisance.
   [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const { return nuisance_sigma_; }
-  /// The last so many of the nuisances belong to the noise: what is said of the noise's size holds
-  /// for theirs as well. Those before them are known as well as is stated.
+  /// Number of nuisances, the last ones, that belong to the noise: the noise factor scales them
+  /// too. Those before them have their stated sigmas.
   [[nodiscard]] virtual Eigen::Index nuisances_of_noise() const { return 0; }
   /// Absent: the marks' frame is the bed's.
   [[nodiscard]] const std::optional<SheetPrior>& sheet() const { return sheet_; }
   /// The visits' order is known.
   [[nodiscard]] bool ordered() const { return ordered_; }
-  /// How well the noise is known, degrees of freedom.
+  /// Degrees of freedom of the noise.
   [[nodiscard]] double noise_dof() const { return noise_dof_; }
-  /// Whether units may be outliers; not what was measured with care, once, and is stated with a sigma.
+  /// Whether units may be outliers; false for careful single measurements with a stated sigma.
   [[nodiscard]] bool may_be_outlier() const { return may_be_outlier_; }
 
-  /// The same rows, with these readings left out of what is linearised about: a position that is
-  /// found from the others alone. Null of a kind whose units are outliers as a whole.
+  /// The same rows, linearised without these readings: a position is estimated from the others
+  /// alone. Null for a kind whose units are outliers as a whole.
   [[nodiscard]] virtual std::shared_ptr<const Observation> about_others(
       const std::vector<UnitReading>& /*rejected*/) const {
     return nullptr;
@@ -209,10 +211,10 @@ class Observation {
   [[nodiscard]] virtual tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const = 0;
 
-  /// Why nothing of the kind can show this effect; empty where it can.
+  /// Why this kind cannot show the effect; empty if it can.
   [[nodiscard]] virtual std::string untestable(const model::effects::Effect& effect,
                                                model::effects::EffectSide side) const = 0;
-  /// A unit in a workshop's words: "point 3 at (-900, 400) mm", "the distance A-B".
+  /// Words for a unit: "point 3 at (-900, 400) mm", "the distance A-B".
   [[nodiscard]] virtual std::string name_of(std::size_t unit) const = 0;
 
  protected:
@@ -237,7 +239,7 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 
 /// The mechanism's parameters, and the sheet's where the observation has one.
 [[nodiscard]] Columns columns_of(const Observation& observation);
-/// The same columns of two chains, by their settings' names.
+/// The same columns for two chains, by their settings' names.
 [[nodiscard]] std::vector<model::Setting> settings_in(const Columns& columns);
 
 /// Every kind, in the order of kinds.def.
@@ -251,8 +253,8 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 [[nodiscard]] Eigen::MatrixXd marginal_covariance(const Linearisation& line,
                                                   const Eigen::VectorXd& nuisance_sigma);
 
-/// How settings of two chains move the lengths at a place, 2 x p; `place` is where the reading was asked for, on
-/// the sheet, with what the machine's effects of the paper do to it taken out.
+/// How settings of two chains move the lengths at a place, 2 x p; `place` is the requested place on
+/// the sheet, with the machine's effects of the paper removed.
 [[nodiscard]] Eigen::Matrix2Xd lengths_by_setting(const View& view,
                                                   const model::PointReading& reading,
                                                   model::MarkPoint place,

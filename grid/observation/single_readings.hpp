@@ -2,7 +2,7 @@
 /// \file
 /// Readings of the machine itself: the motors' spacing with a tape, the beam's rise with a level,
 /// a link's pitch with a caliper, a chain's mass on a scale, another tape against the one at hand.
-/// Each was taken with care, once, and is stated with a sigma: a row for each, none is rejected.
+/// Each is a careful single measurement with a stated sigma: one row each, none is rejected.
 ///
 /// They are linear in the settings.
 #pragma once
@@ -16,7 +16,7 @@ namespace chaintrue::grid::observation {
 /// chain_mass_kg_per_m, tape_error_mm_per_m.
 [[nodiscard]] bool is_predictable(const model::Machine& machine, const ExtraReading& reading);
 
-/// What the machine, with its effects, says where a person would measure.
+/// The machine's prediction, with its effects, of what one would measure.
 /// \throws std::out_of_range for a reading that no machine predicts.
 [[nodiscard]] double predicted_reading(const model::Machine& machine, const ExtraReading& reading);
 

@@ -100,7 +100,7 @@ std::vector<MarkPoint> marks_of(const std::vector<ChainPlaceState>& states) {
   return marks;
 }
 
-/// The machine's own lengths, which corrected at the mark are those that were paid out.
+/// The machine's lengths that equal the paid-out ones after correction at the mark.
 model::ChainLengths own_lengths(const LengthCorrection& correction,
                                 MarkPoint mark,
                                 model::ChainLengths paid_out,
@@ -128,7 +128,7 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
       geometry.predicted_mm[k] =
           0.5 * row.size_mm + row.sign * (row.axis == 0 ? from.x_mm : from.y_mm);
       geometry.by_mark(k, a + row.axis) = row.sign;
-      // Half of what the sheet is too large stands before each of its edges.
+      // Half of the sheet's excess size is at each edge.
       geometry.by_size(k, row.axis) = 0.5;
       continue;
     }
@@ -172,7 +172,7 @@ void raise_to_rounding(MeasuredHoles& set) {
 bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
   if (effect.station != model::effects::Station::paper || side != model::effects::EffectSide::both)
     return false;
-  // What is declared may be more than a scale.
+  // Declared effects may be more than a scale.
   const std::vector<double> values = model::effects::nominal_values(effect);
   const model::MarkPoint x = effect.write({1.0, 0.0}, side, values);
   const model::MarkPoint y = effect.write({0.0, 1.0}, side, values);
@@ -258,8 +258,8 @@ void TapeDistances::state_nuisances() {
 }
 
 tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
-  // A correction changes by a thousandth of a hole's way, the chains' scale by 0.2 %: each turn
-  // gains two digits at least, and begins within some mm.
+  // A correction changes by a thousandth of a hole's shift and the chains' scale is below 0.2 %:
+  // each iteration gains at least two digits, starting within some mm.
   constexpr int kTurns = 6;
   constexpr double kConvergedMm = 1e-9;
   std::vector<ChainPlaceState> states;

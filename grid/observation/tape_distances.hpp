@@ -9,13 +9,12 @@
 ///   d_k   |m_a - m_b|, or m_a's distance from an edge                                      (1)
 ///   V     tape^2 I + hole^2 B B' + size^2 w w' + zero^2 1 1', B = dd/dm                    (2)
 ///
-/// A distance is a unit of one row with the tape's own noise. What holes share with every distance
-/// that ends there, all readings with the tape's zero offset, and edges with the sheet's size, are
-/// nuisances: how much wider and higher the sheet is, the zero offset where it is not known exactly, and
-/// the shift of each hole in x and y, in this order. The frame of the sheet matters to edges alone:
-/// distances between holes do not move with it.
+/// A distance is a unit of one row with the tape's own noise. Nuisances, in this order: how much
+/// wider and higher the sheet is (edges), the zero offset of the tape (all readings) unless it is
+/// exact, and the shift of each hole in x and y (all its distances). The frame of the sheet matters
+/// to edges alone: distances between holes do not move with it.
 ///
-/// With c added to the chains at a hole it lies elsewhere, dm = -J^-1 c, so D_i = -dd/dm_i J^-1.
+/// Adding c to the chains at a hole moves it by dm = -J^-1 c, so D_i = -dd/dm_i J^-1.
 ///
 /// \code
 ///   const auto distances = TapeDistances::of(set);          // set.machine has the controller
@@ -38,7 +37,7 @@ namespace chaintrue::grid::observation {
 struct DistanceGeometry {
   Eigen::VectorXd predicted_mm;  ///< n
   Eigen::MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
-  Eigen::MatrixXd by_size;       ///< n x 2, by what the sheet is wider and higher than said
+  Eigen::MatrixXd by_size;       ///< n x 2, by the sheet's excess width and height
 };
 [[nodiscard]] DistanceGeometry distance_geometry(const MeasuredHoles& set,
                                                  const std::vector<model::MarkPoint>& marks);
@@ -54,24 +53,23 @@ struct DistanceNoise {
 [[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
                                            const DistanceGeometry& geometry);
 
-/// Of the effects of the paper the one that a tape can have: a scale of its own.
+/// The one effect of the paper that a tape can have: its scale.
 [[nodiscard]] bool is_of_tape(const model::effects::Effect& effect,
                               model::effects::EffectSide side);
-/// Read over true length, where the machine's effects say that the tape is long or short.
+/// Read over true length, if the machine's effects include a tape error.
 [[nodiscard]] double tape_factor(const model::Machine& machine);
 
-/// What is stated without any doubt is taken as known this well, mm: no reading of a workshop is
-/// nearer.
+/// Sigma of exactly stated values, mm: no workshop reading is more accurate.
 inline constexpr double kKnownNuisanceMm = 1e-6;
 
-/// One sigma beforehand of where a sheet lies whose edges were measured.
+/// Prior sigmas of a sheet's placement if its edges were measured.
 inline constexpr double kSheetShiftMm = 50.0;
 inline constexpr double kSheetTurnRad = 0.03;
 
-/// Directions in which the edges that were measured tell where the sheet lies.
+/// Directions in which the measured edges determine the sheet's placement.
 [[nodiscard]] SheetPrior sheet_measured(const MeasuredHoles& set);
 
-/// Where a set's holes and distances stand among those of several sets.
+/// Offsets of a set's holes and distances among those of several sets.
 struct NumberedFrom {
   std::size_t hole = 0;
   std::size_t distance = 0;
@@ -103,9 +101,9 @@ class TapeDistances final : public Observation {
 
   /// In the order of places() and units().
   [[nodiscard]] const MeasuredHoles& set() const { return set_; }
-  /// Where a view puts the holes with what was paid out for them.
+  /// The holes' positions for a view, with the lengths paid out for them.
   [[nodiscard]] tl::expected<std::vector<ChainPlaceState>, Unreachable> placed(const View& view) const;
-  /// How settings move a hole's mark, 2 x p.
+  /// Derivative of a hole's mark by the settings, 2 x p.
   [[nodiscard]] static Eigen::Matrix2Xd mark_by_setting(
       const View& view, const ChainPlaceState& place, const std::vector<model::Setting>& settings);
 

@@ -25,7 +25,7 @@ MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
   if (!at) return tl::unexpected(at.error());
   const auto there = mechanism.predict(*at, {});
   if (!there) return tl::unexpected(there.error());
-  // Lengths that end nowhere together have a nearest position, and no hole.
+  // Lengths that do not meet have a nearest position, but no hole.
   constexpr double kTogetherMm = 1e-6;
   for (std::size_t i = 0; i < hole.deciding.size(); ++i) {
     const auto row = as_index(i);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Distances that a person taped between positions of a mechanism's tool: where it stood, points of
-/// the mechanism itself, and holes that it cut.
+/// Taped distances between positions of a mechanism's tool: places where it stood, points of the
+/// mechanism, and holes that it cut.
 ///
 ///   a, b   ends, in the mechanism's frame
 ///   s      true millimetres over those of the frame
 ///
 ///   d = s |b - a|                                                                            (1)
 ///
-/// A hole lies where the lengths that decide where the tool goes, as the controller paid them out,
-/// put it: f(q) = l, dq/dtheta = -J^-1 df/dtheta.
+/// The lengths that the controller paid out determine a hole's position: f(q) = l, dq/dtheta =
+/// -J^-1 df/dtheta.
 ///
 /// \code
 ///   const TapedDistance distance{AtPlace{4}, AtFixedPoint{0}, 1834.0, 1.0};
@@ -38,7 +38,7 @@ struct AtFixedPoint {
 struct AtHole {
   Eigen::VectorXd lengths_mm;  ///< paid out
   std::vector<bool> deciding;  ///< two lengths that say where the tool goes
-  model::ToolPosition meant;   ///< where the controller means it to go
+  model::ToolPosition meant;   ///< the commanded position
 };
 using TapeEnd = std::variant<AtPlace, AtFixedPoint, AtHole>;
 
@@ -46,7 +46,7 @@ struct TapedDistance {
   TapeEnd from;
   TapeEnd to;
   double distance_mm = 0.0;
-  double sigma_mm = 1.0;  ///< of the tape, and of what its ends stand for
+  double sigma_mm = 1.0;  ///< of the tape and its ends
 };
 
 /// (1) and its derivatives: by the positions of its ends, where they are places, and by theta.
@@ -56,7 +56,7 @@ struct DistanceLine {
   Eigen::RowVectorXd by_parameter;
 };
 
-/// `places` are the positions of its ends, of which those that are no places are not looked at.
+/// `places` are the positions of its ends; entries for ends that are not places are ignored.
 [[nodiscard]] tl::expected<DistanceLine, model::MechanismFailure> distance_line(
     const model::Mechanism& mechanism,
     const TapedDistance& distance,

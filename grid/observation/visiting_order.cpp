@@ -13,9 +13,9 @@ namespace chaintrue::grid {
 namespace {
 
 constexpr double kLineGapShare = 0.25;
-/// Marks further apart than so many gaps across a line are no line but a cloud.
+/// Marks farther apart across a line than this many gaps are not a line.
 constexpr double kWidestLine = 2.0;
-/// Fewer marks a line than this on average are no lines.
+/// Fewest marks per line on average.
 constexpr double kFewestALine = 2.0;
 
 /// A mark along and across the lines: lines follow each other by rising `across`.

@@ -30,8 +30,9 @@ struct VisitingOrder {
 [[nodiscard]] std::vector<VisitingOrder> line_by_line_orders();
 
 /// The number of each point's visit, from 0, in the order of `points`; marks measured again (within
-/// kRepeatDistanceMm of an earlier point) come last, in that order. Fails with what is expected of the marks
-/// where they stand in no such lines: to a quarter of the usual spacing, two marks a line on average.
+/// kRepeatDistanceMm of an earlier point) come last, in that order. Fails with a description of the
+/// expected marks if they are not in such lines: to a quarter of the usual spacing, two marks a
+/// line on average.
 [[nodiscard]] tl::expected<std::vector<int>, std::string> visit_numbers(
     const std::vector<MeasuredPoint>& points, const VisitingOrder& order);
 
