@@ -26,11 +26,11 @@ using model::effects::EffectParameter;
 using model::effects::EffectSide;
 using MechanismPointer = std::shared_ptr<const Mechanism>;
 
-/// The machine as its controller has it and as it is.
+/// The machine as set in its controller, and the true one.
 struct SetAndActual {
   MechanismPointer set;
   MechanismPointer actual;
-  /// What commands and results are relative to.
+  /// The origin of commands and results.
   ToolPosition set_origin{};
   ToolPosition actual_origin{};
   int first_visit = 0;
@@ -39,11 +39,11 @@ struct SetAndActual {
 /// Makes the machine with a cause at a size; empty where there is none.
 using WithSize = std::function<std::optional<SetAndActual>(double)>;
 
-// The lattice stays so far inside the area that a cause may shift it.
+// Margin of the lattice inside the area, so that a cause may shift it.
 constexpr double kMargin = 0.04;
 constexpr int kLatticeColumns = 7;
 constexpr int kLatticeRows = 5;
-// Enough for a bow to look like one.
+// Enough for a smooth bow.
 constexpr int kPointsOfLine = 13;
 constexpr int kPointsOfSide = 5;
 
@@ -140,7 +140,7 @@ AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& mac
     std::vector<std::optional<ToolPosition>> drawn;
     for (std::size_t i = 0; i < points.size(); ++i) {
       MechanismVisit visit{.order = machine.first_visit + static_cast<int>(k)};
-      // The first point is reached the way the line goes on.
+      // The first point is reached in the direction in which the line continues.
       const std::size_t to = std::max<std::size_t>(i, 1);
       visit.direction = directions(machine, points[to - 1], points[to]);
       drawn.push_back(drawn_at(machine, points[i], visit));
@@ -162,7 +162,7 @@ double largest_shift(const std::vector<AtlasLine>& lines, const AtlasFrame& fram
   return largest;
 }
 
-/// Sizes of which the usual one is one, that the parameter may have, without that of no effect.
+/// Sizes in the parameter's range that include the usual one, without zero effect.
 std::vector<double> sizes_of(double null, double usual, double lower, double upper, bool integer) {
   std::vector<double> sizes;
   for (const double times : {-2.0, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0}) {
@@ -266,8 +266,8 @@ MechanismPointer with_parameter(const Mechanism& mechanism, Eigen::Index k, doub
   return mechanism.with_values(values);
 }
 
-/// The anchors that fit a session with the effect best, every reading at full weight: those that the
-/// machine finds by itself.
+/// The anchors that fit a session with the effect best, with every reading at full weight, as the
+/// machine fits them.
 std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
                                              const model::AppliedEffect& effect) {
   BeltsSpec spec;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What each cause makes of a drawing: a lattice of lines over the machine's area and a square in its
-/// middle, as the tool draws them when the controller knows nothing of the cause. Causes are the
-/// settings of the mechanism and the effects of its catalogue, at their usual size and at multiples
-/// of it.
+/// The effect of each cause on a drawing: a lattice of lines over the machine's area and a square
+/// in its middle, drawn by a controller that does not know the cause. Causes are the settings of
+/// the mechanism and the effects of its catalogue, at their usual size and at multiples of it.
 ///
-/// For a command q the controller pays out f(q) of the machine as it is set; the tool comes to rest
-/// where the machine as it is reads the same,
+/// For a command q the controller pays out f(q) of the machine as set; the tool comes to rest where
+/// the true machine reads the same,
 ///
 ///   f_is(p, visit) = f_set(q)                                                              (1)
 ///
-/// and a person reads on a sheet with effects of the paper the numbers whose mark is at p. A visit is
-/// a line of the drawing; with belts it counts on from the places of the calibration. Two chains and two cords are drawn as they are set. Four belts find their
-/// anchors first: an effect acts on kAtlasPlaces places, the anchors that fit best are taken, and the two upper
-/// belts place the tool with them; an anchor that is wrong is drawn as it is set.
+/// and on a sheet with effects of the paper one reads the numbers of the mark at p. A visit is a
+/// line of the drawing; with belts it continues from the places of the calibration. Two chains and
+/// two cords are drawn as they are set. Four belts find their anchors first: an effect acts on
+/// kAtlasPlaces places, the anchors that fit best are taken, and the two upper belts place the tool
+/// with them; an anchor that is wrong is drawn as it is set.
 ///
 /// \code
 ///   const Atlas atlas = atlas_of(*model::make_plotter_mechanism(machine));
@@ -40,7 +40,6 @@ struct AtlasLine {
   bool is_of_square = false;
 };
 
-/// The drawing with the cause at one size.
 struct AtlasFrame {
   double size = 0.0;  ///< of the cause's first size, in its own unit; of a setting, true less set
   /// As AtlasLine::points; empty where the machine cannot hold the tool.
@@ -66,12 +65,12 @@ struct Atlas {
   /// Settings in the order of the mechanism, then effects in that of its catalogue. Those that cannot
   /// act on the machine are left out.
   std::vector<AtlasPicture> pictures;
-  /// Causes that can act, and that the machine, or its calibration, does not bear at their usual size:
+  /// Causes that can act, but with whose usual size the machine or its calibration fails:
   /// "anchor_moved:tl".
   std::vector<std::string> not_drawn;
 };
 
-/// Of two chains or a V-plotter; of one cause alone, by the name of its setting or its effect, where
+/// Of two chains or a V-plotter; only for one cause, by the name of its setting or effect, if
 /// `cause` is not empty.
 [[nodiscard]] Atlas atlas_of(const model::Mechanism& mechanism, std::string_view cause = {});
 /// Of four belts. \throws std::invalid_argument for anchors that are not known.

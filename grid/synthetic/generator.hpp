@@ -81,7 +81,7 @@ struct SyntheticSpec {
   /// states the uncertainty.
   std::optional<SheetUncertainty> sheet;
   model::Model model = model::Model::elastic;
-  /// Amplitude of a smooth disturbance of both chains that is in no model (unmodelled()).
+  /// Amplitude of an unmodelled smooth disturbance of both chains (unmodelled()).
   double unmodelled_mm = 0.0;
   std::uint64_t seed = 1;
 };
