@@ -38,7 +38,7 @@ struct MachineLevel {
   model::Machine truth;
   model::Machine stated;
   model::Model model = model::Model::elastic;
-  /// Amplitude of a smooth disturbance that is in no model.
+  /// Amplitude of an unmodelled smooth disturbance.
   double unmodelled_mm = 0.0;
 };
 
