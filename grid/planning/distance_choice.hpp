@@ -57,7 +57,7 @@ class DistanceChooser {
                                            const std::vector<HoleDistance>& distances) const;
 
  private:
-  /// Everything that a tape can reach, before any measurement.
+  /// All distances that a tape can measure, before any measurement.
   struct Measurable {
     std::vector<HoleDistance> distances;
     Eigen::MatrixXd by_unknown;  ///< A

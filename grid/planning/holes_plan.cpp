@@ -22,8 +22,8 @@ namespace {
 using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
-/// Holes nearer than this to each other weaken the sheet and tell little; on a small bed nearer ones
-/// are all that there is room for.
+/// Closer holes weaken the sheet and carry little information; a small bed has room only for closer
+/// ones.
 constexpr double kLeastApartMm = 150.0;
 /// The shorter side of the part of the bed where holes are planned.
 double shorter_side_mm(const model::Machine& machine, double margin_mm) {
@@ -32,7 +32,7 @@ double shorter_side_mm(const model::Machine& machine, double margin_mm) {
 double least_apart_mm(const model::Machine& machine, double margin_mm) {
   return std::min(kLeastApartMm, 0.5 * shorter_side_mm(machine, margin_mm));
 }
-/// Rows and columns of places that are tried.
+/// Rows and columns of candidate places.
 constexpr int kColumns = 9;
 constexpr int kRows = 5;
 

@@ -22,7 +22,7 @@ using model::MarkPoint;
 /// Errors of real machines after a good calibration (root mean square 0.2 to 0.5 mm on the optical
 /// scans of tests/accuracy/real_scans_test.cpp).
 constexpr double kDisturbanceMm = 0.5;
-/// In place of noise known exactly: the readings of a plan must not be assumed free of it.
+/// Replaces exactly known noise: a plan's readings must not be assumed noise-free.
 constexpr double kCertainDof = 1e6;
 /// Cells of the raster on which the largest expected error is searched.
 constexpr int kRasterColumns = 48;

@@ -30,7 +30,7 @@ namespace chaintrue::grid {
 /// Fewest and most points that a plan may have.
 inline constexpr int kFewestPlanned = 12;
 inline constexpr int kMostPlanned = 200;
-/// Marks and holes are planned on no less than so much by so much, the margin left out.
+/// Least width and height, without the margin, on which marks and holes are planned.
 inline constexpr double kLeastPlannedSideMm = 100.0;
 
 struct PlanRequest {
