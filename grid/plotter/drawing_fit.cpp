@@ -20,10 +20,10 @@ namespace {
 using observation::DrawnMeasure;
 using observation::View;
 
-// Beyond it the settings do not explain the drawing: a ruler errs by less than five times what was
-// said of it.
+// Above this the settings do not explain the drawing: a ruler errs by less than five times its
+// stated sigma.
 constexpr double kMostNoiseFactor = 5.0;
-// More rejected measures than these do not judge the rest.
+// Largest number of rejected measures: with more the rest is not reliable.
 constexpr double kMostRejectedShare = 0.2;
 
 /// In the order of the drawing's measures.
@@ -53,7 +53,7 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
   input.noise.knowledge = interp::NoiseKnowledge::unknown;
   input.noise_prior = interp::SmoothingPrior::none;
   input.surface = estimation::SurfaceUse::none;
-  input.domain = {0.0, 1.0, 0.0, 1.0};  // of a surface, which there is none
+  input.domain = {0.0, 1.0, 0.0, 1.0};  // for a surface; there is none
   auto found = estimation::estimate(input);
   if (!found) return failed(DrawingReason::not_converged, found.error().sentence());
   if (found->converged) return found.value();
@@ -64,7 +64,7 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
       "drawing");
 }
 
-/// A drawing that meets its readings better than they were read has not shown that they are better.
+/// Smaller residuals do not show that the readings are more accurate than stated.
 void raise_to_rounding(const TestDrawing& drawing, estimation::Estimate& estimate) {
   std::vector<double> readings_mm, sigmas_mm;
   for (const DrawnMeasure& one : drawing.measures) {
@@ -92,7 +92,7 @@ std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
   return settings;
 }
 
-/// What the next drawing measures with these settings typed in; empty where it cannot be drawn.
+/// The measures of the next drawing with these settings typed in; empty if it cannot be drawn.
 std::optional<Eigen::VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFit& fit) {
   std::vector<Eigen::Vector2d> pens;
   for (const DrawnCross& cross : drawing.crosses) {

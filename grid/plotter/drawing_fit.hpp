@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The settings of a V-plotter from a test drawing: the one estimate (estimation/estimate.hpp) of its
-/// lengths and bows, what would have to be set in the controller, and what the next drawing is like
-/// then.
+/// The settings of a V-plotter from a test drawing: the estimate (estimation/estimate.hpp) from its
+/// lengths and bows, the controller's new settings, and the prediction of the next drawing.
 ///
-/// A drawing fixes the pins' spacing, zeros and scales. It does not turn with gravity: of the pins'
-/// rise it says what tilts the gondola, and nothing of a point.
+/// A drawing fixes the pins' spacing, zeros and scales. It has no reference to the vertical: it
+/// shows the pins' rise only through the gondola's tilt, and not at all for a point.
 ///
 /// Slips that a drawing of one machine cannot show are refused with their name, before and after the
 /// estimate: inches, bows turned round, a drawing that was scaled when printed, a line measured along
@@ -46,7 +45,7 @@ struct FittedMeasure {
   double as_set_mm = 0.0;  ///< of the machine as stated
   double found_mm = 0.0;   ///< of the machine as found
   double after_mm = 0.0;   ///< on the next drawing, with the settings typed in
-  bool rejected = false;   ///< it fits neither the rest nor another row
+  bool rejected = false;   ///< rejected; it does not fit another row either
 };
 
 struct DrawingFit {
@@ -57,7 +56,7 @@ struct DrawingFit {
   std::vector<FittedMeasure> measures;
   /// The noise found, as a multiple of the sigmas that went in.
   double noise_factor = 1.0;
-  /// What the controller is to hold; typed_in() of it is what a person can enter.
+  /// The ideal settings; typed_in() gives what the controller can store.
   model::PlotterMachine to_set;
 };
 
@@ -74,18 +73,18 @@ enum class DrawingReason {
 };
 using DrawingFailure = Failure<DrawingReason>;
 
-/// With fewer measures than these nothing checks what is found.
+/// With fewer measures the result has no check.
 inline constexpr std::size_t kFewestMeasures = 12;
 
 [[nodiscard]] tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing);
 
-/// What a controller can hold of a machine that was found. FluidNC has all of it. Marlin takes the pins
-/// as level; Polargraph has one scale for both cords besides; a mural one zero besides, and whole
-/// millimetres between its pins.
+/// The part of a fitted machine that a controller can store. FluidNC stores all of it. Marlin
+/// assumes level pins; Polargraph also has one scale for both cords; a mural also has one zero, and
+/// whole millimetres between its pins.
 [[nodiscard]] model::PlotterMachine typed_in(model::PlotterFirmware firmware,
                                              model::PlotterMachine found);
 
-/// Where the pen of `found` is for a command to a controller that holds `set`.
+/// The pen's position on `found` for a command to a controller with `set`.
 [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
     model::PlotterFirmware firmware,
     const model::PlotterMachine& set,

@@ -20,14 +20,14 @@ using input_checks::TrendRows;
 using observation::DrawnMeasure;
 using Kind = DrawnMeasure::Kind;
 
-// No line bows by a fifth of its length that a cord could still draw.
+// No line that a cord can draw bows by a fifth of its length.
 constexpr double kMostBowShare = 0.2;
 constexpr double kMmPerInch = 25.4;
-// Settings that are off by seven sigmas each are no slip.
+// Settings that are off by up to seven sigmas each are not a slip.
 constexpr double kOddDrawing = 300.0;
-// A page that was fitted to its sheet is smaller by more; pins and pulleys are known better.
+// A page scaled to its sheet is smaller by more; pins and pulleys are known better.
 constexpr double kFittedToSheet = 0.012;
-// A factor that is found: some hundred that a drawing tells apart.
+// An estimated factor: a drawing distinguishes some hundred values.
 constexpr double kOfAFactor = 4.6;
 
 /// Measured over drawn by the machine as set, of all lengths.
@@ -40,7 +40,7 @@ double median_share(const TestDrawing& drawing, const Eigen::VectorXd& as_set) {
   return shares.empty() ? 1.0 : median(std::move(shares));
 }
 
-/// What a person may have done to lengths, bows or all. `rows` is what the trend sees of a drawing.
+/// A possible slip in lengths, bows or all. `rows` is the trend's input from a drawing.
 std::vector<Transformation> drawing_transformations(
     const TestDrawing& drawing,
     const Eigen::VectorXd& as_set,
@@ -95,7 +95,7 @@ DrawingReason reason_of(ProblemKind kind) {
   return DrawingReason::scaled_when_printed;
 }
 
-/// By parameter, what one of its units changes.
+/// The effect of one unit of each parameter.
 Eigen::MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) {
   constexpr double kStep = 0.1;
   const Eigen::VectorXd& values = machine.values();

@@ -12,11 +12,12 @@
 
 namespace chaintrue::grid {
 
-/// The measures that a machine draws, in the drawing's order; empty where it cannot draw one.
+/// The measures of a machine's drawing, in the drawing's order; empty if it cannot draw one.
 using DrawnValues = std::function<std::optional<Eigen::VectorXd>(const model::Mechanism&)>;
 
-/// Of the measures as a whole, against what `machine`, as it is stated, would have drawn: another unit, bows
-/// turned round, a scaled page, of all measures or of some; and a bow that was measured along its line.
+/// Slips of the measures as a whole, compared with what the stated `machine` would have drawn:
+/// another unit, bows turned round, a scaled page, of all measures or of some; and a bow that was
+/// measured along its line.
 [[nodiscard]] std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
                                                             const DrawnValues& drawn,
                                                             const model::Mechanism& machine);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A V-plotter as its controller holds it, what a test drawing found of it, and the plotter once the
-/// numbers are typed in.
+/// A V-plotter with its controller's settings, the result of a test drawing, and the plotter after
+/// typing in the numbers.
 ///
 /// \code
 ///   const KnownPlotter known{drawing, found_by(*fit)};
@@ -30,7 +30,7 @@ struct FoundPlotter {
   FoundSetting zero_right_mm;
   FoundSetting scale_left_mm_per_m;
   FoundSetting scale_right_mm_per_m;
-  /// Of each with those after it, in this order, row by row: 15 numbers.
+  /// Correlation of each with those after it, in this order, row by row: 15 numbers.
   std::vector<double> correlations;
 
   /// Of all six.
@@ -47,12 +47,12 @@ struct KnownPlotter {
 /// The machine of `set` as it was found.
 [[nodiscard]] model::PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found);
 
-/// What the controller holds once settings_to_paste(set, found) are typed in: it counts the cords
-/// right, and is given where the pen is.
+/// The controller's settings after typing in settings_to_paste(set, found): it counts the cords
+/// correctly and knows the pen's position.
 [[nodiscard]] SetPlotter once_typed_in(const SetPlotter& set, const model::PlotterMachine& found);
 
-/// Counted over true, relative to what the controller already allows for: by so much more steps go
-/// to a millimetre.
+/// Counted over true, relative to what the controller already allows for: the factor on the steps
+/// per millimetre.
 [[nodiscard]] double more_steps(const SetPlotter& set,
                                 const model::PlotterMachine& found,
                                 model::Side side);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The map of a V-plotter whose test drawing was measured (map/mechanism_map.hpp): the plotter as it was
-/// found, on a page in the controller's own coordinates.
+/// The map of a V-plotter from its measured test drawing (map/mechanism_map.hpp): the fitted
+/// plotter, on a page in the controller's coordinates.
 ///
 ///   in_frame(p) = p - pins_middle + t                                                       (1)
 ///
-/// A drawing does not say where on the wall it hangs. t therefore lays the page so that its crosses, as
-/// a whole, are drawn where they were commanded: a program that is compensated moves no farther than its
-/// lines are wrong. The page is not turned, since the found plotter knows what is level as well as its
-/// pins' height is stated. Sigmas are of the drawing's shape: plotters one sigma away have the page where
-/// its crosses come nearest to those of the fit, turned and moved as a whole.
+/// A drawing does not show where on the wall it is. t therefore places the page so that its
+/// crosses, as a whole, are drawn where they were commanded: a program that is compensated moves no
+/// farther than its lines are wrong. The page is not turned, since the fitted plotter's level is as
+/// accurate as the stated height of its pins. Sigmas are of the drawing's shape: plotters one sigma
+/// away have the page where its crosses come nearest to those of the fit, turned and moved as a
+/// whole.
 ///
 /// \code
 ///   const PlotterMap map(plotter);
@@ -25,8 +26,8 @@ namespace chaintrue::grid {
 /// Immutable, thread safe. Over the drawing area; what was measured is the rectangle of the crosses.
 class PlotterMap final : public MechanismMap {
  public:
-  /// \throws std::invalid_argument where nothing was found, or where the controller or the plotter as it
-  /// was found does not reach a cross.
+  /// \throws std::invalid_argument without a fit, or if the controller or the fitted plotter does
+  /// not reach a cross.
   explicit PlotterMap(const KnownPlotter& plotter);
 };
 

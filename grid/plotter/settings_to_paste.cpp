@@ -12,7 +12,7 @@ using model::PlotterFirmware;
 using model::PlotterMachine;
 using model::Side;
 
-/// To a hundredth of a millimetre, without a sign of nothing.
+/// Rounded to 0.01 mm, without a negative zero.
 std::string coordinate(double value_mm) {
   return fmt::format("{:.2f}", std::round(100.0 * value_mm) / 100.0 + 0.0);
 }
@@ -67,7 +67,7 @@ std::vector<std::string> marlin_lines(const SetPlotter& set,
 std::vector<std::string> polargraph_lines(const SetPlotter& set,
                                           const PlotterMachine& found,
                                           const SetPlotter& next) {
-  // Steps of a turn stay, so that a turn is as much shorter as more was counted.
+  // The steps of a turn are fixed, so the turn's length changes instead.
   return {fmt::format("machine.width={:.1f}", next.machine.pin_spacing_mm),
           fmt::format("machine.motors.mmPerRev=<the present value times {:.6f}>",
                       1.0 / more_steps(set, found, Side::left))};

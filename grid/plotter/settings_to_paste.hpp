@@ -7,8 +7,7 @@
 ///   polargraph   machine.width, machine.motors.mmPerRev of the properties file
 ///   mural        top distance, effective pulley diameter, homed step offset
 ///
-/// A zero is not set but for the mural's: the controller is given by G92 where the pen really is when
-/// it stands where it is switched on.
+/// Only the mural has a zero to set: other controllers get the pen's true starting position by G92.
 ///
 /// \code
 ///   for (const std::string& line : settings_to_paste(set, machine_found(set, found)))

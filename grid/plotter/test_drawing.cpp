@@ -11,7 +11,7 @@ namespace {
 
 using observation::DrawnMeasure;
 
-/// A string's sigmas are known about as well as a person knows a ruler's.
+/// A string's sigmas are known about as well as a ruler's.
 constexpr double kRulerDof = 15.0;
 
 constexpr std::string_view kCrosses = "ABCDEFGHM";

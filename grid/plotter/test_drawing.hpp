@@ -46,9 +46,9 @@ struct PenCommands {
 struct SetPlotter {
   model::PlotterMachine machine;
   model::PlotterFirmware firmware = model::PlotterFirmware::fluidnc;
-  /// Of a motor; 0: not stated.
+  /// Steps per turn of a motor; 0: not stated.
   model::PerSide<double> steps_per_mm{};
-  /// Where the controller takes the pen to be when it is switched on, in the machine's frame; of all
+  /// The controller's position of the pen when it is switched on, in the machine's frame; for all
   /// but a mural.
   std::optional<model::BedPoint> home;
   /// The middle between the pins in the controller's own coordinates.
@@ -56,9 +56,9 @@ struct SetPlotter {
   double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
   PenCommands pen;
   double feed_mm_per_min = 1500.0;
-  /// What a controller lets out at most, where it states that.
+  /// The longest cord that a controller allows, if stated.
   std::optional<double> longest_belt_mm;
-  /// Of Marlin: into how many pieces a second it divides a move (M665 S).
+  /// For Marlin: segments per second of a move (M665 S).
   double segments_per_second = 5.0;
 };
 
@@ -69,7 +69,7 @@ struct TestDrawing : SetPlotter {
   std::vector<observation::DrawnMeasure> measures;
 };
 
-/// Of a ruler, and of where the lines of a cross meet.
+/// Sigmas of a ruler, and of where the lines of a cross meet.
 inline constexpr double kRulerSigmaMm = 0.5;
 
 /// The crosses over the machine's drawing area, and 24 measures without values: 16 lengths and the
