@@ -23,7 +23,7 @@ constexpr double kTapeZeroMm = 3.0;
 constexpr double kMetreMm = 1000.0;
 /// Chi-square of seven coefficients: one set in a thousand.
 constexpr double kOddDistances = 25.0;
-/// Half of the distances this far off, and no error that explains it.
+/// Half of the distances are this far off, without an explanation.
 constexpr double kStrangeDistancesMm = 60.0;
 
 Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
@@ -264,7 +264,7 @@ struct DistanceRows {
       meant.distance_mm = distance_mm;
       weigh(meant, std::move(question), penalty);
     };
-    // One number here, four in a row of points.
+    // One number here; a row of points has four.
     constexpr double kFewer = 1.4;
     constexpr double kTwice = 0.7;
     const double d = written.distance_mm;

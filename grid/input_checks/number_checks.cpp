@@ -10,11 +10,12 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-// Logarithms of how many values a number of four or five digits, one of four in a row, offers.
+// Logarithms of the number of alternative values, for one of four numbers of four or five digits in
+// a row.
 constexpr double kSign = 2.1;            // 2 numbers and their exchange, by 4 ways to go wrong
 constexpr double kTapeMark = 3.0;        // two lengths, either way, 4 numbers
 constexpr double kExchanged = 2.8;       // 4 pairs of digits, 4 numbers
-constexpr double kPoint = 1.0;           // 4 places of the point; it is lost more often than a digit
+constexpr double kPoint = 1.0;           // 4 places of the point; more often lost than a digit
 constexpr double kDoubled = 3.0;         // 5 digits to take away, 4 numbers
 constexpr double kWrong = 5.2;           // 5 digits of 9, 4 numbers
 constexpr double kDropped = 5.5;         // 6 places for 10 digits, 4 numbers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a person may have meant who wrote one number down wrongly.
+/// The values that may have been meant by one wrongly written number.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace chaintrue::grid::input_checks {
 
 inline constexpr double kMmPerInch = 25.4;
 inline constexpr double kMmPerFoot = 304.8;
-/// Where a tape without its hook is held.
+/// Where a tape is held without its hook.
 inline constexpr double kTapeMarkMm = 100.0;
 
 struct NumberError {
   double value = 0.0;  ///< what may have been meant
   /// "is the minus missing?", "is it 563.5 rather than 536.5?"
   std::string question;
-  /// Logarithm of the number of values that errors of this kind offer: the penalty of one that fits by chance.
+  /// Logarithm of the number of values that such errors can give: the penalty for a chance fit.
   double penalty = 0.0;
 };
 

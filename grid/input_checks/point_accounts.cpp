@@ -9,8 +9,8 @@ namespace chaintrue::grid::input_checks {
 namespace {
 
 constexpr Eigen::Index kPointBasis = 6;
-/// Machines as their owners state them err by 3 to 13 mm rms over the bed before anything is
-/// calibrated (the scans of a real machine), constant, slope and bend equally.
+/// Uncalibrated machines as stated have errors of 3 to 13 mm rms over the bed (scans of a real
+/// machine), in constant, slope and bend equally.
 constexpr double kErrorMm = 10.0;
 
 Eigen::VectorXd point_sigmas(const MeasuredGrid& grid) {
@@ -61,7 +61,7 @@ std::vector<Place> PointAccounts::places_of(const std::vector<MeasuredPoint>& po
 }
 
 Eigen::RowVectorXd PointAccounts::basis_at(model::BedPoint place) const {
-  // Lengths that are wrong end anywhere: beyond the bed a trend of the second degree goes no further.
+  // Wrong lengths may end anywhere: the second-degree trend is kept constant beyond the bed.
   const double u = std::clamp(place.x_mm / half_width_mm_, -1.5, 1.5);
   const double v = std::clamp(place.y_mm / half_height_mm_, -1.5, 1.5);
   Eigen::RowVectorXd basis(kPointBasis);

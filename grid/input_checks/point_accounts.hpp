@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where readings put the tool by the machine as stated, and how well marks agree with that.
+/// Positions of the tool by the readings and the stated machine, and how well marks agree with
+/// them.
 #pragma once
 
 #include <cstddef>
@@ -22,24 +23,24 @@ class PointAccounts {
  public:
   explicit PointAccounts(const MeasuredGrid& grid);
 
-  /// Where the tool was by its lengths or its command; nothing where no pose has them.
+  /// The tool's position by its lengths or its command; empty if no pose has them.
   [[nodiscard]] Place place_of(const MeasuredPoint& point) const;
   /// True where the machine as stated can hold the sled.
   [[nodiscard]] bool can_hold(model::MarkPoint mark) const;
   [[nodiscard]] std::vector<Place> places_of(const std::vector<MeasuredPoint>& points) const;
 
-  /// How marks lie about places, for a trend of the second degree. A place that is missing is a row that
-  /// is missing. \pre as many places as points.
+  /// Marks relative to places, for a second-degree trend. A missing place is a missing row. \pre as
+  /// many places as points.
   [[nodiscard]] TrendRows rows(const std::vector<MeasuredPoint>& points,
                                const std::vector<Place>& places) const;
   [[nodiscard]] const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
   [[nodiscard]] RobustTrend account(const std::vector<MeasuredPoint>& points,
                                     const std::vector<Place>& places) const;
-  /// By how much the marks of a trend lie turned to the left about the bed's middle.
+  /// The trend's rotation of the marks to the left about the bed's middle.
   [[nodiscard]] double turn_rad(const RobustTrend& trend) const;
-  /// The largest of its stretches along x and y and its skew, of 1.
+  /// The largest of its relative stretches along x and y and its skew.
   [[nodiscard]] double strain(const RobustTrend& trend) const;
-  /// What a trend leaves of a mark at a place.
+  /// Residual of a mark at a place from a trend.
   [[nodiscard]] Eigen::Vector2d off(const RobustTrend& trend,
                                     model::MarkPoint mark,
                                     model::BedPoint place) const;

@@ -22,14 +22,15 @@ using Places = std::vector<Place>;
 
 /// Chi-square of the trend's twelve coefficients: the 98th percentile.
 constexpr double kOddPoints = 25.0;
-/// Half of the points this far off, and no error that explains it: marks and readings of two lists.
+/// Half of the points are this far off, without an explanation: marks and readings are from two
+/// lists.
 constexpr double kStrangePointsMm = 60.0;
 constexpr std::size_t kFewestStrangePoints = 6;
-/// So many rows show an error of the whole file as well as all do.
+/// This many rows show an error of the whole file as well as all do.
 constexpr std::size_t kMostLookedAt = 200;
 constexpr double kRepeatMm = 30.0;
 
-/// Of points a file may have ten thousand.
+/// A file may have ten thousand points.
 std::vector<std::size_t> looked_at(std::size_t count) {
   const std::size_t few = std::min(count, kMostLookedAt);
   std::vector<std::size_t> rows;
@@ -75,7 +76,8 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
   for (Candidate& candidate : candidates) {
     if (candidate.from_row) candidate.from_row = looked[*candidate.from_row];
   }
-  // Neighbours in the file are needed for these, and with all rows their own account of as it is.
+  // These need neighbours in the file and, with all rows, a separate account of the uncorrected
+  // file.
   const PlacedPoints all{grid.points, places};
   std::vector<Candidate> of_all = searched(sigma_mm,
                                            accounts.rows(all.points, all.places),
@@ -108,11 +110,11 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
   return strangers(account_of(trend), grid.points.size());
 }
 
-/// Marks that all lie turned by one angle, and neither stretched nor skew by nearly as much.
+/// Marks that are all rotated by one angle, with much less stretch and skew.
 std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts,
                                          const MeasuredGrid& grid,
                                          const RobustTrend& trend) {
-  // Motors that are known to 3 mm turn the picture by one or two.
+  // Motors known to 3 mm rotate the picture by one or two.
   constexpr double kLeastTurn = 8e-3;
   constexpr double kPure = 4.0;
   if (grid.sheet || grid.points.size() < kFewestStrangePoints) return std::nullopt;
@@ -169,12 +171,12 @@ struct PointRows {
     return trend.residual_mm[static_cast<Eigen::Index>(row)];
   }
   [[nodiscard]] bool is_gross(std::size_t row) const {
-    // Of a machine that is stated decimetres off the trend is no more than a first guess.
+    // If the stated machine is off by decimetres the trend is only a first guess.
     constexpr double kGrossOfOddMm = 100.0;
     const double least_mm = trend.prior_chi_square < kOddPoints ? kGrossMm : kGrossOfOddMm;
     return residual_mm(row) > std::max(least_mm, kGrossScales * trend.scale_mm);
   }
-  /// The likeliest error of the row, where its correction makes the row three times likelier.
+  /// The likeliest error of the row, if its correction makes the row three times likelier.
   [[nodiscard]] std::optional<RowError> best_of(std::size_t row) const {
     constexpr double kLostMm = 2000.0;  // a row whose lengths no pose has
     const double as_it_is =
@@ -189,7 +191,7 @@ struct PointRows {
     }
     return best;
   }
-  /// Another gross row whose mark this row's reading fits, and the other way round.
+  /// Another gross row such that the readings of the two fit each other's marks.
   [[nodiscard]] std::optional<std::size_t> exchanged_with(
       std::size_t row, const std::vector<std::size_t>& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {

@@ -14,11 +14,11 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-/// No person's readings are finer; without it readings that agree exactly have an infinite density.
+/// No manual readings are finer; without a floor exact agreement has infinite density.
 constexpr double kLeastScaleMm = 0.5;
 /// EM gains a digit in some five steps here; the decision needs two.
 constexpr int kSteps = 20;
-/// A reading that is missing is anywhere in a square, or on a line, of this length.
+/// A missing reading is uniform over a square, or a line, of this length.
 constexpr double kAnywhereMm = 2000.0;
 
 double infinity() { return std::numeric_limits<double>::infinity(); }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A smooth trend through readings of which some, or many, are grossly wrong.
+/// A smooth trend through readings with some or many gross errors.
 ///
 ///   r_i = B_i beta + e_i,   e_i ~ multivariate Cauchy of scale s,   beta_j ~ N(0, sigma_j^2)   (1)
 ///
 /// r_i has one or two components; beta and s maximise the posterior, by the EM steps of Student's t
 /// with one degree of freedom (K. Lange, R. Little and J. Taylor, J. Am. Stat. Assoc. 84 (1989)
-/// 881). Of two accounts of the same readings the one with the larger log-likelihood is the better,
-/// whatever its rows are made of.
+/// 881). Accounts of the same readings are compared by their log-likelihoods.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,13 +23,13 @@ struct RobustTrend {
   [[nodiscard]] double median_residual_mm() const;
 };
 
-/// A row that is not finite is missing, and counts as one that is anywhere on the bed. \pre as many
-/// rows of basis as of readings, all sigmas positive.
+/// A row that is not finite is missing and counts as uniform over the bed. \pre as many rows of
+/// basis as of readings, all sigmas positive.
 [[nodiscard]] RobustTrend robust_trend(const Eigen::MatrixXd& basis,
                                        const Eigen::VectorXd& prior_sigma_mm,
                                        const Eigen::MatrixXd& readings_mm);
 
-/// Of one reading that is off by this, relative to one that is not off at all.
+/// Log-likelihood of a reading that is off by this, relative to an exact one.
 [[nodiscard]] double log_density_of(double residual_mm, double scale_mm, Eigen::Index components);
 
 }  // namespace chaintrue::grid::input_checks

@@ -13,7 +13,7 @@ namespace chaintrue::grid::input_checks {
 
 struct RowError {
   MeasuredPoint meant;
-  /// The number that is asked about: "y_mm 536.5"; empty where the whole row is.
+  /// The questioned number: "y_mm 536.5"; empty for the whole row.
   std::string number;
   std::string question;
   double penalty = 0.0;  ///< as NumberError

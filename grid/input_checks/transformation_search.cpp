@@ -21,9 +21,9 @@ using Eigen::Index;
 constexpr double kCoarseMm = 20.0;
 /// A row that is missing.
 constexpr double kMissingMm = 1000.0;
-/// Fewer rows are rows of their own.
+/// Fewer rows are treated one by one.
 constexpr std::size_t kFewestRows = 3;
-/// Rows here and there of a smaller share are as well told one by one.
+/// A smaller share of scattered rows is reported one by one.
 constexpr double kLeastShare = 0.2;
 
 struct Part {
@@ -33,7 +33,7 @@ struct Part {
   double penalty = 0.0;
 };
 
-/// How much likelier each row is mended, about a trend.
+/// Gain in log-likelihood of each row by the correction, about a trend.
 std::vector<double> gains(const TrendRows& plain,
                           const TrendRows& mended,
                           const Eigen::MatrixXd& trend,
@@ -102,7 +102,7 @@ class Search {
            std::vector<Candidate>& candidates) const {
     Candidate candidate{own.kind, part.words + own.sentence, account_of(trend)};
     candidate.account.log_likelihood -= part.penalty + own.penalty;
-    // Of the same rows another transformation may change the same numbers.
+    // For the same rows another transformation may change the same numbers.
     const bool is_told = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
       return other.kind == candidate.kind && other.from_row == part.from_row &&
              other.account.log_likelihood == candidate.account.log_likelihood;
@@ -113,7 +113,7 @@ class Search {
     candidates.push_back(std::move(candidate));
   }
 
-  /// Tail, head and rows by themselves, where their rows gain together what a finding needs.
+  /// Tail, head and single rows, if together they gain enough for a finding.
   [[nodiscard]] std::vector<Part> parts_of(const Transformation& own,
                                            const std::vector<double>& gain) const {
     std::vector<Part> parts;
@@ -159,7 +159,7 @@ class Search {
     return taken >= kFewestRows && taken < count();
   }
 
-  /// The part's account; and where its own trend would have other rows, theirs.
+  /// The part's account; also that of the rows selected by its own trend, if they differ.
   void refine(const Transformation& own,
               const TrendRows& all,
               Part part,

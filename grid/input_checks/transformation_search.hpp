@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The one search for how a file's numbers were meant: transformations (a sign, a unit, an origin, a turn,
-/// a scale, an exchange) of all rows, of those from one on, of those up to one, or of some; marks,
-/// distances and drawings give it their rows.
+/// Searches for how a file's numbers were meant: transformations (a sign, a unit, an origin, a
+/// turn, a scale, an exchange) of all rows, of those from one on, of those up to one, or of some.
+/// Used for marks, distances and drawings.
 ///
 ///   r_i = B_i beta + e_i                                            (1) of robust_trend.hpp
 ///
@@ -26,7 +26,7 @@
 
 namespace chaintrue::grid::input_checks {
 
-/// Which rows of a file something befell.
+/// The affected rows of a file.
 using RowSet = std::vector<bool>;
 
 struct TrendRows {
@@ -38,19 +38,19 @@ struct Transformation {
   ProblemKind kind = ProblemKind::axes;
   /// What was expected, and what it looks like: "x_mm and y_mm look like inches: multiply them by 25.4".
   std::string sentence;
-  /// All rows, those of the set mended.
+  /// All rows, with those of the set corrected.
   std::function<TrendRows(const RowSet&)> mended;
-  /// Which rows it may have befallen: all; a tail; all or any part; a part alone.
+  /// Which rows it may affect: all; a tail; all or any part; only a part.
   enum class Of { all, tail, any, part } of = Of::any;
-  /// A machine that is stated as much off would look the same.
+  /// A wrongly stated machine would look the same.
   bool is_doubtful = false;
-  /// Logarithm of the number of values that one found from the file could have.
+  /// Logarithm of the number of possible values of a parameter estimated from the file.
   double penalty = 0.0;
 };
 
 [[nodiscard]] Account account_of(const RobustTrend& trend);
 
-/// An account for each transformation of all rows, and for the likeliest part of them where it is much
+/// An account for each transformation of all rows, and for the likeliest part of them if it is much
 /// likelier than no row. `name_of_row` is the row's own number.
 [[nodiscard]] std::vector<Candidate> searched(
     const Eigen::VectorXd& prior_sigma_mm,

@@ -30,7 +30,7 @@ void scale_reading(MeasuredPoint& point, double factor) {
     point.commanded = BedPoint{factor * point.commanded->x_mm, factor * point.commanded->y_mm};
 }
 
-/// The list, and what a change of marks or of readings makes of the rows.
+/// The list, and its rows after a change of marks or readings.
 class List {
  public:
   List(const PointAccounts& accounts, const PlacedPoints& written)
@@ -106,7 +106,7 @@ void add_axes(List& list) {
   }
 }
 
-/// A minus in every row that needs one, where a column has none.
+/// Adds a minus in every row that needs one, if a column has none.
 void add_signs(List& list, const PlacedPoints& written) {
   const auto has_minus = [&](double MarkPoint::*axis) {
     return std::any_of(written.points.begin(), written.points.end(), [axis](const MeasuredPoint& point) {
@@ -127,7 +127,7 @@ void add_signs(List& list, const PlacedPoints& written) {
   if (x && y) add(true, true, "", "left of the bed's middle and below it");
 }
 
-/// --inches is of marks and lengths together, and leaves commands as they are.
+/// --inches applies to marks and lengths together, and not to commands.
 void add_units(List& list, bool reads_lengths, Written written) {
   const std::string_view readings = reads_lengths ? "lengths" : "commands";
   const std::string_view for_marks = reads_lengths ? "" : or_say_inches(written);
@@ -184,8 +184,8 @@ void add_units(List& list, bool reads_lengths, Written written) {
   readings_in("metres", kMmPerM);
 }
 
-/// Each a little off, all equally: only the machine's prior shows that this is an error. Of a part of
-/// the rows the others show it.
+/// All rows are slightly off by the same amount: only the machine's prior shows that this is an
+/// error. For a part of the rows the others show it.
 void add_shifts(List& list, bool reads_lengths) {
   for (const auto& slip : {std::pair(kTapeMarkMm, "the tape held at its 100 mm mark"),
                            std::pair(kMmPerFoot, "a foot miscounted"),
@@ -214,7 +214,7 @@ void add_shifts(List& list, bool reads_lengths) {
   }
 }
 
-/// From where one coordinate counts, and which way.
+/// The origin and direction of one coordinate.
 struct Origin {
   std::string from;   ///< "the left motor"; empty: the bed's middle
   std::string edge;   ///< of the bed: "left"
@@ -320,7 +320,7 @@ Transformation places_of_others(const PointAccounts& accounts,
   return own;
 }
 
-/// Every mark to the place nearest to it, where that takes each place once.
+/// Assigns every mark to its nearest place, if this uses each place once.
 std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   std::vector<Place> nearest;
   std::vector<bool> taken(written.places.size(), false);

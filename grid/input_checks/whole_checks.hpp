@@ -17,13 +17,13 @@ struct PlacedPoints {
   std::vector<Place> places;
 };
 
-/// Those that points like these may have, of `grid`'s machine. All three must outlive the result.
+/// The errors possible for such points on `grid`'s machine. All three must outlive the result.
 [[nodiscard]] std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                                 const MeasuredGrid& grid,
                                                                 const PlacedPoints& written,
                                                                 Written as);
 
-/// Those of lines that slipped: neighbours in the file are needed for them.
+/// Errors of slipped lines, which need neighbours in the file.
 [[nodiscard]] std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
                                                                const PlacedPoints& written);
 
