@@ -68,7 +68,8 @@ template <class Container, class Predicate>
   return found != std::end(all) ? &*found : nullptr;
 }
 
-/// Orders by a member, or by what a function makes of each: stable_sort(models, descending(&CandidateModel::log_weight)).
+/// Orders by a member or by a function of each element: stable_sort(models,
+/// descending(&CandidateModel::log_weight)).
 template <class Key>
 [[nodiscard]] auto ascending(Key key) {
   return [key](const auto& a, const auto& b) { return std::invoke(key, a) < std::invoke(key, b); };
@@ -97,7 +98,7 @@ void append_all(Container& all, const Other& more) {
   all.insert(all.end(), std::begin(more), std::end(more));
 }
 
-/// \throws std::invalid_argument where there is nothing.
+/// \throws std::invalid_argument if the container is empty.
 template <class Container>
 void require_some(const Container& all) {
   if (std::size(all) == 0) throw precondition("the largest or the smallest of {} values", 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a function returns whose task has failed, by the reason and in a sentence.
+/// The return value of a failed function: a reason and a sentence.
 ///
 /// \code
 ///   if (!grid.machine) return failed(FitReason::no_machine, "the grid names no machine: give --machine");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All of grid that a user needs: `#include <chaintrue/grid.hpp>`. What was measured, maps and anchors
-/// with their check, diagnosis, planning, simulated measurements, and the files of all of these.
+/// The public interface of grid: `#include <chaintrue/grid.hpp>`. What was measured, maps and
+/// anchors with their check, diagnosis, planning, simulated measurements, and the files of all of
+/// these.
 #pragma once
 
 #include "grid/belts/anchors_check.hpp"

@@ -22,7 +22,8 @@ using IndexLoop = void (*)(std::size_t count, const IndexWork& work);
 /// result is the same for any number of threads. Throws what `work` throws.
 void for_each_index(std::size_t count, const IndexWork& work);
 
-/// What `for_each_index` does from now on; null for one index after another. Not while such a loop runs.
+/// Sets how `for_each_index` runs; null for one index after another. Do not call it during such a
+/// loop.
 void set_index_loop(IndexLoop loop);
 
 }  // namespace chaintrue::grid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is wrong with an input, by a name that stays when its sentence changes.
+/// The kind of a problem of an input: a name that is stable when its sentence changes.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a map, a diagnosis or a compensated program comes from. It has neither a date nor a folder:
+/// The sources of a map, a diagnosis or a compensated program. It has neither a date nor a folder:
 /// the same input gives the same bytes on any machine.
 #pragma once
 

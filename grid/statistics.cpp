@@ -16,7 +16,7 @@ namespace {
 constexpr double kShareOfStep = 1e-4;
 constexpr std::size_t kFewestReadings = 4;
 constexpr double kInchMm = 25.4;
-/// Steps of places that somebody chose.
+/// Steps of chosen places.
 constexpr double kChosenMm[] = {5.0, kInchMm / 4.0};
 
 bool are_multiples(const std::vector<double>& values, double step) {

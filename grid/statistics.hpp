@@ -11,7 +11,7 @@
 
 namespace chaintrue::grid {
 
-/// The middle value, of an even number the mean of the two middle ones. \throws
+/// The middle value; for an even number the mean of the two middle ones. \throws
 /// std::invalid_argument for no values.
 [[nodiscard]] double median(std::vector<double> values);
 
@@ -37,13 +37,13 @@ inline constexpr double kMinusInfinity = -kInfinity;
   return 0.5 * std::erfc(z / std::numbers::sqrt2);
 }
 
-/// log of the chance beyond z; asymptotic where erfc underflows.
+/// log of the probability beyond z; asymptotic where erfc underflows.
 [[nodiscard]] inline double log_normal_upper(double z) {
   if (z < 25.0) return std::log(normal_upper(z));
   return -0.5 * z * z - std::log(z * std::sqrt(2.0 * std::numbers::pi)) - 1.0 / (z * z);
 }
 
-/// log of the chance between low < high, in sigmas about the mean.
+/// log of the probability between low < high, in sigmas about the mean.
 [[nodiscard]] inline double log_normal_mass(double low, double high) {
   // Beyond, both tails are below half a unit in the last place of 1.
   constexpr double kNoTail = 8.3;
@@ -51,7 +51,8 @@ inline constexpr double kMinusInfinity = -kInfinity;
   if (high < 0.0) return log_normal_mass(-high, -low);
   if (low <= 0.0) {
     const double outside = normal_upper(-low) + normal_upper(high);
-    // The series' next term is below 1e-18. Most bounds are far away, and log1p is what would cost time.
+    // The series' next term is below 1e-18. Most bounds are far away, and log1p would dominate the
+    // time.
     return outside < 1e-6 ? -outside - 0.5 * outside * outside : std::log1p(-outside);
   }
   const double a = log_normal_upper(low);
@@ -59,10 +60,10 @@ inline constexpr double kMinusInfinity = -kInfinity;
   return b >= a ? kMinusInfinity : a + std::log1p(-std::exp(b - a));
 }
 
-/// Standard deviation of the rounding error of these readings, step / sqrt(12). The step is
-/// the largest of which all are multiples: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
-/// below of these millimetres. 0 for readings with all their digits, for fewer than four, and where
-/// all are multiples of 5 mm or of a quarter of an inch, which are places that somebody chose.
+/// Standard deviation of the rounding error of these readings, step / sqrt(12). The step is the
+/// largest that divides all of them: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
+/// below of these millimetres. 0 for readings with all their digits, for fewer than four, and if
+/// all are multiples of 5 mm or of a quarter of an inch, which are chosen places.
 [[nodiscard]] double rounding_sigma_mm(const std::vector<double>& readings_mm);
 
 }  // namespace chaintrue::grid

@@ -306,8 +306,8 @@ ThinSvd thin_svd(const MatrixXd& a) {
   if (a.size() == 0) return {MatrixXd(a.rows(), 0), VectorXd(0)};
   const auto parts = [](const auto& svd) { return ThinSvd{svd.matrixU(), svd.singularValues()}; };
   ThinSvd result = parts(Eigen::BDCSVD<MatrixXd>(a, Eigen::ComputeThinU));
-  // Of finite matrices with singular values that are nearly equal Eigen 3.4.0's division makes NaN;
-  // rotations are slower and do not.
+  // For finite matrices with nearly equal singular values Eigen 3.4.0's divide and conquer gives
+  // NaN; Jacobi rotations are slower but do not.
   if (!result.u.allFinite() || !result.values.allFinite())
     result = parts(Eigen::JacobiSVD<MatrixXd>(a, Eigen::ComputeThinU));
   return result;

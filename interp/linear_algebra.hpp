@@ -66,12 +66,12 @@ void add_outer(Eigen::MatrixXd& c, double scale, const VectorArgument& x);
 /// A diag(s)
 [[nodiscard]] Eigen::MatrixXd scaled_columns(const MatrixArgument& a, const VectorArgument& s);
 
-/// M = L L' of a symmetric positive definite matrix of which the lower triangle is read.
+/// M = L L' of a symmetric positive definite matrix; only the lower triangle is read.
 class Cholesky {
  public:
   Cholesky() = default;
   explicit Cholesky(Eigen::MatrixXd matrix);
-  /// False where a pivot was not positive, or not a number; nothing but this may be asked then.
+  /// False if a pivot was not positive or not a number; then no other member may be called.
   [[nodiscard]] bool is_positive_definite() const { return is_positive_definite_; }
   [[nodiscard]] Eigen::Index size() const { return lower_.rows(); }
 
@@ -96,12 +96,12 @@ class Cholesky {
   bool is_positive_definite_ = true;
 };
 
-/// M = P' L D L' P of a symmetric matrix, which may be semidefinite: for few unknowns that the data may
-/// not fix.
+/// M = P' L D L' P of a symmetric, possibly semidefinite matrix: for few unknowns that the data may
+/// not determine.
 class PivotedCholesky {
  public:
   explicit PivotedCholesky(const Eigen::MatrixXd& matrix);
-  /// M^-1 b; along directions of which M says nothing, 0.
+  /// M^-1 b; 0 along the null directions of M.
   [[nodiscard]] Eigen::MatrixXd solve(const MatrixArgument& b) const;
   [[nodiscard]] Eigen::VectorXd solve(const VectorArgument& b) const;
   [[nodiscard]] Eigen::MatrixXd inverse() const;
@@ -155,13 +155,14 @@ struct Qr {
 /// R alone: R'R = A'A.
 [[nodiscard]] Eigen::MatrixXd upper_triangle(const Eigen::MatrixXd& a);
 
-/// Orthonormal columns: those of `range` span what the columns of A do but for rounding, `rest` what is
-/// orthogonal to all of them.
+/// Orthonormal columns: those of `range` span the columns of A up to rounding, `rest` their
+/// orthogonal complement.
 struct Range {
   Eigen::MatrixXd range;
   Eigen::MatrixXd rest;
 };
-/// \param least  of the largest pivot: what is less counts as none; 0: as many roundings as A has columns.
+/// \param least share of the largest pivot below which a pivot counts as zero; 0: as many roundings
+/// as A has columns.
 [[nodiscard]] Range range_of(const Eigen::MatrixXd& a, double least = 0.0);
 
 /// The x of least length for which A x - b is shortest.

@@ -48,7 +48,7 @@ void add_few(Output c, double scale, const Entries& a, const Entries& b, bool sy
   }
 }
 
-/// Eigen's own entry for products that are not few: it scales without a temporary, and takes one
+/// Eigen's own entry for products that are not small: it scales without a temporary, and takes one
 /// column or row as a vector.
 template <class Left, class Right>
 void add_many(Output c, double scale, const Left& a, const Right& b) {
@@ -111,8 +111,8 @@ void solve_triangle(Input l, Output x) {
   }
 }
 
-/// On copies: Eigen's product of a symmetric matrix and a vector sums in an order that hangs on the
-/// address, and its own memory begins at multiples of a packet.
+/// On copies: Eigen's product of a symmetric matrix and a vector sums in an order that depends on
+/// the address, and its own memory is aligned to a packet.
 void tridiagonalise(Output a, double* reflections, double* diagonal, double* subdiagonal) {
   Eigen::MatrixXd matrix = stored(a);
   Eigen::VectorXd coefficients(a.rows - 1);

@@ -47,7 +47,7 @@ extern const Table avx2;  ///< with FMA; only of builds for x86-64
 
 /// Null where this processor has no AVX2 and FMA, or the build no code for them.
 [[nodiscard]] const Table* avx2_here();
-/// The best for this processor; the baseline where CHAINTRUE_BASELINE=1 stands in the environment.
+/// The best for this processor; the baseline if CHAINTRUE_BASELINE=1 is set in the environment.
 [[nodiscard]] const Table& chosen();
 
 }  // namespace chaintrue::linear::kernels

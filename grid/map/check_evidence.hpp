@@ -49,7 +49,7 @@ struct CheckReadings {
   std::vector<model::MechanismChange> changes;
   std::vector<CheckUnit> units;    ///< in the order of the rows, as `covariance` has them
   std::vector<std::string> names;  ///< of the rows
-  std::vector<std::string> notes;  ///< what was taken out of the readings, and what could not be
+  std::vector<std::string> notes;  ///< corrections of the readings, and those that failed
 };
 
 /// In the order nothing, the mechanism's changes, unknown, each unit bad by itself.
