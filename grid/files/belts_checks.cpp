@@ -245,7 +245,7 @@ bool check_belts_together(const MeasuredBelts& belts,
                           const BeltPlaces& places,
                           BeltsUse use,
                           Problems& problems) {
-  // No fit takes more: what reads them refuses them at once.
+  // No fit takes more, so readers reject them at once.
   if (belts.points.size() > kMostBeltPoints) return false;
   const bool is_enough = belts.points.size() >= kFewestBeltPoints;
   if (is_enough) {

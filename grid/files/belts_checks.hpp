@@ -35,7 +35,7 @@ void check_belt_distances(const MeasuredBelts& belts,
                           const std::string& distances,
                           Problems& problems);
 /// Enough positions, spread out, that are consistent with one frame and the belts' names. For a log
-/// that is only imported the first two are warnings. True where they are enough for a fit.
+/// that is only imported the first two are warnings. True if they are enough for a fit.
 bool check_belts_together(const MeasuredBelts& belts,
                           const BeltPlaces& places,
                           BeltsUse use,

@@ -16,7 +16,7 @@ namespace chaintrue::grid::files {
 
 namespace {
 
-/// Where a point's distances end once others are left out; empty for one that is left out itself.
+/// A point's new index once others are left out; empty if it is left out itself.
 std::vector<std::optional<std::size_t>> places_kept(std::size_t count,
                                                     const std::vector<std::size_t>& without) {
   std::vector<std::optional<std::size_t>> kept(count);

@@ -62,11 +62,12 @@ struct ReadBelts {
 [[nodiscard]] ReadBelts read_belts(const std::filesystem::path& path);
 /// `file` is the name used in messages.
 [[nodiscard]] ReadBelts parse_belts(const std::string& text, const std::string& file);
-/// Points of `without`, counted from 1, are left out before anything is checked but the file's own form.
+/// Points of `without`, counted from 1, are left out before all checks except those of the file's
+/// form.
 [[nodiscard]] ReadBelts parse_belts(const std::string& text,
                                     const std::string& file,
                                     const std::vector<std::size_t>& without);
-/// Of the points that are kept without these.
+/// The indices of the points that remain without these.
 [[nodiscard]] PointIndices indices_without(std::size_t kept,
                                           const std::vector<std::size_t>& without);
 /// "7,12" of an option, numbers of `what`. \throws InputError where these are not numbers from 1 on.

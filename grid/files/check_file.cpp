@@ -6,7 +6,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// What a check of a map and one of anchors both say.
+/// The part common to checks of maps and anchors.
 Json verdict_of(const Check& check) {
   Json json = headed(kCheckFormat);
   json["verdict"] = std::string(name(check.verdict));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a check found, as JSON, for scripts. Written only. Same check, same bytes.
+/// The result of a check as JSON, for scripts. Written only. Same check, same bytes.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kOfTheChain = {
     "chainpitch", "gearteeth", "chainoversprocket"};
-/// What a firmware takes for 0 where nobody has set it.
+/// Settings that a firmware takes as 0 if they are not set.
 constexpr std::array<std::string_view, 3> kZeroUnlessSet = {
     "topbeamtilt", "leftchaintolerance", "rightchaintolerance"};
 
@@ -43,7 +43,7 @@ const NamedSetting* find(const std::vector<NamedSetting>& settings, const std::s
   return found == settings.end() ? nullptr : &*found;
 }
 
-/// The text, or what nothing stands for.
+/// The text, or the words for a missing value.
 std::string value_of(const NamedSetting* setting, const std::string& name) {
   if (setting != nullptr) return setting->text;
   return is_among(kZeroUnlessSet, name) ? "0" : "";
@@ -54,7 +54,7 @@ bool are_equal(const std::string& a, const std::string& b) {
   const auto x = number_of(a);
   const auto y = number_of(b);
   if (!x || !y) return false;
-  // An export writes four decimals, and four digits of what is a thousandth of that.
+  // An export writes four decimals, and four digits of smaller values.
   constexpr double kHalfAUnit = 0.5001e-4;
   constexpr double kSmall = 1e-3;
   constexpr double kShare = 1e-3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a controller goes by, setting by setting under the names of its own files, and where two
-/// controllers differ.
+/// The settings in force in a controller, under the names of its files, and the differences of two
+/// controllers.
 ///
 /// \code
 ///   const auto changes = changed_settings(settings_in_force(before), settings_in_force(now));
@@ -21,8 +21,8 @@ struct NamedSetting {
   std::string text;  ///< the value, in the digits that it has
 };
 
-/// Of a Maslow GroundControl's names; of FluidNC's WallPlotter its anchors; of an ideal controller
-/// the machine that it believes. `machine` is as it was stated, not as it was calibrated.
+/// For a Maslow GroundControl's names; for FluidNC's WallPlotter its anchors; for an ideal
+/// controller its machine. `machine` is as it was stated, not as it was calibrated.
 [[nodiscard]] std::vector<NamedSetting> settings_in_force(const model::Machine& machine);
 
 struct SettingChange {

@@ -34,7 +34,7 @@ void for_each_line(std::string_view text, const Visit& visit) {
     const std::size_t end = text.find_first_of("\r\n");
     const std::string_view line = text.substr(0, end);
     ++number;
-    // Excel's own way to say what separates cells.
+    // Excel's statement of the separator.
     const bool says_separator = is_first && line.starts_with("sep=");
     is_first = false;
     if (!is_skipped(line) && !says_separator && !visit(line, number)) return;
@@ -99,8 +99,8 @@ struct LineOfWords {
   std::ptrdiff_t filled = 0;
 };
 
-/// Where the table begins: of the lines above the first numbers the one with most cells. Without such
-/// a line, or without numbers, the first line.
+/// The start of the table: of the lines above the first numbers the one with most cells. Without
+/// such a line, or without numbers, the first line.
 LineOfWords line_of_header(std::string_view text) {
   std::vector<LineOfWords> above;
   bool found_numbers = false;

@@ -22,16 +22,16 @@ struct CsvCell {
 using CsvRow = std::vector<CsvCell>;
 
 /// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
-/// quotes are removed, and numbers are written with a point where the file leaves no doubt of what
-/// its commas mean (csv_numbers.hpp). A title above the header is a warning.
-/// \throws InputError for a table of more cells than any of ours has
+/// quotes are removed, and numbers are written with a point if the meaning of the file's commas is
+/// certain (csv_numbers.hpp). A title above the header is a warning.
+/// \throws InputError for a table with more cells than any supported format has
 [[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
                                             char separator,
                                             Problems& problems);
 /// The header alone.
 [[nodiscard]] CsvRow header_of_csv(std::string_view text);
 
-/// Of comma, semicolon and tab the one that the header has most of; a comma where there is none.
+/// The most frequent of comma, semicolon and tab in the header; a comma if it has none.
 [[nodiscard]] char separator_of(std::string_view text);
 
 }  // namespace chaintrue::grid::files

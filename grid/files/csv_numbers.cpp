@@ -44,7 +44,7 @@ std::string_view figures_of(std::string_view text) {
 bool is_grouped_by(std::string_view figures, char mark) {
   std::size_t at = digits_at(figures);
   if (at > 3 || at == figures.size() || figures[at] != mark) return false;
-  // Nobody writes 0.125 for 125.
+  // 0.125 is never meant as 125.
   if (figures.front() == '0') return false;
   while (at < figures.size() && figures[at] == mark) {
     if (digits_at(figures.substr(at + 1)) != 3) return false;
@@ -79,7 +79,7 @@ void add_figures(std::string_view figures, WayOfWriting& way) {
   }
 }
 
-/// What stands between thousands, and what before decimals, where the file leaves no doubt of it.
+/// The separators of thousands and of decimals, if the file is unambiguous.
 struct NumberMarks {
   std::optional<char> thousands;
   char decimal = '.';
@@ -94,7 +94,7 @@ std::optional<NumberMarks> number_marks_of(const WayOfWriting& way, char separat
   return way.doubtful_point ? std::nullopt : std::optional(NumberMarks{std::nullopt, ','});
 }
 
-/// The cell with its figures written anew.
+/// The cell with its number rewritten.
 std::string rewritten(const std::string& text, const NumberMarks& marks) {
   const std::string_view figures = figures_of(text);
   if (figures.empty()) return text;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Numbers in the cells of a table as spreadsheets of any country and people write them: decimal
-/// commas, groups of thousands, long minus signs, spaces that do not break, a dash where nothing was
-/// read. Private to grid/files.
+/// Numbers in the cells of a table, as written by people and by spreadsheets of any country:
+/// decimal commas, groups of thousands, long minus signs, spaces that do not break, a dash for no
+/// reading. Private to grid/files.
 #pragma once
 
 #include <string>
@@ -23,9 +23,9 @@ namespace chaintrue::grid::files {
 /// `-`, `n/a`, `?`: nothing was read.
 [[nodiscard]] bool stands_for_nothing(std::string_view text);
 
-/// Decimal commas become points, and groups of thousands are joined, where the file as a whole leaves
-/// no doubt of its way of writing: between commas `"555,5"` must stand there too, not `"1,113"` alone;
-/// a number with a decimal point leaves all commas but those of thousands as they are.
+/// Decimal commas become points, and groups of thousands are joined, if the file as a whole is
+/// unambiguous: between commas `"555,5"` must stand there too, not `"1,113"` alone; a number with a
+/// decimal point leaves all commas but those of thousands as they are.
 void write_decimal_points(char separator, std::vector<CsvRow>& rows);
 
 }  // namespace chaintrue::grid::files

@@ -64,14 +64,14 @@ ColumnName column_name(std::string_view text) {
 
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
-/// The cell of a row that a column's numbers stand in.
+/// The cell of a row that holds a column's number.
 struct CellOfColumn {
   std::size_t index = kNoCell;
   double factor = 1.0;
 };
 
-/// For each column its cell. Reports a header that does not fit, once, and warns of columns that
-/// nobody asked for.
+/// For each column its cell. Reports a header that does not fit, once, and warns of unknown
+/// columns.
 std::vector<CellOfColumn> match_header(const CsvRow& header,
                                        const std::vector<CsvColumn>& columns,
                                        Problems& problems) {

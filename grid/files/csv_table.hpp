@@ -2,10 +2,10 @@
 /// \file
 /// A small CSV of numbers under a header line. Private to grid/files. Accepts what spreadsheets
 /// write: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
-/// separators, a first line `sep=;`, words above the header and below the last row, columns that nobody
-/// asked for, a dash for no reading, decimal commas and groups of thousands; lines that begin with #
-/// are comments. A column may be headed `X (mm)` or `x in`, in inches. Numbers are read independent of
-/// the locale.
+/// separators, a first line `sep=;`, words above the header and below the last row, unknown
+/// columns, a dash for no reading, decimal commas and groups of thousands; lines that begin with #
+/// are comments. A column may be headed `X (mm)` or `x in`, in inches. Numbers are read independent
+/// of the locale.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ struct CsvColumn {
   bool is_required = true;
   /// For a required column: cells may be empty, as in a sheet that is not filled in.
   bool may_be_blank = false;
-  /// What a number without a unit of its own is in the range's unit, where the header says no other.
+  /// The factor to the range's unit for numbers without a unit, unless the header states one.
   double unit = 1.0;
 };
 
@@ -40,7 +40,7 @@ struct CsvColumn {
 /// allow them.
 struct CsvTable {
   std::vector<std::vector<std::optional<double>>> rows;
-  /// The cell of each value, for messages; an empty place where there is none.
+  /// The cell of each value, for messages; an empty place if there is none.
   std::vector<CsvRow> cells;
   /// False for a row with a problem.
   std::vector<bool> clean;

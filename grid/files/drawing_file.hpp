@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_drawing files: the page that a V-plotter drew, and what a person measured on it. Unknown
-/// keys are errors, except "comment". Same drawing, same bytes.
+/// chaintrue_drawing files: the page that a V-plotter drew, and its measurements. Unknown keys are
+/// errors, except "comment". Same drawing, same bytes.
 ///
 /// \code
 ///   write_whole_file("drawing.json", write_blank_drawing(planned_drawing(set)));

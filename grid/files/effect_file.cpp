@@ -21,7 +21,7 @@ std::size_t behind_text(const std::string& json, std::size_t open) {
   return at + 1;
 }
 
-/// Where the text of a key of the outermost object begins, behind its quote. Precondition: JSON.
+/// Start of the text of a key of the outermost object, after its quote. Precondition: JSON.
 std::optional<std::size_t> text_of_key(const std::string& json, std::string_view key) {
   int depth = 0;
   for (std::size_t at = 0; at < json.size(); ++at) {
@@ -79,7 +79,7 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
   const auto known = std::find_if(machine.declared.begin(),
                                   machine.declared.end(),
                                   [&](const Effect* other) { return other->id == effect.id; });
-  // The same once more is no other.
+  // Declaring the same effect again has no effect.
   if (known != machine.declared.end() && *known == &effect) return;
   if (known != machine.declared.end()) {
     problems.add("/id",

@@ -21,7 +21,7 @@ using model::effects::EffectSide;
 using model::effects::ParameterRole;
 using model::effects::RemedyKind;
 
-/// The usual size is one sigma from null; a place is anywhere, 0 where that may be.
+/// The usual size is one sigma from null; a place may be anywhere, 0 if allowed.
 double assumed_nominal(const DeclaredParameter& p) {
   if (p.role == ParameterRole::size) return std::min(p.null + p.prior_sigma, p.upper);
   const double middle = 0.5 * (p.lower + p.upper);
@@ -224,7 +224,7 @@ const Effect* declared_in_document(const Cursor& at, std::string_view id) {
   if (machine == root.end() || !machine->is_object()) return nullptr;
   const auto all = machine->find("declared_effects");
   if (all == machine->end()) return nullptr;
-  // The machine's own record reports what is wrong with them.
+  // The machine's record reports their problems.
   Problems unsaid(at.problems().file());
   std::vector<const Effect*> declared;
   read_declared(Cursor(*all, unsaid), declared);

@@ -94,7 +94,7 @@ bool is_json(std::string_view text) {
   text = without_byte_order_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;
-  // "[EMC]" is a section of an ini file, "[true]" is JSON that nothing here takes.
+  // "[EMC]" is a section of an ini file, "[true]" is JSON that no reader takes.
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const bool is_section =
       text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);

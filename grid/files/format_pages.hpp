@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Each file format as a reference page (Markdown) and as a JSON Schema (draft 7, json-schema.org),
-/// with which editors complete and check such files. Both come from the tables that the readers use:
-/// every key, unit, range and default. Same program, same bytes.
+/// which editors use to complete and check such files. Both come from the tables that the readers
+/// use: every key, unit, range and default. Same program, same bytes.
 ///
 /// A schema checks less than a reader: dependencies between keys, and whether points and machine fit
 /// together, are checked by chaintrue only.

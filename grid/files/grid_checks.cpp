@@ -18,7 +18,7 @@ namespace {
 
 using Getter = std::function<std::optional<double>(const MeasuredPoint&)>;
 
-/// No hanging router has lengths or a bed below this in mm; in inches all have.
+/// No hanging router has lengths or a bed below this in mm; in inches all are below it.
 constexpr double kLongestInInches = 250.0;
 
 void check_parts(const StatedPoint& point, const std::string& place, Problems& problems) {
@@ -117,7 +117,7 @@ bool is_unit_over(double steepness) { return steepness < 0.2; }
 constexpr double kFewestInches = 13.0;
 const char* unit_of(double factor) { return factor < kFewestInches ? "centimetres" : "inches"; }
 
-/// Says where another unit stands for mm; true where it does. Of grids without a machine.
+/// Reports another unit than mm; true if found. For grids without a machine.
 bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   const Extent extent = extent_of(grid);
   if (extent.length > 0.0 && extent.length < kLongestInInches &&
@@ -247,7 +247,7 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
   return true;
 }
 
-/// Errors of the whole file, and of rows. True where no further check is useful.
+/// Errors of the whole file, and of rows. True if no further check is useful.
 bool check_entries(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   if (!grid.machine) {
     if (check_unit(grid, places, problems) || check_axes(grid, places, problems)) return true;

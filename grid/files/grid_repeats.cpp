@@ -99,7 +99,7 @@ void warn_of_pair(const Comparison& comparison,
   const double first_mm = std::abs(a.first_mm - b.first_mm);
   const double second_mm = std::abs(a.second_mm - b.second_mm);
   if (first_mm <= allowed_mm && second_mm <= allowed_mm) return;
-  // What was asked about already disagrees with everything.
+  // A point that was already reported disagrees with everything.
   const auto is_asked_about = [&](std::size_t row) {
     const auto& warnings = problems.warnings();
     return std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {

@@ -113,11 +113,11 @@ void attach_sled(const SettingValues& numbers, bool has_brackets, Machine& machi
 /// took the gears for 291 to 1.
 constexpr double kCountsOfATurn = 8113.73;
 
-/// By how much more chain runs out than the controller counts, of 1: what it takes for a turn of the
+/// Relative excess of chain paid out over the controller's count: what it counts as a turn of the
 /// sprocket is more than a turn.
 double more_by_encoder(SettingReader& settings, Problems& problems) {
   constexpr Range kCounts{"counts a turn", 100.0, 1e6};
-  // Beyond it the motors are others, with counts of their own.
+  // Beyond this the motors are different ones with other counts.
   constexpr double kSameMotors = 0.02;
   constexpr double kNotice = 1e-5;
   const auto counts = settings.find("encodersteps", kCounts);
@@ -215,14 +215,14 @@ class OldReleases {
   OldReleases(SettingReader& settings, Problems& problems)
       : settings_(settings), problems_(problems) {}
 
-  /// The first of `words` where the file says none.
+  /// The first of `words` if the file states none.
   std::string word(const char* key, const std::vector<std::string>& words) {
     if (settings_.look(key) != nullptr)
       return settings_.find_word(key, words).value_or(words.front());
     assumed_.push_back(fmt::format("{} {}", key, words.front()));
     return words.front();
   }
-  /// Of a setting that is not there; nothing where there was always one.
+  /// For a missing setting; empty if it has always existed.
   std::optional<double> number(std::string_view key, const SettingValues& others) {
     const auto assumed = [&](double value) {
       assumed_.push_back(fmt::format("{} {:g}", key, value));
@@ -265,7 +265,7 @@ SettingValues read_numbers(SettingReader& settings, bool has_brackets, OldReleas
   return numbers;
 }
 
-/// What owners' calibrations put into the sag is more than the chain's own.
+/// Owners' calibrations put more into the sag than the chain's own.
 void check_sag(SettingReader& settings, const Machine& machine, Problems& problems) {
   constexpr double kFarFrom = 2.0;
   const double set = machine.controller.settings.chain_sag_correction.value_or(0.0);

@@ -58,8 +58,8 @@ enum class Tolerances { are_pitch, unexplained };
                                               Tolerances tolerances = Tolerances::are_pitch);
 
 /// The machine's own measures as settings: motors, ring or sled, sprocket, the sag of the chain's weight where
-/// no import states one; tilt and stretch of the holey firmware alone. What its effects do is in none of them:
-/// map/settings_to_type.hpp finds the numbers for the whole machine.
+/// no import states one; tilt and stretch of the holey firmware alone. They do not include its
+/// effects: map/settings_to_type.hpp finds the numbers for the whole machine.
 [[nodiscard]] model::ControllerSettings measures_as_settings(const model::Machine& machine);
 
 struct GroundcontrolText {
@@ -73,8 +73,8 @@ struct GroundcontrolText {
 /// Of those measures. A setting of the controller that agrees with the machine is unchanged.
 [[nodiscard]] GroundcontrolText write_groundcontrol(const model::Machine& machine);
 
-/// Whether anything was measured since the import: false where the machine is what an import of its settings
-/// gives.
+/// Whether anything was measured since the import: false if the machine is what an import of its
+/// settings gives.
 [[nodiscard]] bool says_more_than_its_settings(const model::Machine& machine);
 
 /// The machine's controller with `settings` in place of its own. `by` is the source of the change:

@@ -51,7 +51,7 @@ bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Probl
         std::max({farthest_mm, std::abs(hole.commanded.x_mm), std::abs(hole.commanded.y_mm)});
   }
   // Holes of a set go out to half of the bed's half width and more, which is 1 / 51 to 1 / 25 of it
-  // in inches, 1 / 20 to 1 / 10 in centimetres. A set in mm that keeps within an eighth tells nothing.
+  // in inches, 1 / 20 to 1 / 10 in centimetres. A set in mm within an eighth of it is inconclusive.
   constexpr double kOfInches = 0.045;
   constexpr double kOfCentimetres = 0.125;
   const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : model::Bed{}).width_mm;
@@ -68,8 +68,7 @@ bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Probl
   return true;
 }
 
-/// Where an error of the whole file was found it is reported; what is asked about single distances is
-/// returned.
+/// Reports an error of the whole file; returns the questions about single distances.
 std::vector<input_checks::RowFinding> check_entries(const MeasuredHoles& set,
                                                     const HolesPlaces& places,
                                                     Problems& problems) {

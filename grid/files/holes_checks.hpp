@@ -48,8 +48,7 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
 /// Warns of distances that equal the commanded ones exactly.
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems);
 /// Units, triangles, a tape zero offset that was forgotten, and whether there are enough distances.
-/// For a stated offset that is doubtful there is only a warning. Call it only if nothing was wrong
-/// before.
+/// A doubtful stated offset gives only a warning. Call it only if nothing was wrong before.
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
                           bool tape_zero_is_stated,

@@ -25,7 +25,7 @@ struct StatedHoles {
   std::optional<model::BeltMachine> belt_machine;  ///< instead of it
   std::string machine_file;
   Tape tape;
-  /// The tape's zero offset is stated, be it 0.
+  /// The tape's zero offset is stated, even as 0.
   bool tape_zero_is_stated = false;
   double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
   double noise_dof = MeasuredHoles{}.noise_dof;

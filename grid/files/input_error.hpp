@@ -22,13 +22,13 @@ struct InputProblem {
   std::string value;
   /// What was expected.
   std::string expected;
-  /// Where the likely mistake is recognised: what it is and what to do, in the owner's words. It then
-  /// stands for value and expected in the message.
+  /// If the likely mistake is recognised: what it is and what to do, in the owner's words. It then
+  /// replaces value and expected in the message.
   std::string sentence = {};
   ProblemKind kind = ProblemKind::unexpected;
   /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
   [[nodiscard]] std::string message() const;
-  /// Of its kind; "missing" where nothing was found.
+  /// The name of its kind; "missing" if nothing was found.
   [[nodiscard]] std::string_view name() const;
 };
 
@@ -39,7 +39,7 @@ struct Warning {
   std::string place;
   /// A whole sentence.
   std::string sentence;
-  /// Of a recognised mistake; nothing for what is only told.
+  /// The kind of a recognised mistake; empty for information.
   std::optional<ProblemKind> kind = std::nullopt;
   /// `grid.json: /points/3: ...`
   [[nodiscard]] std::string message() const;

@@ -12,7 +12,7 @@ namespace {
 
 const Json kNull;
 
-/// What a text in a number's place was probably meant to be.
+/// The probable meaning of a text in place of a number.
 std::string_view hint_for_text(std::string_view text) {
   if (looks_like_decimal_comma(text)) return ", with a decimal point and without quotes";
   return number_of(text) ? ", without quotes" : "";
@@ -277,7 +277,7 @@ Json with_default(Json schema, const Json& value) {
 }
 
 Json number_schema(const Range& range) {
-  // Only excludes numbers that have no meaning.
+  // Excludes only meaningless numbers.
   constexpr double kWiderThanAnyMeaning = 1e9;
   Json schema = {{"type", "number"}};
   if (!range.unit.empty()) schema["unit"] = std::string(range.unit);

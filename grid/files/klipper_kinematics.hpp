@@ -3,14 +3,14 @@
 /// A map as a kinematics module of Klipper: the source (Python) of a module that interpolates both
 /// lengths in a table (length_table.hpp).
 ///
-/// Klipper computes steps in C, as straight distances from anchors (its kinematics `winch`). The module
-/// sends a tool that shall be at p to the place c whose straight distances from two anchors a are the map's
-/// lengths L,
+/// Klipper computes steps in C, as straight distances from anchors (its kinematics `winch`). To put
+/// the tool at p the module commands the place c whose straight distances from two anchors a are
+/// the map's lengths L,
 ///
 ///   |c - a| = sqrt((L(p) + o)^2 - z^2)                                                      (1)
 ///
-/// o is what such distances are longer by all over, as by a sled's ring; steppers count from where they
-/// are switched on, so that it needs no setting.
+/// o is a constant by which such distances are longer, such as a sled's ring; steppers count from
+/// where they are switched on, so it needs no setting.
 ///
 /// in pieces so short that the lengths between their ends are the map's to a hundredth of a millimetre:
 /// `winch` counts z into its distances, which (1) takes out. Outside the table a move is refused before
@@ -41,8 +41,8 @@ struct KlipperKinematics {
   double piece_mm = 0.0;          ///< the longest move that is not divided
 };
 
-/// About where chains come from, in the map's frame, and o of (1); straight_settings.hpp has the nearest,
-/// and any near them serve.
+/// Approximate origins of the chains, in the map's frame, and o of (1); straight_settings.hpp gives
+/// the best, and nearby ones serve.
 struct StraightChains {
   model::PerSide<model::BedPoint> anchors;
   model::ChainLengths longer_mm;

@@ -3,8 +3,8 @@
 /// The lengths of a map at the nodes of a regular lattice, for controllers that interpolate in a table.
 ///
 /// Between nodes lengths are interpolated by cubic convolution in x and in y (R. Keys, IEEE Trans.
-/// Acoust. Speech Signal Process. 29 (1981), 1153, eq. 4 and the boundary values of eq. 25). The table
-/// is as dense as it has to be: what it is off by is looked for in the middles of cells and of their
+/// Acoust. Speech Signal Process. 29 (1981), 1153, eq. 4 and the boundary values of eq. 25). The
+/// table is as dense as necessary: its error is evaluated in the middles of cells and of their
 /// sides, where it is largest.
 ///
 /// \code
@@ -23,7 +23,7 @@
 
 namespace chaintrue::grid::files {
 
-/// What a table may be off by, mm: the hundredth part of what a careful hand reads.
+/// Largest allowed error, mm: a hundredth of a careful reading.
 inline constexpr double kTableErrorMm = 0.005;
 
 struct LengthTable {
@@ -32,7 +32,8 @@ struct LengthTable {
   int rows = 0;
   /// Left and right, row by row from below, to five digits after the point.
   std::vector<std::array<double, 2>> nodes{};
-  /// Of a length, as it was looked for; above kTableErrorMm only where 5 mm from node to node do not do.
+  /// Largest error of a length as evaluated; above kTableErrorMm only if a spacing of 5 mm is not
+  /// enough.
   double largest_error_mm = 0.0;
 
   [[nodiscard]] double step_x() const { return (area.x_max - area.x_min) / (columns - 1); }
@@ -43,11 +44,11 @@ struct LengthTable {
   [[nodiscard]] double spacing_mm() const;
   /// side: 0 left, 1 right. One row or column beyond an edge it is continued (Keys, eq. 25).
   [[nodiscard]] double node(int row, int column, std::size_t side) const;
-  /// All nodes as text, four to a line; each row and each node stands between `open` and `close`.
+  /// All nodes as text, four to a line; each row and each node is between `open` and `close`.
   [[nodiscard]] std::string nodes_as_text(std::string_view open, std::string_view close) const;
 };
 
-/// Over the map's domain. Fails where the map has no answer somewhere in it.
+/// Over the map's domain. Fails if the map has no answer somewhere in it.
 [[nodiscard]] tl::expected<LengthTable, MapFailure> length_table(const LengthMap& map);
 
 }  // namespace chaintrue::grid::files

@@ -13,7 +13,7 @@ namespace {
 
 using input_checks::kMmPerInch;
 constexpr double kInchesPerFoot = 12.0;
-/// The sign that spreadsheets and word processors make of a minus.
+/// The minus sign of spreadsheets and word processors.
 constexpr std::string_view kLongMinus = "\xE2\x88\x92";
 constexpr std::string_view kDoublePrime = "\xE2\x80\xB3";
 
@@ -63,7 +63,7 @@ std::optional<double> fraction(std::string_view text) {
   if (slash == std::string_view::npos) return std::nullopt;
   const auto above = whole(text.substr(0, slash));
   const auto below = whole(text.substr(slash + 1));
-  // 13/8 of an inch, or a date, is nobody's reading of a rule.
+  // 13/8 of an inch, or a date, is not a reading of a rule.
   if (!above || !below || !(*above < *below)) return std::nullopt;
   return before + *above / *below;
 }
@@ -80,7 +80,7 @@ std::optional<double> take_feet(std::string_view& text) {
   return std::nullopt;
 }
 
-/// What stands behind feet; 0 where nothing does.
+/// The inches after feet; 0 if there are none.
 std::optional<double> inches_behind_feet(std::string_view text) {
   if (text.starts_with('-')) text = trimmed(text.substr(1));
   if (text.empty()) return 0.0;

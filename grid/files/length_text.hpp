@@ -17,12 +17,12 @@
 
 namespace chaintrue::grid::files {
 
-/// Millimetres; nothing where the text is no length with a unit, and no fraction. A bare number is
-/// none: its unit is that of its place. \post The value is finite.
+/// Millimetres; empty if the text is neither a length with a unit nor a fraction. A bare number is
+/// neither: its unit is that of its place. \post The value is finite.
 [[nodiscard]] std::optional<double> length_with_unit_mm(std::string_view text);
 
-/// The fraction that a spreadsheet has made a date of: `Jan-32` was 1/32, `16-Mar` 3/16. Nothing where the
-/// text is no such date.
+/// The fraction that a spreadsheet turned into a date: `Jan-32` was 1/32, `16-Mar` 3/16. Empty if
+/// the text is not such a date.
 [[nodiscard]] std::optional<std::string> fraction_of_date(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -33,7 +33,7 @@ struct LinuxcncKinematics {
   double largest_error_mm = 0.0;
 };
 
-/// Over the map's domain. Fails where the map has no answer somewhere in it.
+/// Over the map's domain. Fails if the map has no answer somewhere in it.
 [[nodiscard]] tl::expected<LinuxcncKinematics, MapFailure> linuxcnc_kinematics(
     const LengthMap& map, const LinuxcncNames& names);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A machine whose numbers are each possible and together are not: every importer's last look.
+/// Detects machines whose numbers are individually but not jointly possible: the last check of
+/// every importer.
 #pragma once
 
 #include "grid/files/problems.hpp"
@@ -8,8 +9,8 @@
 
 namespace chaintrue::grid::files {
 
-/// Reports what model::problems_of says of it, motors that are not beyond the bed, and a place of the bed
-/// where no sled hangs, or one that chains would have to pull harder than motors can.
+/// Reports model::problems_of, motors that are not beyond the bed, and a place of the bed where no
+/// sled can hang, or where the chains would need more pull than motors have.
 void check_geometry(const model::Machine& machine, Problems& problems);
 
 /// The longest chain that any place of the bed takes, from the sprocket to the sled. \pre a machine

@@ -226,7 +226,8 @@ std::optional<Json> write_controller(const Machine& machine) {
   return controller_record().write(machine.controller);
 }
 
-/// No hanging router has a bed and motors below this in mm; in inches and centimetres all have.
+/// No hanging router has a bed and motors below this in mm; in inches and centimetres all are below
+/// it.
 bool is_in_other_unit(const Machine& machine) {
   constexpr double kLongest = 250.0;
   constexpr double kShortest = 10.0;

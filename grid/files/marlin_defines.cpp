@@ -47,7 +47,7 @@ struct CodeReader {
   [[nodiscard]] bool is_at_end() const { return trimmed(rest).empty(); }
 };
 
-/// Nothing where the file does not say.
+/// Empty if the file does not state it.
 using Truth = std::optional<bool>;
 
 Truth negated(Truth a) { return a ? Truth(!*a) : a; }
@@ -57,7 +57,7 @@ Truth both_hold(Truth a, Truth b) {
 }
 Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
 
-/// What stands behind #if.
+/// The condition of an #if.
 class Condition {
  public:
   using Asked = std::function<bool(const std::string& name)>;
@@ -132,12 +132,12 @@ class CFormula {
  public:
   explicit CFormula(std::string_view text) : code_{text} {}
 
-  /// Not a number where the text is no formula.
+  /// NaN if the text is not a formula.
   double value() {
     const CNumber whole = sum();
     return is_formula_ && code_.is_at_end() ? whole.value : std::numeric_limits<double>::quiet_NaN();
   }
-  /// A quotient of whole numbers that is none.
+  /// A quotient of whole numbers that is not whole.
   [[nodiscard]] std::optional<double> cut() const { return cut_; }
 
  private:
@@ -226,7 +226,7 @@ class Defines {
     std::size_t words_left = kLongestFormula;
     expand(own->text, formula, words_left);
     if (problems_.list().size() > known) return;
-    if (words_left == 0 || formula.size() > kLongestFormula) formula.clear();  // names in a circle
+    if (words_left == 0 || formula.size() > kLongestFormula) formula.clear();  // circular
     std::string_view value = trimmed(formula);
     if (!value.starts_with('{')) {
       evaluate(value, name, name, *own, texts);
@@ -341,7 +341,7 @@ class Defines {
     }
   }
 
-  /// What the formula is worth, in digits; reported where it is no number.
+  /// The formula's value as text; reported if it is not a number.
   void evaluate(std::string_view formula,
                 const std::string& name,
                 const std::string& key,

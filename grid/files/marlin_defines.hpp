@@ -11,8 +11,8 @@
 ///     #define POLARGRAPH_MAX_BELT_LEN sqrt(sq(800.0) + sq(600.0))
 ///   #endif
 ///
-/// A condition of another kind may hold or not: of a name that is then defined in two ways nothing is
-/// known. A definition whose #if does not hold counts where there is no other.
+/// Any other condition may hold or not: a name that is then defined in two ways is unknown. A
+/// definition whose #if does not hold counts if there is no other.
 ///
 /// \code
 ///   const SettingTexts texts = marlin_texts(text, {"X_MIN_POS", "DEFAULT_AXIS_STEPS_PER_UNIT"}, problems);
@@ -29,12 +29,12 @@
 
 namespace chaintrue::grid::files {
 
-/// Of the names that are defined. What is no number is reported with its line.
+/// The names that are defined. Values that are not numbers are reported with their lines.
 [[nodiscard]] SettingTexts marlin_texts(const std::string& text,
                                         const std::vector<std::string>& names,
                                         Problems& problems);
 
-/// The same lines without what stands behind // and between /* and */.
+/// The lines without comments.
 [[nodiscard]] std::string without_comments(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -19,9 +19,10 @@ using model::kBelts;
 
 /// The firmware's own limit for four readings of a belt.
 constexpr double kReadingsAgreeMm = 2.5;
-/// A number of turns of the encoder is taken for whole to within this: a belt's own scatter.
+/// Tolerance of a whole number of turns of the encoder: a belt's scatter.
 constexpr double kWholeTurnMm = 3.0;
-/// The same against where the machine was sent: anchors in force are off by a centimetre, and belts that hold stretch.
+/// The tolerance against commanded places: anchors in force are off by a centimetre, and holding
+/// belts stretch.
 constexpr double kWholeTurnOfCommandsMm = 10.0;
 
 bool has(std::string_view line, std::string_view word) {
@@ -34,7 +35,7 @@ double spread(const std::vector<double>& readings_mm) {
   return *most - *least;
 }
 
-/// Whole turns that a length is off by; 0 where it is none.
+/// Whole turns by which a length is off; 0 if none.
 int whole_turns(double excess_mm, double turn_mm, double within_mm = kWholeTurnMm) {
   const double turns = std::round(std::abs(excess_mm) / turn_mm);
   const bool is_whole = std::abs(std::abs(excess_mm) - turns * turn_mm) < within_mm;
@@ -59,7 +60,7 @@ std::string where(const RunStopped& stopped) {
                      reached);
 }
 
-/// What the single readings show, and what makes that; empty where there are none.
+/// What the single readings show, and its cause; empty if there are none.
 std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   Belt worst = Belt::tl;
   int apart = 0;
@@ -96,9 +97,9 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
       text);
 }
 
-/// What the places that were read show against where the machine was sent.
+/// Comparison of the places read with the commanded ones.
 std::string shown_by_commands(const MeasuredBelts& belts) {
-  // Anchors in force are off by less; a belt that counts from elsewhere is not.
+  // Anchors in force are off by less; a belt with a wrong zero is off by more.
   constexpr double kFarMm = 20.0;
   const auto found = against_commands(belts);
   if (!found) return "";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A run of Find Anchors that did not come to its end: at which waypoint, what the machine saw there,
-/// which causes make that, and what to do. Private to grid/files.
+/// A run of Find Anchors that did not finish: at which waypoint, what the machine read there, the
+/// possible causes, and what to do. Private to grid/files.
 ///
 /// Source: MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow/Calibration.cpp, for what is printed: a
 /// belt's four readings at a waypoint, repeated up to nine times until they agree to 2.5 mm; the
@@ -24,7 +24,7 @@ enum class StopKind {
   imbalance,          ///< the machine's guard: one belt's misfit is twice another's
   not_converged,      ///< the machine's solver
   low_fitness,        ///< the readings contradict each other, in the machine's view
-  centre_off,         ///< the first place is not where the settings have it
+  centre_off,         ///< the first place is not where the settings put it
   went_back,          ///< to "Belts Extended", without an error
   other_error,
   log_ends,  ///< before the last waypoint that was announced, without an error
@@ -40,7 +40,7 @@ struct RunStopped {
   model::PerBelt<std::vector<double>> readings_mm{};
 };
 
-/// A setting, or a whole file of settings, that the controller did not take: it goes by others.
+/// A setting, or a whole file of settings, that the controller rejected: it uses others.
 struct SettingsRefused {
   std::size_t line = 0;
   std::string said;
@@ -48,7 +48,7 @@ struct SettingsRefused {
 [[nodiscard]] bool is_setting_refused(std::string_view line);
 [[nodiscard]] std::string words_of(const SettingsRefused& refused);
 
-/// Empty for a line that is no sign of a failure.
+/// Empty for a line that does not indicate a failure.
 [[nodiscard]] std::optional<StopKind> stop_of(std::string_view line);
 
 /// The answer. `belts` are the places that were rebuilt, with the settings in force where these are

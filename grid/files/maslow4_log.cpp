@@ -62,7 +62,8 @@ std::vector<std::string> keys_of(const std::string& key) {
   return {"kinematics/MaslowKinematics/" + key, "Maslow_" + key};
 }
 
-/// How the settings' file names the anchors, so that an export writes lines that its firmware takes.
+/// The settings file's names for the anchors, so that an export writes lines that its firmware
+/// accepts.
 void take_names(Settings& settings, BeltMachine& machine) {
   const auto has = [&](std::size_t names) {
     return std::any_of(kBelts.begin(), kBelts.end(), [&](Belt belt) {
@@ -198,7 +199,7 @@ std::vector<LogPart> log_parts_of(const std::string& text, const std::string& op
 
 namespace {
 
-/// Nothing to read: what a log is, or why the run in it failed.
+/// No readings: describes a log, or why the run in it failed.
 void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
   if (log.refused) {
     problems.explain(fmt::format("line {}", log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
@@ -231,7 +232,7 @@ std::vector<ScannedRun> runs_of(ScannedLog& log,
   return runs;
 }
 
-/// What the settings say of a pull.
+/// The pull in the settings.
 std::optional<BeltPull> settings_pull(Settings& settings) {
   double pull_ma = 0.0;
   const bool is_known = settings.take({"Maslow_Calibration_Current_Threshold"}, pull_ma);
@@ -239,7 +240,7 @@ std::optional<BeltPull> settings_pull(Settings& settings) {
   return BeltPull{pull_ma, BeltPull::Unit::milliampere};
 }
 
-/// The places of the range, from the runs that it reaches into.
+/// The places of the range, from the runs that it covers.
 PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs,
                         PointRange wanted,
                         Maslow4Import& result,
@@ -262,7 +263,7 @@ PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs,
   return places;
 }
 
-/// What is known of these belts as a whole.
+/// The data of these belts as a whole.
 void check_all(MeasuredBelts& belts,
                std::vector<std::size_t>& lines,
                Maslow4Import& result,
@@ -301,7 +302,7 @@ Maslow4Import parse_maslow4(const std::string& text,
   for (const model::MachineProblem& problem : model::problems_of(result.belts.machine)) {
     problems.add(fmt::format("the settings' {}", problem.parameter), problem);
   }
-  // What a run looks like, a machine that cannot be does not say.
+  // A run cannot be judged with an impossible machine.
   problems.throw_if_any();
   if (log.refused && !log.runs.empty()) {
     problems.warn(fmt::format("line {}", log.refused->line), words_of(*log.refused));

@@ -18,7 +18,7 @@
 /// begin another run.
 ///
 /// A reading that is damaged is left out, with its line; one print of a list gives what another lost.
-/// Colours, other output and lines that a terminal broke in two are read over. Where a run stopped
+/// Colours, other output and lines that a terminal broke in two are handled. Where a run stopped
 /// before its list was printed, places come of single readings that agree to a centimetre.
 ///
 /// Sources: MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow/Calibration.cpp (the format, which belts
@@ -72,12 +72,13 @@ struct Maslow4Import {
   MeasuredBelts belts;
   std::vector<LoggedRun> runs;       ///< all runs in the file
   std::size_t taken = 0;             ///< into the runs; for a range of points the run of its first
-  std::vector<std::string> assumed;  ///< sentences: values that neither log nor settings contain
+  std::vector<std::string> assumed;  ///< sentences: values in neither log nor settings
   std::vector<Warning> warnings;
-  /// Of the settings, which say it of one of several runs at most; where the log prints it points have it.
+  /// From the settings, which apply to one of several runs at most; if the log prints it, points
+  /// have it.
   std::optional<BeltPull> settings_pull;
   bool is_enough = false;              ///< for a fit of the anchors
-  std::optional<std::string> stopped;  ///< why the last run did not come to its end, and what to do
+  std::optional<std::string> stopped;  ///< why the last run did not finish, and what to do
 };
 
 /// `file` is the name used in messages. \throws InputError with every problem: where fewer than five

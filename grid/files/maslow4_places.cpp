@@ -38,7 +38,7 @@ std::optional<model::PerBelt<double>> agreed(
   return lengths_mm;
 }
 
-/// The waypoints are numbered as the places are: none of the list was lost without a trace.
+/// The waypoints are numbered as the places are: no entry of the list is missing without a trace.
 bool are_commands_known(const ScannedRun& run) {
   if (run.list_is_short) return false;
   for (std::size_t i = 0; i < run.points.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Places of a run of a Maslow 4's log, rebuilt from what is there; what is damaged is left out, with its
-/// line. Private to grid/files.
+/// Places of a run of a Maslow 4's log; damaged ones are left out and reported with their lines.
+/// Private to grid/files.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace chaintrue::grid::files {
 
-/// Adds places that no list has: the median of a belt's single readings, where these agree to a
-/// centimetre. Each is said.
+/// Adds places that no list has: the median of a belt's single readings, if these agree to a
+/// centimetre. Each is reported.
 void rebuild_from_singles(ScannedRun& run, Problems& problems);
 
 struct PlacesOfLog {
@@ -27,16 +27,16 @@ void take_places(const ScannedRun& run,
                  model::Orientation orientation,
                  PlacesOfLog& places);
 
-/// Says which readings are not readable; where fewer than kFewestBeltPoints are they are problems.
+/// Reports unreadable readings, as problems if fewer than kFewestBeltPoints are readable.
 void report_unreadable(const ScannedRun& run,
                        PointRange within,
                        std::size_t readable,
                        Problems& problems);
 
-/// Leaves out, and says so: places that are copies of others to the last digit, where the log does not
-/// read places twice on purpose.
+/// Leaves out and reports exact copies of other places, unless the log reads places twice on
+/// purpose.
 void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems);
-/// Leaves out, and says so: a few places whose lengths end nowhere together.
+/// Leaves out and reports a few places whose lengths do not meet.
 void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems);
 
 /// Runs whose places are of two frames become two.

@@ -17,7 +17,7 @@ using model::Belt;
 using model::kBelts;
 using Singles = model::PerBelt<std::vector<double>>;
 
-/// What could not be read may be anything.
+/// Unreadable entries match anything.
 bool same(const ScannedReading& a, const ScannedReading& b) {
   return !a.lengths_mm || !b.lengths_mm || *a.lengths_mm == *b.lengths_mm;
 }
@@ -131,7 +131,7 @@ class Scanner {
     runs_.pop_back();
   }
 
-  /// A list grows and is printed again; single points follow one by one. Where one print is damaged
+  /// A list grows and is printed again; single points follow one by one. If one print is damaged
   /// the other may have the reading.
   void take_list() {
     if (list_.empty()) return;
@@ -246,7 +246,8 @@ class Scanner {
     if (!runs_.empty()) {
       const ScannedRun& last = runs_.back();
       const auto measured = std::max(last.last_measured, static_cast<int>(last.points.size()) - 1);
-      // A log without an end says why where it ends; what is measured and announced tells the rest.
+      // A log without an end gives the reason in its last lines; measured and announced waypoints
+      // show the rest.
       if (!ended_ && last.last_measured >= 0 && measured < last.last_announced)
         ended_ = RunStopped{StopKind::log_ends, line_, ""};
       // An error of something else, after the last waypoint.

@@ -56,7 +56,7 @@ void check_all_have_pulls(const std::vector<Maslow4Import>& runs, std::size_t gi
   }
 }
 
-/// One frame has all points, whichever run they are of.
+/// All points belong to one frame, whatever their run.
 void check_frame(const MeasuredBelts& session, const std::string& name) {
   if (session.points.size() > kMostBeltPoints) return;
   const auto second = second_frame_begins(session);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Several runs of a Maslow 4's calibration as one session: the same machine, each run with a pull of
-/// its own. Visits are numbered on from run to run.
+/// Several runs of a Maslow 4's calibration as one session: the same machine, each run with its own
+/// pull. Visits are numbered on from run to run.
 ///
 /// How hard belts were pulled comes from `--pulls`, or, where a log prints it,
 /// from Maslow_Calibration_Current_Threshold, mA (MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow).
@@ -23,7 +23,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option);
 
 /// `pulls`: one of each run; empty: as the logs have them. Of one run the run itself, with its pull.
-/// \throws InputError where runs are of different frames, or where it is not known how hard each was pulled.
+/// \throws InputError where runs are of different frames, or if the pull of each is unknown.
 /// \throws std::logic_error without runs.
 [[nodiscard]] Maslow4Import one_session(std::vector<Maslow4Import> runs,
                                         const std::vector<BeltPull>& pulls);

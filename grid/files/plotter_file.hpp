@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_plotter files: a V-plotter as its controller holds it, and what a test drawing found of
-/// it. Unknown keys are errors, except "comment". Same plotter, same bytes.
+/// chaintrue_plotter files: a V-plotter with its controller's settings, and the result of a test
+/// drawing. Unknown keys are errors, except "comment". Same plotter, same bytes.
 ///
 /// \code
 ///   const KnownPlotter plotter = parse_plotter(text, "plotter.json");

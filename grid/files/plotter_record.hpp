@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The table of a V-plotter as its controller holds it, for the formats that contain one. Private to
-/// grid/files.
+/// The table of a V-plotter with its controller's settings, for the formats that contain one.
+/// Private to grid/files.
 #pragma once
 
 #include "grid/files/json_reader.hpp"

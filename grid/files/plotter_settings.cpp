@@ -50,7 +50,7 @@ bool is_of_polargraph(const std::string& text) {
   return has_line_with(text, kPolargraphWidth) || is_boot_log_of_polargraph(text);
 }
 
-/// Of a key that must be there; 0 where it is reported.
+/// For a required key; 0 if it is missing and reported.
 double needed(SettingReader& settings, const std::string& key, const Range& range) {
   return settings.need(key, range).value_or(0.0);
 }
@@ -213,8 +213,8 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
                             std::ceil(std::hypot((1.0 + kSides[0]) * half, bed_mm))));
 }
 
-/// The pen's place when the controller is switched on: where it is said to be, else under both belts
-/// paid out whole.
+/// The pen's place when the controller is switched on: as stated, else with both belts fully paid
+/// out.
 void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Problems& problems) {
   const double half = 0.5 * set.machine.pin_spacing_mm;
   if (belt <= half) {

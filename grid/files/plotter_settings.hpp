@@ -8,7 +8,7 @@
 ///   mural        "top distance: 1500 mm", and if they were changed "effective pulley diameter: 12.69
 ///                mm" and "homed step offset: 40 mm", a line each
 ///
-/// What the settings do not say is assumed, with a warning for each.
+/// Missing values are assumed, with a warning for each.
 ///
 /// \code
 ///   const ReadPlotter read = parse_plotter_settings(text, "config.yaml");
@@ -31,8 +31,7 @@ struct ReadPlotter {
 /// `file` is the name used in messages. \throws InputError with every problem.
 [[nodiscard]] ReadPlotter parse_plotter_settings(const std::string& text, const std::string& file);
 
-/// Settings that are of nothing else than a V-plotter: all of the above but FluidNC's, which may run
-/// a router.
+/// Settings that only a V-plotter has: all of the above but FluidNC's, which may run a router.
 [[nodiscard]] bool is_of_a_plotter_alone(const std::string& text);
 
 }  // namespace chaintrue::grid::files

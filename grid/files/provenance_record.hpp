@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The key "made_by" of maps, diagnoses and anchors. Like the hash of the content it belongs to the
-/// file, not to what the file holds. Private to grid/files.
+/// file, not to its content. Private to grid/files.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ Record<T>& add_made_by_key(Record<T>& record) {
       [](const T&) { return std::optional<Json>(); });
 }
 
-/// The document with that key at its end, where it is known.
+/// The document with that key at its end, if known.
 [[nodiscard]] Json with_made_by(Json document, const std::optional<Provenance>& made_by);
 
 }  // namespace chaintrue::grid::files

@@ -21,7 +21,7 @@ constexpr std::size_t kMostStrangeLines = 5;
 /// Ground Control's own files have about a hundred.
 constexpr std::size_t kMostSettings = 5000;
 
-/// Longer lists of what was passed over are counted at their end.
+/// Longer lists of ignored settings end in a count.
 constexpr std::size_t kMostNamed = 60;
 
 std::string line_place(std::size_t number) { return fmt::format("line {}", number); }

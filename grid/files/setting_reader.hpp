@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The settings of another program by their paths, read one by one, and what nobody asked for. Shared by
+/// The settings of another program by their paths, read one by one, and the unused ones. Shared by
 /// every importer. Private to grid/files.
 ///
 /// \code
@@ -34,19 +34,19 @@ class SettingReader {
   /// A key is looked for in `folders`, in order; without any it is the whole path.
   SettingReader(SettingTexts texts, Problems& problems, std::vector<std::string> folders = {});
 
-  /// Null where it is not there.
+  /// Null if it is missing.
   [[nodiscard]] const SettingText* look(const std::string& key);
-  /// Nothing where it is not there, or is reported.
+  /// Empty if it is missing or reported.
   std::optional<double> find(const std::string& key, const Range& range);
-  /// The same; one that is not there is reported.
+  /// As above; a missing one is reported.
   std::optional<double> need(const std::string& key, const Range& range);
   /// One of `words`; another is reported.
   std::optional<std::string> find_word(const std::string& key,
                                        const std::vector<std::string>& words);
-  /// Of a text in which nothing else can stand: the others are reported.
+  /// For a text with no other settings: the others are reported.
   void refuse_others();
-  /// Names what was not asked for: "ignored, because none of it `says_what`: ...". A folder of which
-  /// nothing was asked for is named alone.
+  /// Lists the unused settings: "ignored, because none of it `says_what`: ...". For an unused
+  /// folder only the folder is listed.
   void warn_of_others(std::string_view says_what);
 
   [[nodiscard]] bool empty() const { return texts_.empty(); }
@@ -63,8 +63,8 @@ class SettingReader {
 /// colon. "kinematics/WallPlotter/left_anchor_x". Reports keys that occur twice at one place.
 [[nodiscard]] SettingTexts yaml_texts(const std::string& text, Problems& problems);
 
-/// Settings each on a line of its own, "key=12", "key: 12 mm"; `before` is what stands before a key,
-/// and other lines are left out.
+/// Settings each on a line of its own, "key=12", "key: 12 mm"; `before` is the text before a key;
+/// other lines are ignored.
 [[nodiscard]] SettingTexts line_texts(const std::string& text,
                                       char separator,
                                       std::string_view before = "");

@@ -33,12 +33,12 @@ void forget_sources();
 /// were written for a piece of work, of what these held.
 void state_sources(std::vector<SourceFile> sources);
 
-/// What a map's, a diagnosis' or anchors' file says of itself; empty where it says nothing. For a file
-/// that its reader has taken.
+/// The provenance in a map's, diagnosis' or anchors' file; empty if it has none. For a file that
+/// was read.
 [[nodiscard]] std::optional<Provenance> made_by_of(const std::string& text,
                                                    const std::string& file);
 
-/// The inputs that have the same name as one of `now` and another content.
+/// The inputs with the same name as one of `now` but another content.
 [[nodiscard]] std::vector<std::string> changed_since(const Provenance& then,
                                                      const std::vector<SourceFile>& now);
 

@@ -240,7 +240,7 @@ void read_machines(const fs::path& path,
                    Problems& problems) {
   // Several levels may name one file; its warnings are given once.
   std::map<std::string, model::Machine> known;
-  bool effects_are_sound = true;  // what is wrong with them is said once
+  bool effects_are_sound = true;  // their problems are reported once
   const auto alongside = [&](const std::string& name) {
     const auto [at, is_new] = known.try_emplace(name);
     if (!is_new) return at->second;
@@ -289,7 +289,7 @@ void check_effects(const SweepSpec& spec, Problems& problems) {
   for (std::size_t i = 0; i < spec.uses.size(); ++i) check("used_on", i, spec.uses[i].effects);
 }
 
-/// What was given and acts nowhere changes nothing: its owner meant something else.
+/// Input that acts nowhere is a mistake.
 void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& problems) {
   const auto remove = [&](const std::vector<model::AppliedEffect>& effects) {
     for (const model::AppliedEffect& own : effects) given.erase(own.effect);

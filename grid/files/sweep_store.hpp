@@ -32,7 +32,7 @@ using FinishedCells = std::vector<std::optional<sweep::CellResult>>;
                                              const ReadSweep& read,
                                              const sweep::Share& share);
 
-/// A point of the report's lines: the error of one factor's level at one number of points, over all
+/// A point of the report's lines: error for one factor's level at one number of points, over all
 /// other factors and repetitions.
 struct LevelError {
   std::size_t factor = 0;

@@ -26,7 +26,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// Three times the largest file of ours; G-code is read line by line.
+/// Three times the largest supported file; G-code is read line by line.
 constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
 
 std::string read_to_the_end(std::FILE* file, const fs::path& path) {
@@ -115,7 +115,7 @@ std::string utf8_of(std::string text) {
     if (unit >= 0xD800 && unit < 0xDC00) {
       high = unit;
     } else {
-      // Half of a pair alone becomes the sign for what cannot be read.
+      // Half of a surrogate pair becomes the replacement character.
       put_utf8(!is_low     ? unit
                : high != 0 ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00)
                            : 0xFFFD,
