@@ -18,7 +18,7 @@ using model::kBelts;
 using report::Detail;
 using report::Tone;
 
-/// A fit as a diagnosis without causes has it: the same picture.
+/// A fit as a diagnosis without causes: the same picture.
 BeltsFindings findings_of(const grid::BeltsFit& fit) {
   BeltsFindings found;
   found.machine = fit.machine;
@@ -37,7 +37,7 @@ BeltsFindings findings_of(const grid::BeltsFit& fit) {
   return found;
 }
 
-/// The headline, and what the page has below it: figures, lights and advice.
+/// The headline, and below it figures, lights and advice.
 void put_the_verdict(const FittedBelts& fitted,
                      const std::optional<grid::BeltsError>& error,
                      report::Document& page) {

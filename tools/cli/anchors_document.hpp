@@ -11,11 +11,11 @@
 
 namespace chaintrue::cli {
 
-/// What was fitted, and to what; null where it is not at hand.
+/// The input of the fit; null if not available.
 struct FittedBelts {
   const grid::BeltsFit& fit;
   const grid::HolesWithBelts* holes = nullptr;
-  /// Their taped distances and the machine's own message are not in the file of the anchors.
+  /// The anchors' file has neither the taped distances nor the machine's message.
   const grid::MeasuredBelts* belts = nullptr;
   grid::PointIndices indices{};  ///< of the points in their file
 };

@@ -33,7 +33,7 @@ std::string share_in_words(double share, double sigma) {
   return fmt::format("{:.2f} +- {:.2f} %", 100.0 * share, 100.0 * sigma);
 }
 
-/// A cause by its words; empty for one that the belts' table does not have.
+/// Words for a cause; empty if it is not in the belts' table.
 std::string sized(const grid::CauseInAnchorFit& cause) {
   const model::effects::Effect* effect =
       model::effects::find_effect(model::belts::belt_effects(), cause.effect);
@@ -51,7 +51,7 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
       grid::diagnosis::percent(cause.probability));
 }
 
-/// What more likely acts than not, but for what gives with the pull in every frame.
+/// Causes more likely than not, except those that yield with the pull in every frame.
 void say_what_else_acts(const BeltsFit& fit, Section& section) {
   constexpr double kLikely = 0.5;
   std::vector<std::string> causes;

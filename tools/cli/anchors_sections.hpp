@@ -12,25 +12,25 @@
 
 namespace chaintrue::cli {
 
-/// By how much the machine misses, today and with these anchors.
+/// The machine's error, today and with these anchors.
 [[nodiscard]] std::string headline_of(const grid::BeltsFit& fit,
                                       const std::optional<grid::BeltsError>& error);
-/// Why these anchors are not to be pasted: they leave more than kMostToCutWithMm, or are that uncertain
-/// where nobody can say what they leave. Empty of any other.
+/// Why these anchors must not be pasted: their error exceeds kMostToCutWithMm or, if it is unknown,
+/// their uncertainty does. Otherwise empty.
 [[nodiscard]] std::string not_to_paste(const grid::BeltsFit& fit,
                                        const std::optional<grid::BeltsError>& error);
 [[nodiscard]] std::vector<report::Figure> figures_of(const grid::BeltsError& error);
 
-/// Where the anchors are least sure, what acts with them, what one belt's reading is off by and what
-/// the machine says of the same.
+/// The least certain anchors, the causes, the error of one belt's reading, and the machine's figure
+/// for it.
 [[nodiscard]] report::Section agreement_section(const FittedBelts& fitted,
                                                 const std::optional<grid::BeltsError>& error);
 [[nodiscard]] report::Section fitted_anchors_section(const grid::BeltsFit& fit);
 /// What was left out and predicted, what was rejected, the scale, the holes.
 [[nodiscard]] report::Section tests_section(const FittedBelts& fitted);
-/// Each place with what its belts are off by.
+/// Each place with the residuals of its belts.
 [[nodiscard]] report::Section places_section(const FittedBelts& fitted);
-/// Each distance with what it is off by.
+/// Each distance with its residual.
 [[nodiscard]] report::Section taped_section(const grid::HolesWithBelts& holes);
 
 }  // namespace chaintrue::cli

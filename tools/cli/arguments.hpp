@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a command line may hold: verbs, and their options, each bound to the variable that takes
-/// it. Handles, copied as pointers are; what they stand for lives as long as the command line's
-/// parser. CLI11 is behind them and not in this header, since it costs each file that includes it
-/// eight seconds of compiling.
+/// Verbs and options of the command line, each option bound to a variable. Cheap handles; valid as
+/// long as the parser that made them. CLI11 is not in this header, since it costs eight seconds of
+/// compiling for each file that includes it.
 ///
 /// \code
 ///   Verb verb = app.add_verb("square", "Predict a test square");
@@ -13,7 +12,7 @@
 ///   verb.runs(options, run_square);
 /// \endcode
 ///
-/// A name or a set of names that CLI11 does not take throws its exception when the verb is added.
+/// Names that CLI11 rejects throw its exception when the verb is added.
 #pragma once
 
 #include <functional>
@@ -41,16 +40,16 @@ class Option {
 
   Option required() const;
   Option one_of(const std::vector<std::string>& words) const;
-  /// Usage of this without `other` is an error; `excludes`: with it.
+  /// Using this without `other` is an error; `excludes`: with it.
   Option needs(Option other) const;
   Option excludes(Option other) const;
   Option takes(int values) const;
-  /// The variable's value as it is now stands in the help, or `text` in its place.
+  /// Shows the variable's current value, or `text`, in the help.
   Option shows_default() const;
   Option shows_default(const std::string& text) const;
   /// The word for a value in the help.
   Option value_word(const std::string& word) const;
-  /// `fault` says what is wrong with a value; nothing where it is right.
+  /// `fault` returns what is wrong with a value; empty if nothing.
   Option refuses(std::function<std::string(const std::string&)> fault) const;
   /// It does something where one of these holds; `otherwise` is what is expected where none does:
   /// "to be left out of holes: ...". A value that says what happens in any case is `harmless`, and
@@ -89,7 +88,7 @@ class Verb {
   Verb add_verb(const std::string& name, const std::string& help) const;
   /// Options of which exactly one is to be given.
   Verb add_choice(const std::string& name) const;
-  /// One of the verbs below is to be given.
+  /// One of the verbs below is required.
   void require_verb() const;
   Option add_option(const std::string& names, std::string& value, const std::string& help) const;
   Option add_option(const std::string& names,
@@ -104,7 +103,7 @@ class Verb {
                     std::function<void(const std::string&)> take,
                     const std::string& help) const;
   Option add_flag(const std::string& names, bool& value, const std::string& help) const;
-  /// A flag that is_given() tells.
+  /// A flag, queried by is_given().
   void add_flag(const std::string& name, const std::string& help) const;
   void footer(const std::string& text) const;
   /// What is done where the verb is chosen: `act(verb, *command)` or `act(*command)`, whose answer is
@@ -128,9 +127,9 @@ class Verb {
   [[nodiscard]] Option option(const std::string& name) const;
   [[nodiscard]] bool has_option(const std::string& name) const;
   [[nodiscard]] bool is_given(const std::string& name) const;
-  /// What was given for it, its words with blanks between; of a flag "given".
+  /// Its words, separated by blanks; for a flag "given".
   [[nodiscard]] std::string value_of(const std::string& name) const;
-  /// In the order in which the verb declares them; what is given without an option is left out.
+  /// In the verb's order; without positional arguments.
   [[nodiscard]] std::vector<GivenOption> given_options() const;
   /// \throws files::InputError with a sentence for each option that was given and would do nothing
   /// with this.
@@ -139,9 +138,9 @@ class Verb {
   [[nodiscard]] std::string path() const;
   /// On the command line that was parsed.
   [[nodiscard]] bool is_chosen() const;
-  /// The verb that a choice of options stands under; of a verb, itself.
+  /// The verb of a group of options; for a verb, itself.
   [[nodiscard]] Verb with_name() const;
-  /// For those that list what the command has.
+  /// For completion and manual pages.
   [[nodiscard]] CLI::App& app() const { return *app_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A visiting order for points that bear none, as somebody remembers it.
+/// A remembered visiting order for points without one.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace chaintrue::cli {
 
 /// The word of --assume-order (rows, columns, serpentine_rows, serpentine_columns), lines from the top left;
-/// empty where it is none of them.
+/// empty for any other word.
 [[nodiscard]] std::optional<grid::VisitingOrder> order_from_word(const std::string& word);
 
 }  // namespace chaintrue::cli

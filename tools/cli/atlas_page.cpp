@@ -26,9 +26,9 @@ using report::escaped;
 
 // A picture, in its own units.
 constexpr double kPictureWidth = 300.0;
-// Around the lines, so that what leaves them is seen: the usual size moves a line by at most half of it.
+// Margin around the lines: the usual size moves a line by at most half of it.
 constexpr double kPad = 0.12 * kPictureWidth;
-// An error below it moves no line of a pen.
+// A smaller error is below a pen's line width.
 constexpr double kNothingMm = 0.005;
 
 constexpr std::string_view kStyle = R"(
@@ -175,7 +175,7 @@ std::string caption_of(const AtlasPicture& picture, double times) {
                      escaped(id));
 }
 
-/// Where the frame of no error is among the sizes.
+/// Index of the frame without error among the sizes.
 std::size_t place_of_nothing(const AtlasPicture& picture) {
   std::size_t place = 0;
   while (place < picture.frames.size() && picture.frames[place].size < picture.null) ++place;

@@ -33,7 +33,7 @@ double width_mm(const BeltsFindings& found) {
   return std::max(a.tr.x_mm, a.br.x_mm) - std::min(a.tl.x_mm, a.bl.x_mm);
 }
 
-/// One magnification for what the anchors alone leave and for what is left given the causes.
+/// One magnification for the residuals with the anchors alone and with the causes.
 double magnification(const BeltsFindings& found) {
   double most = 0.0;
   for (const BeltPlacePicture& place : found.places) {

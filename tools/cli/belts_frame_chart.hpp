@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The frame of four belts as it is drawn: anchors with their ellipses, and at each place a stroke a
-/// belt as long as what it is off by.
+/// The drawing of a four-belt frame: anchors with their ellipses, and at each place a stroke for
+/// each belt as long as its residual.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ inline constexpr const char* kAnchorsCaption =
   return name.substr(0, 2) + " " + name.substr(3, 1);
 }
 
-/// Strokes of one and the same findings have one scale, whichever is drawn.
+/// All strokes of the same findings have one scale.
 [[nodiscard]] report::Chart frame_chart(
     const grid::diagnosis::BeltsFindings& found,
     std::string title,

@@ -13,14 +13,14 @@
 namespace chaintrue::cli {
 namespace {
 
-/// Nobody measures more than four times as many places as before.
+/// Four times as many places is the most that is practical.
 constexpr std::size_t kMostTimes = 4;
-/// A fit of so many places takes a second (docs/reliability.md).
+/// A fit of this many places takes a second (docs/reliability.md).
 constexpr std::size_t kMostTried = 400;
 
-/// A session as the fit has it, each place `times` times over, one visit behind the other, with noise of
-/// the size that was found. Points keep their indices, which distances refer to; further visits of
-/// them follow. Its noise is the same in every run.
+/// A session simulated from the fit, with each place visited `times` times and the noise found.
+/// Points keep their indices, which distances refer to; further visits of them follow. Its noise is
+/// the same in every run.
 grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts,
                                    const grid::BeltsFit& fit,
                                    std::size_t times) {
@@ -62,8 +62,8 @@ std::optional<AnchorsAndError> fit_again(const grid::MeasuredBelts& belts,
   return AnchorsAndError{std::move(fit->belts), error};
 }
 
-/// The error to expect of such a session. The noise that a fit finds in it is a sample of what was put
-/// in, and the error goes with it: that chance is taken out. Nothing where there is no fit.
+/// The error to expect of such a session. The noise that its fit finds is a sample of the simulated
+/// noise, and the error scales with it, so it is corrected for that. Empty without a fit.
 std::optional<double> expected_of_places(const grid::MeasuredBelts& belts,
                                          const std::vector<grid::BeltHoles>& cut,
                                          double noise_mm) {
@@ -72,8 +72,7 @@ std::optional<double> expected_of_places(const grid::MeasuredBelts& belts,
   return again->error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
 }
 
-/// With the displacement that the holes show taken out, as compensated programs do; nothing where
-/// none was found.
+/// After compensating the displacement that the holes show; empty if none was found.
 std::optional<double> expected_when_compensated(const grid::files::FittedAnchors& found) {
   if (!found.holes || !found.holes->displacement) return std::nullopt;
   grid::HolesWithBelts level = *found.holes;

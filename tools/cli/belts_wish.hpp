@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The error of the tool that an owner of four belts wishes for, held against the one to expect with
-/// the fitted anchors. What would reach it is tried: the bend that compensated programs take out, and
-/// the same places measured two to four times over, in a session simulated by the fit.
+/// Compares the tool error that an owner of four belts wishes for with the expected one. To reach
+/// it, compensated programs and two to four times as many visits, in a session simulated from the
+/// fit, are tried.
 ///
 /// \code
 ///   say(belts_wish_sentence(belts, holes, found, error_of_belts(found.fit), 0.5));
@@ -19,8 +19,8 @@
 
 namespace chaintrue::cli {
 
-/// `belts` and `cut` are what `found` was fitted to, without points where only holes were; `error` is
-/// what error_of_belts() says of it. `wish_mm` is the rms error of the tool over the measured part.
+/// `belts` (without points if only holes were fitted) and `cut` are the input of `found`; `error`
+/// is its error_of_belts(). `wish_mm` is the rms error of the tool over the measured part.
 [[nodiscard]] std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
                                               const std::vector<grid::BeltHoles>& cut,
                                               const grid::files::FittedAnchors& found,

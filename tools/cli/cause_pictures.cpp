@@ -27,7 +27,8 @@ struct Places {
   std::vector<Arrow> arrows;
 };
 
-/// Of several sessions that whose order of visits is known; of holes alone where they were to be.
+/// Of several sessions the one with a known order of visits; for holes alone their commanded
+/// places.
 Places places_of(const Diagnosis& found) {
   Places places;
   const auto add = [&places](const std::string& name, const model::MarkPoint& mark, int order) {
@@ -56,8 +57,8 @@ model::Machine machine_without(const Diagnosis& found, const model::AppliedEffec
   return machine;
 }
 
-/// Of the tool at each place; nothing where a place is out of reach, with the cause or without it, or
-/// where a file's numbers are no machine's: two visits of one number, a size beyond its range.
+/// Shift of the tool at each place; empty if a place is out of reach, with or without the cause, or
+/// if a file's numbers are impossible: two visits with one number, a size out of range.
 std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
                                                       const Cause& cause,
                                                       const std::vector<model::Visit>& visits) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A picture of each cause that a diagnosis names: where the cause alone, at the size that was found,
-/// puts the tool at the measured places (synthetic::signature of the machine without it). To first
-/// order, as signature() is; settings are not moved to make up for it.
+/// A picture of each named cause: the shift of the tool at the measured places by this cause alone,
+/// at its fitted size (synthetic::signature of the machine without it). First order, as signature()
+/// is; settings are not refitted.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace chaintrue::cli {
 
-/// In the order of the causes; without those that leave a measured place out of reach or whose
-/// numbers, in a file, are no machine's. Empty of belts.
+/// In the order of the causes; without those that put a measured place out of reach or, in a file,
+/// have impossible numbers. Empty for belts.
 [[nodiscard]] std::vector<report::Chart> cause_charts(const grid::diagnosis::Diagnosis& found);
 
 }  // namespace chaintrue::cli

@@ -118,7 +118,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
       "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
       "is moved."};
   report::Chart chart = report::error_map_chart(map_pictures(map));
-  chart.caption.clear();  // the legend says it
+  chart.caption.clear();  // it is in the legend
   report::Section error_section{"Where to expect which error", {}};
   error_section.blocks.push_back(std::move(chart));
   page.sections.push_back(std::move(error_section));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue check: a few new points tell whether a map, or anchors, still hold.
+/// chaintrue check: checks by a few new points whether a map, or anchors, are still valid.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -34,7 +34,7 @@ struct CheckCommand {
   std::string map;
   GridInput input;
   TapeInput tape;
-  /// What the controller held when the new points were commanded.
+  /// The controller's settings when the new points were commanded.
   std::string settings;
   /// Further files of new points.
   std::vector<std::string> with;
@@ -43,9 +43,9 @@ struct CheckCommand {
   std::string report;
 };
 
-/// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
-/// more tell; a map that no longer holds is made anew.
-/// \param is_after the map is for numbers that were typed in
+/// For a valid map its error; after re-zeroing, and if the points do not decide, a few more points;
+/// a map that is no longer valid is replaced. \param is_after the map is for numbers that were
+/// typed in
 void say_next_of_map(const grid::Check& check, const CheckCommand& command, bool is_after) {
   if (check.settings_have_changed && !is_after) {
     return say_next({"export",
@@ -66,13 +66,13 @@ void say_next_of_map(const grid::Check& check, const CheckCommand& command, bool
   say_next({"plan", "--check", command.map, "-o", "check.csv"});
 }
 
-/// Where a file names a machine whose controller holds other settings than the map is for: its
-/// commands went by these, whether they were in force or not.
+/// For a file with a machine whose controller has settings other than the map's: its commands used
+/// these.
 void say_other_settings(const grid::CompensationMap& map, const grid::Measured& measured) {
   namespace files = grid::files;
   if (map.machine() == nullptr) return;
   const model::ControllerKind kind = map.machine()->controller.kind;
-  // The others bear none: what they go by are the motors, which a fit moves.
+  // Others have none: they depend on the motors, which a fit changes.
   if (kind != model::ControllerKind::maslow_classic && kind != model::ControllerKind::holey) return;
   for (const grid::MeasuredFile& file : measured.files()) {
     if (!file.machine() || file.machine()->controller.kind != kind) continue;
@@ -139,7 +139,7 @@ void write_check(const grid::Check& check, const CheckCommand& command, bool of_
   write_outputs(outputs);
 }
 
-/// Anchors that hold have a report; those that do not are diagnosed.
+/// Valid anchors are reported; others are diagnosed.
 void say_next_of_anchors(const grid::Check& check, const CheckCommand& command) {
   if (check.is_valid_as_it_is()) return say_next({"report", command.map, "-o", "anchors.html"});
   say_next({"diagnose", command.input.grid, "-o", "diagnosis.json"});

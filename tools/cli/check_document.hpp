@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a check of a map or of anchors found, as a document.
+/// The result of a check of a map or of anchors, as a document.
 #pragma once
 
 #include "grid/map/check.hpp"
@@ -8,9 +8,9 @@
 
 namespace chaintrue::cli {
 
-/// Each residual by itself.
+/// Each residual.
 [[nodiscard]] report::Document map_check_document(const grid::Check& check);
-/// Each place with the root mean square of what its belts miss.
+/// Each place with the rms residual of its belts.
 [[nodiscard]] report::Document anchors_check_document(const grid::Check& check);
 
 }  // namespace chaintrue::cli

@@ -73,7 +73,7 @@ std::vector<std::string> verb_names(const Command& command) {
   return names;
 }
 
-/// The branches of a shell's case: "gcode verify") and what follows it there.
+/// The branches of a shell's case: "gcode verify") and its words.
 std::string branches(const std::vector<Command>& commands, const char* verbs, const char* options) {
   std::string text;
   for (const Command& command : commands) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
-/// gains, and what to measure next.
+/// chaintrue diagnose: what the simulation gets wrong at these points, why, the gain from naming
+/// the cause, and what to measure next.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::string page_alongside(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".html").string();
 }
 
-/// The page, where there is none; what to measure next, where that tells more; else a map.
+/// The page if there is none; what to measure next if that helps; else a map.
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next({"report", command.output, "-o", page_alongside(command.output)});
@@ -67,7 +67,7 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   say_next(words);
 }
 
-/// Belts and drawings are diagnosed by themselves, whatever is given with them.
+/// Belts and drawings are diagnosed alone, whatever is given with them.
 Facts facts_of(const std::vector<InputFile>& files) {
   if (files.front().kind == FileKind::drawing) return facts::drawing;
   if (files.front().kind == FileKind::belts) return facts::belts;

@@ -65,7 +65,7 @@ std::string counted(const grid::Measured& measured) {
 }
 
 /// The cost grows with the square of the number and more (docs/reliability.md): these take half a
-/// minute, and more would name nothing else.
+/// minute, and more would change no name.
 constexpr std::size_t kMostDiagnosed = 1200;
 
 void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::string& path) {
@@ -83,7 +83,7 @@ void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::stri
           kMostDiagnosed));
 }
 
-/// Readings better than the simulation is computed over a bed.
+/// Readings more accurate than the simulation over a bed.
 void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   constexpr double kFinestMm = 0.01;
   for (const auto* own : measured.grids()) {

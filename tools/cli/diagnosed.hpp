@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From the options of `chaintrue diagnose` and what was read to a diagnosis.
+/// Makes a diagnosis from the options of `chaintrue diagnose` and its input.
 #pragma once
 
 #include <cstdint>

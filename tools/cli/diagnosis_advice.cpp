@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sections of a diagnosis that say what to do, and what the answer does not cover.
+// The sections of a diagnosis on what to do, and what it does not cover.
 #include <fmt/format.h>
 
 #include <algorithm>

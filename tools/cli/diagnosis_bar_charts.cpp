@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How sure the diagnosis is, and what it gains.
+// The diagnosis' certainty and gain.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using report::DataTable;
 
 namespace {
 
-/// The surest that the bars show; the rest is below a percent.
+/// The likeliest ones are shown; the rest is below one per cent.
 std::vector<Hypothesis> likeliest_hypotheses(const Diagnosis& found) {
   constexpr double kLeast = 0.002;
   constexpr std::size_t kMost = 12;

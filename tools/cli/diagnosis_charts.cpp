@@ -79,7 +79,7 @@ std::vector<Panel> panels_of(const Diagnosis& found) {
   return panels;
 }
 
-/// A rival that explains little may ask for much more than was read.
+/// A rival that explains little may predict far more than was measured.
 std::string clipped_in_words(const Diagnosis& found, double full_mm) {
   // As residual_strip.vg.json draws: an area of 1.6 times the largest, no more.
   constexpr double kLargestDrawn = 1.6;
@@ -174,7 +174,7 @@ std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
 std::vector<Chart> strip_charts(const Diagnosis& found) {
   if (found.causes.empty() || found.points.empty()) return {};
   const std::vector<Panel> panels = panels_of(found);
-  // What was measured and what is left of it are compared; a rival may be larger than either.
+  // Measurement and remainder are compared; a rival may be larger than either.
   const double full_mm = largest(found, &PointPicture::chain_before_mm);
   std::vector<Chart> charts;
   for (int chain = 0; chain < 2; ++chain)

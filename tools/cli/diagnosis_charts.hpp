@@ -3,8 +3,8 @@
 /// The pictures of a diagnosis' page. Residuals are measured less predicted; vermilion is before,
 /// blue is with the causes named.
 /// The places on the bed are drawn in diagnosis_charts.cpp, what the residuals follow in
-/// diagnosis_scatter_charts.cpp and diagnosis_law_charts.cpp, bars and the matrix in diagnosis_bar_charts.cpp; the sections that
-/// hold nothing else are put together in diagnosis_pictures.cpp.
+/// diagnosis_scatter_charts.cpp and diagnosis_law_charts.cpp, bars and the matrix in
+/// diagnosis_bar_charts.cpp; the sections of pictures are assembled in diagnosis_pictures.cpp.
 #pragma once
 
 #include <vector>
@@ -26,19 +26,20 @@ namespace chaintrue::cli {
 /// The tool, or the distances, before and with the causes. Precondition of this and the next two:
 /// readings.
 [[nodiscard]] report::Section arrows_section(const grid::diagnosis::Diagnosis& found);
-/// What was measured, and what the cause and its rival make of it. Precondition: a cause is named.
+/// The measured residuals, and those that the cause and its rival predict. Precondition: a cause is
+/// named.
 [[nodiscard]] report::Section signature_section(const grid::diagnosis::Diagnosis& found);
 /// Residuals against lengths, angles and visits.
 [[nodiscard]] report::Section residuals_section(const grid::diagnosis::Diagnosis& found);
 
-/// Arrows of the tool before and after, at one scale, and after once more where it is much smaller.
+/// Arrows of the tool before and after, at one scale, and after again if it is much smaller.
 [[nodiscard]] std::vector<report::ChartRow> arrow_charts(const grid::diagnosis::Diagnosis& found);
 /// Measured, best cause, rival, remainder: one chart a chain. Empty where no cause is named.
 [[nodiscard]] std::vector<report::Chart> strip_charts(const grid::diagnosis::Diagnosis& found);
 /// The likeliest law's curve among the points' partial residuals, and its best rival's. Precondition of this
 /// and the next: the law has points.
 [[nodiscard]] report::ChartRow law_charts(const grid::diagnosis::Diagnosis& found);
-/// What is left of the tool's error without the likeliest law, and with it.
+/// The tool's residual error without the likeliest law, and with it.
 [[nodiscard]] std::vector<report::ChartRow> law_rest_charts(const grid::diagnosis::Diagnosis& found);
 /// Against the chain's length, and alongside the same folded at one turn of the sprocket; a row a
 /// chain.

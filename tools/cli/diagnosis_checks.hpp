@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The section of a diagnosis' page that tries the verdict without some of the readings.
+/// The section on the verdict without some of the readings.
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"

@@ -24,7 +24,7 @@ using report::Light;
 using report::Section;
 using report::Tone;
 
-/// What a verdict looks like at a glance.
+/// A verdict at a glance.
 struct VerdictLights {
   Verdict verdict;
   Tone tone;
@@ -90,12 +90,13 @@ Light data_light(const Diagnosis& found) {
 void put_the_verdict(const Diagnosis& found, report::Document& document) {
   const VerdictLights& lights = lights_of(found.verdict);
   const bool left = is_something_left(found);
-  // How far off it is comes first, and is the number that a fit begins with.
+  // The error comes first, the same number as a fit begins with.
   document.verdict = {found.tool_today ? fmt::format("Your machine misses by about {} mm. {}",
                                                      about_mm(found.tool_today->rms_mm),
                                                      found.sentence)
                                        : found.sentence};
-  // The bar tells how the machine is, not how sure the name: a worn chain is no good news.
+  // The bar's colour shows the machine's state, not the name's certainty: a worn chain is not good
+  // news.
   const bool errs = left || !found.causes.empty() || !found.outliers.empty() ||
                     (found.drawing && drawn_settings_light(found).tone != Tone::good);
   document.tone = errs ? std::max(lights.tone, Tone::caution) : lights.tone;
@@ -114,8 +115,8 @@ void put_the_verdict(const Diagnosis& found, report::Document& document) {
     document.not_proved = {"What this does not prove: " + found.not_proved};
 }
 
-/// Those without anything to show are left out, and those of the page where none is asked for. Folded:
-/// what the answer rests on.
+/// Omits empty sections and, if no page is requested, those of the page. Folded: the basis of the
+/// answer.
 class Sections {
  public:
   Sections(std::vector<Section>& sections, Detail detail) : sections_(sections), detail_(detail) {}
@@ -130,7 +131,7 @@ class Sections {
     add_open_to_page(has_any, section, found);
     if (has_any && detail_ == Detail::page) sections_.back().is_folded = true;
   }
-  /// Folded or not as the section itself says.
+  /// Folded as the section states.
   void add_open_to_page(bool has_any,
                         Section (*section)(const Diagnosis&),
                         const Diagnosis& found) {
@@ -156,7 +157,7 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add(found.belts.has_value(), anchors_section, found);
   sections.add_open(found.drawing.has_value(), drawn_settings_section, found);
   sections.add(found.belts.has_value(), belts_improvement_section, found);
-  // Where there is no cause to draw, the errors themselves are the picture.
+  // Without a cause to draw, the picture shows the errors.
   if (named) {
     sections.add_to_page(has_readings, arrows_section, found);
   } else {

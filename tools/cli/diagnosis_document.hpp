@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A diagnosis as a document for the terminal and for a browser: the answer first, then what it
-/// rests on.
+/// A diagnosis as a document for the terminal and for a browser: the answer first, then its basis.
 #pragma once
 
 #include <string_view>
@@ -11,8 +10,8 @@
 
 namespace chaintrue::cli {
 
-/// `source` is the name of the file that the diagnosis was made from, for the page's last line.
-/// Pictures are made where `detail` is page.
+/// `source` is the input file's name, for the page's last line. Pictures are made if `detail` is
+/// page.
 [[nodiscard]] report::Document diagnosis_document(const grid::diagnosis::Diagnosis& diagnosis,
                                                   std::string_view source,
                                                   report::Detail detail = report::Detail::page);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a diagnosis of a test drawing has of its own. Precondition of all: it is one of a drawing.
+/// Sections specific to a diagnosis of a test drawing. Precondition of all: it is one of a drawing.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace chaintrue::cli {
 
 /// The settings as they are set and as they are found with the causes at work.
 [[nodiscard]] report::Section drawn_settings_section(const grid::diagnosis::Diagnosis& found);
-/// What was measured, and what settings and causes make of it.
+/// The measures, and their prediction by settings and causes.
 [[nodiscard]] report::Section drawn_measures_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Light drawn_settings_light(const grid::diagnosis::Diagnosis& found);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The files that a diagnosis makes besides its own.
+/// The additional files of a diagnosis.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace chaintrue::cli {
 
-/// The grid as a fit on the extended machine wants it: marks where they are, readings without what
-/// depends on the visit. An order that was only assumed is not handed on as if it were known.
+/// The grid for a fit on the extended machine: true positions of marks, readings without effects of
+/// the visit. An assumed order is not written.
 [[nodiscard]] std::string corrected_grid_text(const grid::diagnosis::Diagnosis& found,
                                               grid::MeasuredGrid measured,
                                               bool order_assumed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What naming the causes gains: errors at points and distances that were held out.
+/// The gain of naming: errors at held-out points and distances.
 #pragma once
 
 #include <string_view>
@@ -19,14 +19,14 @@ struct ImprovementRow {
 /// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
 /// where nothing was named.
 [[nodiscard]] std::vector<ImprovementRow> improvement_rows(const grid::diagnosis::Diagnosis& diagnosis);
-/// What was held out are distances: no points were read, or too few.
+/// Distances were held out: no points were read, or too few.
 [[nodiscard]] bool is_improvement_of_distances(const grid::diagnosis::HeldOutImprovement& improvement);
 
 /// Precondition: the diagnosis has a gain.
 [[nodiscard]] report::Section improvement_section(const grid::diagnosis::Diagnosis& found);
 /// On the points of another grid. Precondition: there is one.
 [[nodiscard]] report::Section transfer_section(const grid::diagnosis::Diagnosis& found);
-/// Of both, nothing where there is no gain.
+/// Of both; empty if there is no gain.
 [[nodiscard]] report::Light corrected_light(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] std::vector<report::Figure> figures_of_improvement(const grid::diagnosis::Diagnosis& found);
 

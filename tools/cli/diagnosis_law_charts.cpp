@@ -22,7 +22,7 @@ using grid::diagnosis::PointPicture;
 using report::Arrow;
 
 constexpr int kCurvePoints = 200;
-/// Of more waves than these one is drawn, with all points on it.
+/// With more waves than this only one is drawn, with all points on it.
 constexpr double kMostWaves = 3.0;
 
 bool is_folded(const Law& law) {
@@ -33,7 +33,7 @@ double degrees_of(const Law& law, double at) {
   return grid::diagnosis::unit_of(law.of) == "rad" ? at * 180.0 / std::numbers::pi : at;
 }
 
-/// Where a point stands along x.
+/// x of a point.
 double drawn(const Law& law, double at) {
   if (!is_folded(law)) return degrees_of(law, at);
   const double period = law.parameters[1].value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The section of a diagnosis on laws: what the part that no listed cause explains is a function of.
+/// The section of a diagnosis on laws: variables of the part that no listed cause explains.
 #include <fmt/format.h>
 
 #include "grid/diagnosis/constants.hpp"
@@ -16,7 +16,7 @@ namespace {
 using grid::diagnosis::Law;
 using report::Item;
 
-/// Hints are said as hints, and not of a law that is only possible.
+/// Hints are worded as hints, and not given for a law that is only possible.
 std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
   std::vector<Item> details;
   if (law.probability < grid::diagnosis::kLawLikely) return details;

@@ -29,7 +29,7 @@ constexpr const char* kTakenInColor = report::kFourthColor;
 /// A number of a point, for one of the chains.
 using OfChain = std::function<double(const PointPicture&, Side chain)>;
 
-/// What a scatter plot shows: where a dot stands along x, and to which of two groups it belongs.
+/// A scatter plot's x and the group of each dot.
 struct Scatter {
   std::string title;
   std::string caption;
@@ -37,7 +37,7 @@ struct Scatter {
   OfChain x;
   Side chain = Side::left;
   bool by_direction = false;
-  /// Of the dots that the first colour bears.
+  /// For the dots of the first colour.
   Eigen::Vector2d PointPicture::*first = &PointPicture::chain_before_mm;
 };
 
@@ -162,8 +162,8 @@ bool has_order(const Diagnosis& found) {
 }
 
 report::ChartRow order_charts(const Diagnosis& found) {
-  // A cause of the visit shows before it is taken out; where there is none, what other causes do
-  // would only hide what may be left.
+  // A cause of the visit shows before it is removed; without one, other causes would only hide the
+  // remainder.
   const bool of_the_visit =
       std::any_of(found.causes.begin(), found.causes.end(), [](const auto& cause) {
         return model::effects::depends_on_visit(*cause.cause.effect);

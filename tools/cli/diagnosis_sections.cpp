@@ -24,7 +24,7 @@ using report::Paragraph;
 using report::Section;
 using report::Table;
 
-/// Hypotheses that are hardly possible fill no line.
+/// Improbable hypotheses are not listed.
 constexpr double kWorthALine = 0.001;
 
 std::string what_words(const BudgetLine& line) {
@@ -88,7 +88,7 @@ Section budget_section(const Diagnosis& found) {
                            .width = 16},
                           {.heading = "changes with", .gap = 3}}};
   for (const BudgetLine& line : found.budget->lines) {
-    // What two parts have in common is none, and may be negative.
+    // The common part of two is not a separate part, and may be negative.
     if (line.what == BudgetLine::What::inseparable) continue;
     table.rows.push_back({{what_words(line),
                            std::sqrt(line.mean_square_mm2),

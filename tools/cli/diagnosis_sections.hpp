@@ -8,17 +8,17 @@
 
 namespace chaintrue::cli {
 
-/// What the error is made of. Precondition: the diagnosis has a budget.
+/// The parts of the error. Precondition: the diagnosis has a budget.
 [[nodiscard]] report::Section budget_section(const grid::diagnosis::Diagnosis& found);
-/// What is named, with its size, probability and remedy. Precondition: a cause is named.
+/// The named causes with size, probability and remedy. Precondition: a cause is named.
 [[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
-/// What the rest may be a function of. Precondition: some law is reported.
+/// Possible variables of the rest. Precondition: some law is reported.
 [[nodiscard]] report::Section laws_section(const grid::diagnosis::Diagnosis& found);
-/// What a session says of each effect of the user's own. Precondition: there are some.
+/// The result for each declared effect. Precondition: there are some.
 [[nodiscard]] report::Section declared_section(const grid::diagnosis::Diagnosis& found);
 /// The next measurements, numbered. Precondition: there are some.
 [[nodiscard]] report::Section next_section(const grid::diagnosis::Diagnosis& found);
-/// Every hypothesis that is worth a line, and what is left over.
+/// The relevant hypotheses, and the remainder.
 [[nodiscard]] report::Section probabilities_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Section settings_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Section outliers_section(const grid::diagnosis::Diagnosis& found);

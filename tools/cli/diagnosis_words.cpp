@@ -30,7 +30,7 @@ constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
                                  {"noise", "readings worse than you said"},
                                  {"bad_points", "bad points alone"}};
 
-/// A reading is of so many of what the file asks for, in this unit.
+/// A reading covers this many of the file's quantity, in this unit.
 struct ReadingUnit {
   grid::ReadingOf what;
   double count;
@@ -62,7 +62,7 @@ bool same_place(const NextMeasurement& a, const NextMeasurement& b) {
   return a.mark && b.mark && same_place(*a.mark, *b.mark);
 }
 
-/// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
+/// A share or probability: 100 % and 0 % only if exact, else "below 0.1 %".
 std::string share_percent(double share) {
   if (share > 0.0 && share < 0.001) return "below 0.1 %";
   const double in_percent = 100.0 * share;

@@ -17,34 +17,34 @@ namespace chaintrue::cli {
 /// "chain pitch error, left"
 [[nodiscard]] std::string cause_title(const grid::diagnosis::CauseId& cause);
 [[nodiscard]] std::string cause_title(const model::AppliedEffect& effect);
-/// Causes that are named and that the diagnosis put neither into its machine nor into the corrected data: rivals of
-/// those that it did, and what may be the tape's as well.
+/// Named causes that are neither in the diagnosis' machine nor in the corrected data: rivals of
+/// those that are, and causes that may be the tape's.
 [[nodiscard]] std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagnosis& found);
-/// Also for nothing, unknown, noise and bad_points.
+/// Also accepts nothing, unknown, noise and bad_points.
 [[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
 
-/// "point 17": counted from one, as people count.
+/// "point 17", counted from 1.
 [[nodiscard]] std::string point_name(std::size_t index);
 /// "distance A-B", by its position in the file.
 [[nodiscard]] std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index);
-/// Whether distances between holes were measured in place of points.
+/// Whether distances between holes were measured instead of points.
 [[nodiscard]] bool is_of_distances(const grid::diagnosis::Diagnosis& found);
 /// A bound in a workshop unit.
 [[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
-/// Noise alone leaves as much in less than one of a hundred cases.
+/// Noise alone gives as much in less than one of a hundred cases.
 [[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
-/// What is left over once the causes named are in the model, in a sentence.
+/// A sentence on the residual with the named causes.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
 /// The files of a diagnosis as a command names them: GRID, HOLES, both, or BELTS.
 [[nodiscard]] std::string_view files_in_words(const grid::diagnosis::Diagnosis& found);
 
-/// What was weighed: "34 points", "20 distances", "34 points and 20 distances", "99 places".
+/// The data: "34 points", "20 distances", "34 points and 20 distances", "99 places".
 [[nodiscard]] std::string readings_counted(const grid::diagnosis::Diagnosis& found);
 /// A bad one is a distance, and no point.
 [[nodiscard]] bool is_distance(const grid::diagnosis::Diagnosis& found,
                                const grid::diagnosis::Outlier& bad);
 /// " A single right name then has probability 95 %." of the next measurement with that position;
-/// nothing where it tells the scale of belts, which parts no causes.
+/// empty if it determines the scale of belts, which does not discriminate between causes.
 [[nodiscard]] std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis,
                                       std::size_t position);
 /// The next measurements as sentences: what to do, where, and how well.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The pictures of a diagnosis whose readings are distances between holes: a line a distance,
-/// vermilion where more was read than predicted, blue where less, as wide as it is off.
+/// The pictures of a diagnosis whose readings are distances between holes: one line for each
+/// distance, vermilion if read longer than predicted, blue if shorter, with a width proportional to
+/// the residual.
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
@@ -9,7 +10,7 @@
 
 namespace chaintrue::cli {
 
-/// The calibrated machine and, alongside, the machine with what was named.
+/// The calibrated machine next to the machine with the named causes.
 [[nodiscard]] report::Chart distance_chart(const grid::diagnosis::Diagnosis& found);
 /// Measured, best cause, rival, remainder. Precondition: a cause is named.
 [[nodiscard]] report::Chart distance_strip_chart(const grid::diagnosis::Diagnosis& found);

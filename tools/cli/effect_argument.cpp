@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kForm = "id:side:key=value,key=value, with - for no side";
 
-// Cuts `text` at its first `mark`; the rest is empty where there is none.
+// Cuts `text` at its first `mark`; the rest is empty if there is none.
 std::string_view take_until(std::string_view& text, char mark) {
   const std::size_t end = text.find(mark);
   const std::string_view taken = text.substr(0, end);

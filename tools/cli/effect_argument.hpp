@@ -13,7 +13,7 @@
 
 namespace chaintrue::cli {
 
-/// Gathers what is wrong with a command's values and throws it whole.
+/// Collects all problems of a command's values and throws them together.
 class OptionProblems {
  public:
   void add(std::string_view option,
@@ -22,7 +22,7 @@ class OptionProblems {
            grid::ProblemKind kind);
   /// `value` is finite and within [least, most].
   void require(std::string_view option, double value, double least, double most);
-  /// What `check` throws as files::InputError.
+  /// Adds the problems of a files::InputError thrown by `check`.
   void take_from(const std::function<void()>& check);
   void throw_if_any() const;
 
@@ -31,7 +31,7 @@ class OptionProblems {
 };
 
 /// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
-/// argument that has not that form is a problem, and an effect without a name.
+/// argument of another form is a problem, as is an effect without a name.
 [[nodiscard]] std::vector<model::AppliedEffect> parse_effect_words(
     const std::vector<std::string>& arguments, OptionProblems& problems);
 
@@ -42,7 +42,7 @@ class OptionProblems {
     const model::Machine& machine,
     OptionProblems& problems);
 
-/// A number without the locale; empty where the text is none.
+/// A number, independent of the locale; empty for any other text.
 [[nodiscard]] bool parse_number(std::string_view text, double& value);
 
 }  // namespace chaintrue::cli

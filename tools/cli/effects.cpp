@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue effects: the catalogue for a person, and what one effect does to a machine.
+/// chaintrue effects: the catalogue as text, and the change that one effect makes to a machine.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -246,7 +246,7 @@ EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProb
 }
 
 void check_options(const EffectsOptions& options, OptionProblems& problems) {
-  // Of an atlas, its machine says which causes there are.
+  // For an atlas the machine determines the causes.
   if (options.markdown || options.id.empty() || !options.atlas.empty()) return;
   (void)parse_values(options, problems);
   // Standard input is read once, and files of effects with it.
@@ -265,8 +265,7 @@ void check_options(const EffectsOptions& options, OptionProblems& problems) {
   }
 }
 
-/// Marks all over the bed that the machine, or the machine with the effect, cannot hold the sled
-/// at.
+/// Marks over the bed where the machine, with or without the effect, cannot hold the sled.
 std::optional<std::string> unreachable(const model::Machine& machine,
                                        const model::AppliedEffect& effect) {
   model::Machine with = machine;
@@ -297,7 +296,7 @@ std::optional<std::string> unreachable(const model::Machine& machine,
 int show_picture(const Effect& effect,
                  const EffectsOptions& options,
                  const model::Machine& machine) {
-  OptionProblems sound;  // of the catalogue's effects check_options has made sure of it
+  OptionProblems sound;  // check_options has checked the catalogue's effects
   const EffectSide side = chosen_side(effect, options.side, sound);
   sound.throw_if_any();
   const std::vector<double> values = chosen_values(effect, side, options, machine);
@@ -360,7 +359,7 @@ int run_effects(const EffectsOptions& options) {
   }
   if (!options.machine.empty()) return show_picture(*effect, options, machine);
   describe(*effect);
-  // Shown on a machine, it needs one.
+  // It is shown on a machine, so it needs one.
   say_next({"start"});
   return kDone;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue export: a machine, or what was measured of it, as the numbers that another program
-/// wants typed in.
+/// chaintrue export: a machine, or its calibration, as numbers to type into another program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,22 +45,21 @@ struct ExportCommand {
   std::string map_after;
 };
 
-/// The numbers, and what is said of them.
+/// The numbers, and the sentences about them.
 struct Exported {
   files::GroundcontrolText settings;
   std::string words;
   std::vector<std::string> next;
-  /// Of a map: it with the controller that holds the numbers.
+  /// For a map: the map with a controller that has the numbers.
   std::optional<grid::CompensationMap> map_after = std::nullopt;
-  bool is_refused = false;  ///< the reason was said
+  bool is_refused = false;  ///< the reason was printed
 };
 
 std::vector<std::string> settings_page(const std::string& path) {
   return {"report", path, "-o", std::filesystem::path(path).replace_extension(".html").string()};
 }
 
-/// What numbers are found for: the controller in force, or one that holds the measures of a machine whose
-/// controller bears none.
+/// The controller in force or, if it has no settings, one with the machine's dimensions.
 model::Controller controller_of(const model::Machine& machine) {
   if (machine.controller.settings.motor_spacing_mm) return machine.controller;
   const bool is_holey = machine.controller.kind == model::ControllerKind::holey;
@@ -69,7 +67,7 @@ model::Controller controller_of(const model::Machine& machine) {
           files::measures_as_settings(machine)};
 }
 
-/// What leads on: type in, check with the map after, cut with it.
+/// Next steps: type in, check with the map after, cut with it.
 std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typing) {
   const std::string& map = command.input;
   if (!is_worth_typing) return settings_page(map);
@@ -77,7 +75,7 @@ std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typ
   return {"export", "groundcontrol", map, "-o", "settings.ini", "--map-after", after_name(map)};
 }
 
-/// What a firmware has no setting for, with what that costs.
+/// Causes without a setting in the firmware, with their contribution to the error.
 std::string words_of(const grid::Lacking& lacking, const model::Machine& machine) {
   if (lacking.what == "top_beam_tilt") {
     return fmt::format(
@@ -118,8 +116,8 @@ std::string words_of(const std::string& today,
   return words;
 }
 
-/// Of a map the error today is that of every verb; where the sheet was laid by hand, its part is no
-/// matter of the numbers.
+/// For a map the error today is the same as in every verb; the placement of a hand-laid sheet does
+/// not depend on the numbers.
 std::string today_in_words(const grid::CompensationMap& map, const grid::SettingsToType& typed) {
   const grid::ErrorSummary today = grid::error_in_use(map).value_or(typed.as_it_is);
   return fmt::format(
@@ -134,7 +132,7 @@ std::string today_in_words(const grid::CompensationMap& map, const grid::Setting
           : "");
 }
 
-/// What becomes of a map once its numbers are typed in.
+/// The map after its numbers are typed in.
 std::string map_after_in_words(const ExportCommand& command) {
   if (command.map_after.empty())
     return "The rest is corrected by gcode compensate with the map. Once the numbers are typed in, "
@@ -148,7 +146,7 @@ std::string map_after_in_words(const ExportCommand& command) {
       command.input);
 }
 
-/// What they change from is said of numbers that are in force.
+/// Old values are given for numbers in force.
 files::GroundcontrolText text_of(const model::Machine& machine,
                                  const grid::SettingsToType& typed,
                                  const std::string& by,
@@ -177,7 +175,7 @@ grid::CompensationMap map_after_of(const grid::CompensationMap& map,
       fmt::format("For a controller that holds the numbers of export groundcontrol{}.", numbers));
 }
 
-/// What the controller's formulas can make of the map.
+/// The best fit of the controller's formulas to the map.
 Exported of_map(const grid::CompensationMap& map,
                 const std::string& file,
                 const ExportCommand& command) {
@@ -220,7 +218,7 @@ std::vector<model::BedPoint> corners_of(const model::Bed& bed) {
   return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// A machine that says no more than its controller's settings changes none of them.
+/// A machine that agrees with its controller's settings changes none of them.
 Exported of_machine(const model::Machine& stated,
                     const std::string& file,
                     const std::vector<model::BedPoint>& area,
@@ -270,7 +268,7 @@ bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects,
   return true;
 }
 
-/// Causes that are named and that may be the paper's as well as the machine's are in no machine.
+/// Named causes that may be the paper's are not in the machine.
 std::string left_out_in_words(const grid::diagnosis::Diagnosis& found) {
   std::string words;
   const auto is_of_paper = [](const auto& same) {
@@ -311,7 +309,7 @@ Exported of_machine_file(const InputFile& file, bool forced, std::vector<std::st
   return of_machine(machine, file.name, corners_of(machine.bed), std::move(next));
 }
 
-/// JSON that does not say what it is: somebody's machine, whose reader says what is missing.
+/// JSON without a type: probably a machine, whose reader reports what is missing.
 bool is_untyped_json(const InputFile& file) {
   return file.kind == FileKind::other && files::is_json(file.text) &&
          files::file_type_of(file.text, file.name).empty();
@@ -361,7 +359,7 @@ Facts facts_of(const InputFile& file) {
   return file.kind == FileKind::diagnosis ? facts::diagnosis : facts::machine;
 }
 
-/// \throws files::InputError where no such map follows.
+/// \throws files::InputError if there is no such map.
 std::string written_map_after(Verb verb, const Exported& exported, const ExportCommand& command) {
   if (command.map_after.empty()) return "";
   if (exported.map_after) return files::write_map(*exported.map_after, made_by(verb));
@@ -388,7 +386,7 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
   return kDone;
 }
 
-/// Of a fit of belts, or of a diagnosis of them; nothing, with a message, of anchors that are too uncertain.
+/// From a fit or a diagnosis of belts; empty, with a message, if the anchors are too uncertain.
 std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file, bool forced) {
   require_kind(file, {FileKind::anchors, FileKind::diagnosis});
   if (file.kind == FileKind::anchors) {

@@ -14,7 +14,7 @@
 
 namespace chaintrue::cli {
 
-/// What a verb works on, as far as options depend on it; several hold at once.
+/// Facts about a verb's input on which options depend; several hold at once.
 using Facts = std::uint32_t;
 
 namespace facts {
@@ -27,7 +27,7 @@ inline constexpr Facts map = 1U << 4;
 inline constexpr Facts anchors = 1U << 5;
 inline constexpr Facts diagnosis = 1U << 6;
 inline constexpr Facts machine = 1U << 7;
-/// One grid and nothing with it.
+/// A single grid.
 inline constexpr Facts one_grid = 1U << 8;
 /// fit: a smooth correction on the calibrated machine, or splines through the lengths.
 inline constexpr Facts residual = 1U << 9;
@@ -44,9 +44,9 @@ inline constexpr Facts check = 1U << 17;      ///< points that check a map
 inline constexpr Facts follow_up = 1U << 18;  ///< after a diagnosis
 /// A program is written (--gcode).
 inline constexpr Facts program = 1U << 21;
-/// That drills, where it does not only stop above the marks.
+/// It drills, rather than stopping above the marks.
 inline constexpr Facts drilled = 1U << 22;
-/// A program by itself, without --map.
+/// A program without --map.
 inline constexpr Facts no_map = 1U << 23;
 /// fit: without --plain.
 inline constexpr Facts causes = 1U << 24;
@@ -56,7 +56,7 @@ inline constexpr Facts table = 1U << 28;
 inline constexpr Facts drawing = 1U << 29;
 /// Everything but a test drawing that fit and diagnose take.
 inline constexpr Facts no_drawing = grid | holes | belts | belt_holes;
-/// In a map's place: a V-plotter whose drawing was measured.
+/// Instead of a map: a V-plotter with a measured drawing.
 inline constexpr Facts plotter = 1U << 30;
 /// plan: without --after; of those, at marks.
 inline constexpr Facts planned = lattice | tape | check;

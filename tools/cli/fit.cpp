@@ -46,7 +46,7 @@ struct FitCommand {
   std::string surface = "residual";
   std::string ends = "not_a_knot";
   OutsideOption outside;
-  /// On the machine as stated: no cause is looked for.
+  /// On the machine as stated, without a search for causes.
   bool plain = false;
   bool accept_class = false;
   /// The error of the tool that the owner wishes for.
@@ -163,7 +163,7 @@ std::vector<report::Section> distances_of(const grid::Measured& measured,
   return sections;
 }
 
-/// On the machine with the causes that are found, or as stated.
+/// On the machine with the causes found, or as stated.
 tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
                                                       const grid::Measured& measured) {
   grid::keep_freed_memory();

@@ -29,7 +29,7 @@ namespace files = grid::files;
 
 namespace {
 
-/// What was measured of one machine on four belts.
+/// The measurements of one four-belt machine.
 struct BeltFiles {
   grid::PointIndices indices;  ///< of the points of `belts` in their file
   std::optional<grid::MeasuredBelts> belts;
@@ -68,7 +68,7 @@ void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& al
   all.holes.push_back({*std::move(read.belt_machine), std::move(read.holes)});
 }
 
-/// Belts first, whatever their place: holes may go by their machine.
+/// Belts first, whatever their position: holes may use their machine.
 BeltFiles read_all(const BeltsFitCommand& command) {
   BeltFiles all;
   for (const auto& file : command.files) {

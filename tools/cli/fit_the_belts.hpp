@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue fit of a chaintrue_belts file, of holes that a machine on four belts cut, or of both.
+/// chaintrue fit for a chaintrue_belts file, holes that a four-belt machine cut, or both.
 #pragma once
 
 #include <optional>

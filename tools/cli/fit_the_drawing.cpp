@@ -32,7 +32,7 @@ struct PlotterSettingWords {
   std::string_view unit;
 };
 
-/// Of a parameter of the mechanism, as its owner would say it.
+/// An owner's words for a parameter of the mechanism.
 PlotterSettingWords plotter_setting_words(std::size_t parameter) {
   constexpr PlotterSettingWords kWords[] = {
       {"distance between the pins", "mm"},

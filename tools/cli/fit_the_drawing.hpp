@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// fit of a V-plotter's test drawing: its settings as they are, and what the next drawing is like.
+/// fit of a V-plotter's test drawing: its true settings, and a prediction of the next drawing.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct DrawingFitCommand {
   bool json = false;
 };
 
-/// \throws files::InputError for a drawing with a slip, which is named; nothing is written then.
+/// \throws files::InputError for a drawing with a slip, which is reported; nothing is written then.
 int fit_the_drawing(const DrawingFitCommand& command);
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a diagnosis wants measured next, as a list for the workshop and as lines for the grid's
+/// The next measurements of a diagnosis, as a list for the workshop and as lines for the grid's
 /// file; those for the holes' file are in follow_up_holes.hpp.
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace chaintrue::cli {
 
-/// Numbered sentences, each with the probability that it is expected to reach.
+/// Numbered sentences, each with its expected probability.
 [[nodiscard]] std::string follow_up_list(const grid::diagnosis::Diagnosis& found);
 
 /// Whether any of it is of the kind.
 [[nodiscard]] bool proposes(const grid::diagnosis::Diagnosis& found,
                             grid::diagnosis::MeasurementKind kind);
 
-/// The points to add to the grid's file, lengths or commands left empty, with the numbers of their
-/// visits where the grid numbers its visits.
+/// The points to add to the grid's file, with empty lengths or commands, and with visit numbers if
+/// the grid has them.
 [[nodiscard]] std::string points_json(const grid::diagnosis::Diagnosis& found,
                                       const grid::MeasuredGrid& measured);
 [[nodiscard]] std::string points_csv(const grid::diagnosis::Diagnosis& found,

@@ -20,7 +20,7 @@ struct Lines {
   std::vector<std::pair<std::string, std::string>> distances;
 };
 
-/// N1, N2, ... but for those that are taken.
+/// N1, N2, ... except names in use.
 class FreeNames {
  public:
   explicit FreeNames(const MeasuredHoles& set) : set_(set) {}
@@ -39,12 +39,12 @@ class FreeNames {
   int number_ = 0;
 };
 
-/// A hole as the diagnosis calls it.
+/// A hole's name in the diagnosis.
 std::string name_in_diagnosis(const grid::Hole& hole, std::size_t position) {
   return position == 0 ? hole.name : fmt::format("{} ({})", hole.name, position + 1);
 }
 
-/// As the set's own file calls it; an edge keeps its name. Empty where the set has no such hole.
+/// Its name in the set's file; an edge keeps its name. Empty if the set has no such hole.
 std::string name_in_file(const MeasuredHoles& set, std::size_t position, const std::string& name) {
   for (const grid::Hole& hole : set.holes) {
     if (name_in_diagnosis(hole, position) == name) return hole.name;
@@ -63,7 +63,7 @@ Lines lines_of(const Diagnosis& found,
   FreeNames names(set);
   for (const NextMeasurement& next : found.next_measurements) {
     if (next.kind != grid::diagnosis::MeasurementKind::distance) continue;
-    // A new hole has no name yet; the holes to which it is measured say whose it is.
+    // A new hole has no name yet; its set follows from the holes to which it is measured.
     std::string from = name_in_file(set, position, next.mark ? next.to.front() : next.from);
     if (from.empty()) continue;
     if (next.mark) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue plan --after: what a diagnosis wants measured with a tape, as lines for a file of holes.
-/// Where several sets were diagnosed together, hole A of the second is "A (2)" to the diagnosis and
-/// A in its own file.
+/// chaintrue plan --after: the next measurements with a tape, as lines for a file of holes. If
+/// several sets were diagnosed together, hole A of the second is "A (2)" to the diagnosis and A in
+/// its own file.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@
 
 namespace chaintrue::cli {
 
-/// The diagnosis is of these holes and distances and of no others.
+/// Whether the diagnosis is of exactly these holes and distances.
 [[nodiscard]] bool is_of_these(const grid::diagnosis::Diagnosis& found,
                                const std::vector<grid::MeasuredHoles>& sets);
 
-/// Holes to cut, with names that are free, and distances, their values left empty, for the set at
-/// this position; empty where none is of this set.
+/// Holes to cut, with unused names, and distances without values, for the set at this position;
+/// empty if none is in this set.
 [[nodiscard]] std::string distances_json(const grid::diagnosis::Diagnosis& found,
                                          const std::vector<grid::MeasuredHoles>& sets,
                                          std::size_t position);
-/// The same; the two headers where none is of this set.
+/// As above; only the two headers if none is in this set.
 [[nodiscard]] std::string distances_csv(const grid::diagnosis::Diagnosis& found,
                                         const std::vector<grid::MeasuredHoles>& sets,
                                         std::size_t position);

@@ -25,7 +25,7 @@ Facts facts_of_map(FileKind kind) {
   return kind == FileKind::anchors ? facts::anchors : facts::plotter;
 }
 
-/// \throws files::InputError of a plotter that is sent pictures.
+/// \throws files::InputError for a plotter that takes pictures.
 void require_gcode(const InputFile& file) {
   const model::PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
   if (gcode::firmware(plotter).reads_gcode) return;
@@ -152,7 +152,7 @@ void add_limits(Verb verb, GcodeOptions& options) {
   });
 }
 
-/// What is refused of a program that is compensated.
+/// Options refused for compensated programs.
 void add_refusals(Verb verb, GcodeOptions& options) {
   add_number(verb,
              "--largest-correction-mm",

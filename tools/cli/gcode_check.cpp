@@ -70,11 +70,11 @@ void print_survey(const gcode::Survey& survey, bool json) {
   if (survey.slowest_mm_per_min) fmt::print("feed {:.6g} to {:.6g} mm/min\n", slowest, fastest);
 }
 
-/// Beyond this a table of lengths is of no use to anybody: 2 GB.
+/// Largest useful table of lengths: 2 GB.
 constexpr double kMostRows = 2e7;
 
 /// About how many rows the table will have. \throws InputError where it would be longer; a program
-/// that cannot be read to its end has none, and is left to whoever reports it.
+/// that cannot be read to its end has none; its problem is reported elsewhere.
 double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open({"the length of the path", 1, 2});
   Findings ignored;
@@ -94,7 +94,7 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
                     rows * 1e-7)}});
 }
 
-/// The program next to which the compensated one is to lie, or its first line in words.
+/// The program next to the compensated one, or its first line in words.
 void say_next_of_program(const GcodeOptions& options) {
   if (options.map.empty()) {
     if (options.program != "-") say_next({"gcode", "explain", options.program + ":1"});
@@ -133,7 +133,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
     if (code == kDone) say_next_of_program(options);
     return code;
   }
-  // With a map: everything that compensating would object to; what it would write is thrown away.
+  // With a map: all problems that compensating would report; its output is discarded.
   gcode::CompensateOptions settings = compensate_options(options, *machine);
   gcode::CutPlaces cuts;
   settings.on_command =
@@ -155,7 +155,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
     fmt::print("the largest correction is {:.2f} mm, on line {}\n",
                outcome->largest_correction_mm,
                outcome->largest_correction_line);
-    // A map of two chains says its error where it is fitted; anchors say none but along cuts.
+    // The error of a two-chain map is reported by fit; that of anchors only along cuts.
     if (machine->map() == nullptr)
       fmt::print("{}", in_words(promised_along(cuts, *machine, options.tolerance_mm)));
   }

@@ -23,7 +23,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// What running the output on the simulated controller and machine came to.
+/// The result of running the output on the simulated controller and machine.
 struct Proof {
   std::string fault;  ///< empty where it holds
   double largest_mm = 0.0;
@@ -41,7 +41,7 @@ Proof prove(const GcodeOptions& options,
   return {outcome->fault, outcome->largest_mm()};
 }
 
-/// Verify needs no option of these to see the same.
+/// Verify needs none of these options.
 bool is_usual(const GcodeOptions& options) {
   const GcodeOptions usual;
   return options.machine.empty() && options.controller.empty() && options.report.empty() &&
@@ -50,7 +50,7 @@ bool is_usual(const GcodeOptions& options) {
          !options.home_is_zero && !options.skip_deletable && !options.tools_have_no_diameter;
 }
 
-/// For the page: whether the file is safe to run, in a sentence.
+/// A sentence for the page: whether the file is safe to run.
 std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, const Proof& proof) {
   const char* controller = machine.corrector().firmware().name;
   if (options.no_verify) {
@@ -88,15 +88,15 @@ report::PathPiece drawn(const gcode::Move& move,
           correction(to)};
 }
 
-/// The map that export wrote of this one, for a controller with the numbers typed in; empty where none
-/// lies beside it.
+/// The map that export wrote from this one, for a controller with the numbers typed in; empty if
+/// there is none next to it.
 std::string map_after(const std::string& map) {
   const std::string after = after_name(map);
   if (map == "-" || !std::filesystem::is_regular_file(after)) return {};
   return was_made_from(after, map) ? after : std::string{};
 }
 
-/// What has to hold at the machine for the program to come out right.
+/// Conditions at the machine for the program to be cut correctly.
 void say_what_it_is_for(const GcodeMachine& machine, const GcodeOptions& options) {
   if (machine.map() == nullptr) return;
   if (options.settings.empty() && options.machine.empty()) {

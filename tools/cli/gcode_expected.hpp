@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The error of the tool that a compensated program is to be cut with: what the map does not know of
-/// itself along the cuts, and what the path strays by.
+/// The expected error of the tool for a compensated program: the map's uncertainty along the cuts,
+/// and the path's deviation.
 #pragma once
 
 #include <optional>
@@ -12,27 +12,27 @@
 
 namespace chaintrue::cli {
 
-/// `map` is empty where the map does not know its error, `path_mm` what the simulated tool strays by
-/// at most. Adds the two: neither knows the other's direction.
+/// `map` is empty if the map's error is unknown, `path_mm` is the largest deviation of the
+/// simulated tool. Adds the two: their directions are unrelated.
 struct PromisedError {
   std::optional<gcode::ExpectedError> map;
   double path_mm = 0.0;
-  /// But for the scale of four belts, which no tape has shown.
+  /// Without the scale of four belts, if it was not taped.
   bool is_without_scale = false;
 
-  /// Of cuts on the measured part; empty where there are none.
+  /// For cuts on the measured part; empty if there are none.
   [[nodiscard]] std::optional<double> measured_mm() const;
-  /// Of those outside.
+  /// For cuts outside.
   [[nodiscard]] std::optional<double> outside_mm() const;
 };
 
-/// What the machine's map or anchors know of cuts at these places.
+/// The uncertainty of the machine's map or anchors for cuts at these places.
 [[nodiscard]] PromisedError promised_along(const gcode::CutPlaces& cuts,
                                            const GcodeMachine& machine,
                                            double path_mm);
-/// Whole sentences, a line each; empty where nothing is cut or known.
+/// Sentences, one per line; empty if nothing is cut or known.
 [[nodiscard]] std::string in_words(const PromisedError& error);
-/// For --json, as members of an object: `"expected_mm": 0.28, ...`; null where it is not known.
+/// For --json, as members of an object: `"expected_mm": 0.28, ...`; null if unknown.
 [[nodiscard]] std::string as_members(const PromisedError& error);
 
 }  // namespace chaintrue::cli

@@ -15,7 +15,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// Keeps what one line does.
+/// Stores the actions of one line.
 struct LineEvents final : gcode::Sink {
   void move(const gcode::Move& move) override {
     if (listening) moves.push_back(move);

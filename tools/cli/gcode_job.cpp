@@ -79,7 +79,7 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
     std::ifstream pipe(path, std::ios::binary);
     text_ = whole(pipe);
   } else if (!grid::files::identity_of(path)) {
-    text_ = grid::files::read_whole_file(path);  // which says what is wrong
+    text_ = grid::files::read_whole_file(path);  // which reports the problem
   }
 }
 
@@ -95,7 +95,7 @@ gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
   std::error_code unknown;
   const std::uintmax_t size = text_ ? text_->size() : std::filesystem::file_size(path_, unknown);
   shown_progress()(step);
-  // Loops go back; what was read of the file stays read.
+  // Loops go back; the file's progress does not.
   source.on_line([total = unknown ? 0.0 : static_cast<double>(size),
                   furthest = std::uint64_t{0}](std::uint64_t offset) mutable {
     furthest = std::max(furthest, offset);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the verbs of `chaintrue gcode` share: what compensating and verifying need to know, the program's text,
-/// messages.
+/// Shared by the verbs of `chaintrue gcode`: inputs of compensating and verifying, the program's
+/// text, messages.
 #pragma once
 
 #include <optional>
@@ -19,13 +19,13 @@
 
 namespace chaintrue::cli {
 
-/// That the tolerance leaves room for rounding.
+/// Checks that the tolerance exceeds the rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);
-/// What compensating needs to know, but where the program comes from.
+/// Inputs of compensating, except the program.
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                                           const GcodeMachine& machine);
 
-/// What running the output on the simulated machine needs to know.
+/// Inputs of running the output on the simulated machine.
 [[nodiscard]] gcode::VerifyOptions verify_options(const GcodeOptions& options,
                                                   const GcodeMachine& machine);
 
@@ -35,7 +35,7 @@ class GcodeText {
  public:
   explicit GcodeText(const std::string& path);
   [[nodiscard]] gcode::LineSource open() const;
-  /// The same, which shows this step of the work and how much of the program was read.
+  /// As above, and shows this step of the work and the share of the program that was read.
   [[nodiscard]] gcode::LineSource open(const grid::WorkStep& step) const;
   /// Its name without folders, and its hash.
   [[nodiscard]] grid::SourceFile source() const;
@@ -67,8 +67,7 @@ int report(const std::string& file, const gcode::Problem& problem);
 /// kDone.
 int report(const std::string& file, const gcode::Findings& findings);
 
-/// What a file that has not taken its place yet holds, as a program. \throws InputError where it
-/// could not be written.
+/// The content of a pending file, as a program. \throws InputError if it could not be written.
 [[nodiscard]] gcode::LineSource written_so_far(grid::files::PendingFile& file);
 
 }  // namespace chaintrue::cli

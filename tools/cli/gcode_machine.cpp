@@ -102,7 +102,7 @@ interp::Rectangle rectangle_of(const model::Bed& bed) {
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
-/// That of the anchors, where commands count from at 0, 0.
+/// The frame of the anchors; commands count from 0, 0.
 interp::Rectangle rectangle_of(const model::BeltMachine& machine) {
   const auto& anchors = machine.anchors;
   const model::FramePoint centre = model::centre_of(machine);
@@ -112,7 +112,7 @@ interp::Rectangle rectangle_of(const model::BeltMachine& machine) {
           std::max(anchors.tl.y_mm, anchors.tr.y_mm) - centre.y_mm};
 }
 
-/// By the names that a Maslow 4 has for them.
+/// Under a Maslow 4's names.
 std::vector<grid::files::NamedSetting> settings_of(const model::BeltMachine& machine) {
   std::vector<grid::files::NamedSetting> settings;
   for (const model::Belt belt : model::kBelts) {
@@ -152,7 +152,7 @@ interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
           area.top_mm + by.y_mm};
 }
 
-/// By the names that a chaintrue_plotter file has for them.
+/// Under the names in a chaintrue_plotter file.
 std::vector<grid::files::NamedSetting> settings_of(const grid::SetPlotter& set) {
   const model::PlotterMachine& m = set.machine;
   return {
@@ -163,7 +163,7 @@ std::vector<grid::files::NamedSetting> settings_of(const grid::SetPlotter& set) 
       {"scale", fmt::format("{:.6f} {:.6f}", m.scale_mm_per_m.left_mm, m.scale_mm_per_m.right_mm)}};
 }
 
-/// What the controller of a V-plotter holds now.
+/// The present settings of a V-plotter's controller.
 GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTarget& target) {
   const grid::SetPlotter set = options.machine.empty()
                                    ? target.plotter->set
@@ -213,7 +213,7 @@ model::Machine believed_machine(const GcodeOptions& options, const grid::Compens
                                  options.machine_option)}});
 }
 
-/// Where --controller names another than the map was measured with.
+/// If --controller names another than the map was measured with.
 void say_other_controller(const grid::CompensationMap& map, model::ControllerKind kind) {
   if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
   fmt::print(stderr,

@@ -27,9 +27,9 @@ struct GcodeOptions {
   /// Of --map; opened before any verb begins.
   std::optional<InputFile> map_file;
   std::string machine;
-  /// What a message calls the option of `machine`, with others in its place.
+  /// The word for the option of `machine` and its alternatives in messages.
   std::string machine_option = "--machine or --settings";
-  /// What the controller holds now.
+  /// The controller's present settings.
   std::string settings;
   std::string controller;
   std::string frame = "marks";
@@ -47,7 +47,7 @@ struct GcodeOptions {
   bool skip_deletable = false;
   bool tools_have_no_diameter = false;
   bool no_verify = false;  ///< compensate: write without having run the output
-  bool forced = false;     ///< compensate: even with a map that is not to be cut with
+  bool forced = false;     ///< compensate: even with a map that is unfit for cutting
   bool json = false;
 
   [[nodiscard]] gcode::Dialect dialect() const;
@@ -55,9 +55,9 @@ struct GcodeOptions {
   [[nodiscard]] model::BedPoint home_mm() const;
 };
 
-/// Of --controller; empty where it is not given.
+/// From --controller; empty if not given.
 [[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
-/// That of --controller, a Maslow 4 and Marlin among them; null where nothing is stated.
+/// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
 /// What a program aims at: a map, the fit of four belts, or the plotter that a drawing found.
@@ -79,21 +79,22 @@ struct GcodeController {
   const gcode::Firmware* firmware;
   /// Empty where it does not clamp.
   std::optional<gcode::ClampBox> clamp_box;
-  /// Where programs may go: the bed, the frame of the anchors of four belts, a plotter's drawing area.
+  /// The area for programs: the bed, the frame of the anchors of four belts, a plotter's drawing
+  /// area.
   interp::Rectangle sheet;
-  /// Of the machine that the map was extended with; none of belts and plotters.
+  /// From the map's machine; none for belts and plotters.
   model::ChainLengths half_play_mm;
-  /// What it believes, for the header of what is compensated.
+  /// Its settings, for the header of compensated programs.
   std::vector<grid::files::NamedSetting> settings;
-  /// Where its firmware has a setting of its own; then `firmware` is this.
+  /// A firmware with its own settings; then `firmware` points to this.
   std::shared_ptr<const gcode::Firmware> with_settings = nullptr;
 };
 
 /// Map, machine and controller, which belong together.
 class GcodeMachine {
  public:
-  /// \throws InputError for bad files, or where neither map nor --machine says what the controller
-  /// believes.
+  /// \throws InputError for bad files, or if neither map nor --machine states the controller's
+  /// settings.
   explicit GcodeMachine(const GcodeOptions& options);
   [[nodiscard]] const grid::LengthMap& target() const { return *target_.lengths; }
   /// As GcodeTarget::in_belts_mm.
@@ -112,7 +113,7 @@ class GcodeMachine {
   gcode::Corrector corrector_;
 };
 
-/// Where programs of --machine may go; without it the usual bed. \throws InputError.
+/// The area for programs with --machine; without it the usual bed. \throws InputError.
 [[nodiscard]] interp::Rectangle sheet_of(const GcodeOptions& options);
 
 }  // namespace chaintrue::cli

@@ -98,7 +98,7 @@ gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMach
 
 namespace {
 
-/// Whether a program is taken to be in mm because it does not say, which its first move decides.
+/// Whether a program without a unit is assumed to be in mm, decided at its first move.
 class AssumedUnit final : public gcode::Sink {
  public:
   void note(const gcode::Note& note) override {
@@ -129,7 +129,7 @@ std::vector<grid::SourceFile> made_from(const GcodeOptions& options, const Gcode
   return sources;
 }
 
-/// Where the file that is run says what it was made from, and one of these is not among it.
+/// If the file states its sources and one of these is not among them.
 void say_other_sources(const std::vector<grid::SourceFile>& sources,
                        const GcodeText& run,
                        const std::string& name) {
@@ -171,7 +171,7 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
     report(options.program, findings);
   }
   PromisedError promised{std::nullopt, summary->largest_mm()};
-  // Where the original cannot be followed to its end, what is cut is unknown as well.
+  // If the original cannot be followed to its end, its cuts are unknown too.
   if (control) promised = promised_along(cuts, machine, summary->largest_mm());
   if (options.json) {
     print_json(*summary, control, promised, options.tolerance_mm);

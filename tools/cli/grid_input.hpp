@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The grid, or the holes, that a verb works on: the file, and what the command line adds to
-/// it.
+/// The grid or the holes of a verb: the file, and the options that supplement it.
 #pragma once
 
 #include <optional>
@@ -21,13 +20,13 @@ struct GridInput {
   std::optional<double> length_noise_mm;
   std::optional<double> position_noise_mm;
   std::optional<double> noise_dof;
-  /// What was measured is in inches, in tables whose header says mm.
+  /// Readings are in inches, in tables whose header says mm.
   bool inches = false;
   /// Files of declared effects.
   std::vector<std::string> effects;
 };
 
-/// What a tape's file may leave unsaid.
+/// Values that a file of holes may omit.
 struct TapeInput {
   std::optional<double> sigma_mm;
   std::optional<double> tape_zero_offset_mm;
@@ -38,19 +37,19 @@ struct TapeInput {
 /// Adds GRID, --machine and the --noise options to a verb.
 void add_grid_options(Verb verb, GridInput& input);
 
-/// Whether any of them is a table, which --inches acts on.
+/// Whether any of them is a table, to which --inches applies.
 [[nodiscard]] Facts facts_of_tables(const std::vector<InputFile>& files);
 
-/// Adds --effects: what it declares may act on the machine of every file that is read.
+/// Adds --effects: declared effects may act on the machine of every input file.
 void add_effects_option(Verb verb, GridInput& input);
 
-/// Reads it all; warnings go to standard error. \throws files::InputError.
+/// Reads all inputs; warnings go to standard error. \throws files::InputError.
 [[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
 void add_tape_options(Verb verb, TapeInput& input);
 
-/// What reading holes goes by of that. \throws files::InputError.
+/// The options for reading holes. \throws files::InputError.
 [[nodiscard]] grid::files::HolesOptions holes_options(const TapeInput& tape);
 
 /// Adds --without to a verb that takes belts.
@@ -58,23 +57,23 @@ void add_without_option(Verb verb, std::string& without);
 /// Its points, from 1. \throws files::InputError.
 [[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
 
-/// Where a verb that takes holes of two chains is given those of four belts.
+/// For a verb that takes only holes of two chains but gets those of four belts.
 inline constexpr const char* kBeltHolesAreFitted =
     "those of four belts go into one fit with its lengths: chaintrue fit belts.json --with FILE";
 
-/// Enough for a fit, or for a check of what a map says.
+/// Enough data for a fit, or only for a check of a map.
 enum class MeasuredUse { fit, check };
 
-/// A grid or a set of holes, as the file is; `otherwise` is the machine of a file that names none,
-/// where there is one. \throws files::InputError.
+/// A grid or a set of holes, as the file is; `otherwise` is the machine for a file that names none,
+/// if available. \throws files::InputError.
 [[nodiscard]] grid::MeasuredFile load_measured(const InputFile& file,
                                                const GridInput& input,
                                                const TapeInput& tape,
                                                MeasuredUse use,
                                                const model::Machine* otherwise = nullptr);
 
-/// The first file and those of --with: any mix of grids and holes of one machine, whose settings all that
-/// state some share. \throws files::InputError.
+/// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
+/// settings. \throws files::InputError.
 [[nodiscard]] grid::Measured load_measured(const std::vector<InputFile>& files,
                                            const GridInput& input,
                                            const TapeInput& tape,

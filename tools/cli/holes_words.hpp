@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Holes and distances in words and numbers, for every verb that knows them.
+/// Holes and distances in words and numbers, shared by several verbs.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace chaintrue::cli {
 
-/// Each distance: measured, commanded, and what the others make of it; `file` where there are several.
+/// Each distance: measured, commanded, and predicted by the others; `file` if there are several.
 [[nodiscard]] report::Section distances_section(const grid::MeasuredHoles& set,
                                                 const grid::FittedDistances& fit,
                                                 std::string_view file);
-/// What is known of the chains' scales, and what "left out" means.
+/// The chains' scales, and the meaning of "left out".
 void add_legend(const grid::estimation::ParameterKnowledge& knowledge, report::Section& distances);
 /// "20 distances", "18 distances and 6 to the sheet's edges".
 [[nodiscard]] std::string distances_in_number(const grid::MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.
 [[nodiscard]] std::string workshop_list(const grid::HolesPlan& plan);
-/// What the plan's set will tell, and what it cannot tell apart.
+/// What the plan's set will determine, and what it cannot distinguish.
 [[nodiscard]] std::string plan_in_words(const grid::HolesPlan& plan,
                                         const grid::HolesPlanRequest& request);
 

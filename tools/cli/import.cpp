@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue import: what other programs wrote becomes a machine, a grid or belts.
+/// chaintrue import: converts files of other programs to a machine, a grid or belts.
 #include <fmt/format.h>
 
 #include <cstdio>

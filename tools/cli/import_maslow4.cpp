@@ -67,7 +67,7 @@ std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
   return runs;
 }
 
-/// Which runs there are, and how to take another.
+/// Lists the runs, and how to choose another.
 void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
   if (read.runs.size() < 2) return;
   fmt::print(stderr, "The log holds {} runs:\n", read.runs.size());
@@ -88,7 +88,7 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
   }
 }
 
-/// How hard belts were pulled, where more than one pull is known.
+/// The pulls of the belts, if more than one is known.
 void tell_pulls(const grid::MeasuredBelts& belts) {
   const std::vector<double> different = grid::different_pulls(belts);
   if (different.size() < 2) return;

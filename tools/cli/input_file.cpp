@@ -27,7 +27,7 @@ void require_kind(const InputFile& file,
                   const std::string& also) {
   if (std::find(taken.begin(), taken.end(), file.kind) != taken.end()) return;
   const bool is_json = files::is_json(file.text);
-  // No kind that is taken can be a table: why it is no JSON is the better answer.
+  // No accepted kind can be a table: report why it is not JSON.
   const auto is_table = [](FileKind kind) {
     return kind == FileKind::grid || kind == FileKind::holes;
   };

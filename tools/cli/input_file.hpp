@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The loader of the files that a verb works with: it looks once at what a file is, refuses a kind
-/// that the verb does not take, and tells on standard error what was assumed.
+/// Loads the input files of a verb: detects their kind once, refuses kinds that the verb does not
+/// take, and reports assumptions on standard error.
 ///
 /// \code
 ///   const InputFile file = open_input(command.map);
@@ -33,12 +33,12 @@ struct InputFile {
   FileKind kind = FileKind::other;
 };
 
-/// "-" is standard input. \throws files::InputError where it cannot be read, or is JSON that breaks
-/// off before it says what it is.
+/// "-" is standard input. \throws files::InputError where it cannot be read, or is JSON that ends
+/// before its type.
 [[nodiscard]] InputFile open_input(const std::string& path);
 
-/// \param also where a kind that is refused is taken instead, a clause; or nothing
-/// \throws files::InputError that says what was found and which kinds are taken.
+/// \param also a clause on where a refused kind is accepted; may be empty
+/// \throws files::InputError with the kind found and the kinds accepted.
 void require_kind(const InputFile& file,
                   const std::vector<FileKind>& taken,
                   const std::string& also = "");
@@ -47,22 +47,23 @@ void require_kind(const InputFile& file,
 [[nodiscard]] grid::files::FittedAnchors load_anchors(const InputFile& file);
 [[nodiscard]] grid::diagnosis::Diagnosis load_diagnosis(const InputFile& file);
 [[nodiscard]] model::Machine load_machine(const InputFile& file);
-/// As read_belt_machine_input().
+/// The belts of a chaintrue_belts file.
 [[nodiscard]] model::BeltMachine load_belt_machine(const InputFile& file);
-/// At most kMostBeltPoints places; `work` is what they are read for: "a fit".
+/// At most kMostBeltPoints places; `work` is their purpose: "a fit".
 [[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file, const std::string& work);
-/// The same without points, counted from 1.
+/// Without some points, counted from 1.
 [[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file,
                                                 const std::string& work,
                                                 const std::vector<std::size_t>& without);
 
 [[nodiscard]] grid::CompensationMap load_map(const InputFile& file);
 
-/// "-" is standard input. A file that is read again says nothing new. \throws files::InputError.
+/// "-" is standard input. A file that is read again gives no new warnings. \throws
+/// files::InputError.
 [[nodiscard]] model::Machine read_machine_input(const std::string& path);
 
-/// What the controller of four belts believes: of a chaintrue_belts file the anchors in force, of a
-/// chaintrue_anchors file those that were fitted, as export maslow4 has them pasted. \throws
+/// The machine of a four-belt controller: from a chaintrue_belts file with the anchors in force,
+/// from a chaintrue_anchors file with the fitted ones, as pasted from export maslow4. \throws
 /// files::InputError.
 [[nodiscard]] model::BeltMachine read_belt_machine_input(const std::string& path);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a verb writes of where its results come from, and how a report shows it.
+/// The provenance that a verb writes with its results, and its display in a report.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@
 
 namespace chaintrue::cli {
 
-/// Of the verb that was chosen: the options that were given, but those that name outputs or only
-/// change what is printed, and every file that was read so far.
+/// For the chosen verb: its options, except those that name outputs or only change printing, and
+/// every file read so far.
 [[nodiscard]] grid::Provenance made_by(Verb verb);
 
-/// "Where this comes from", folded; nothing is added where that is not known.
+/// "Where this comes from", folded; nothing is added if it is unknown.
 void add_made_by(const std::optional<grid::Provenance>& made_by,
                  std::vector<report::Section>& sections);
 
-/// A note on standard error where a file that was read now has the name of one that this result was
-/// made from, and another content.
+/// A note on standard error if an input has the same name as a source of this result but another
+/// content.
 void say_what_changed(const InputFile& result);
 
 }  // namespace chaintrue::cli

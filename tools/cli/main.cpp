@@ -35,8 +35,8 @@ int report_bad_input(const grid::files::InputError& error) {
   return kBadInput;
 }
 
-/// A stream that is closed would lend its number to the next file that is opened; it is taken up
-/// by one that can be neither read nor written in its place.
+/// A closed stream's number would go to the next file that is opened; occupy it with a descriptor
+/// that can be neither read nor written.
 void take_up_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
@@ -45,8 +45,7 @@ void take_up_closed_streams() {
   }
 }
 
-/// What was printed must have arrived: an answer that nobody could read is no answer. A pipe whose
-/// reader has left is not worth a word.
+/// Output that could not be written is an error, except to a pipe whose reader has closed it.
 int finish_standard_output(int code, int error_number) {
   const bool was_broken = std::ferror(stdout) != 0;
   errno = 0;

@@ -19,7 +19,7 @@ using report::Paragraph;
 using report::Section;
 using report::Table;
 
-/// What to do now, the most urgent first.
+/// Next steps, the most urgent first.
 void put_advice(const MapContents& contents,
                 const model::Machine* machine,
                 std::string_view source,
@@ -130,7 +130,7 @@ Table left_out_points(const grid::CompensationMap& map) {
   return table;
 }
 
-/// What the terminal shows where all is asked for.
+/// The terminal's details with --verbose.
 void add_tables(const grid::CompensationMap& map, std::vector<Section>& sections) {
   const MapContents& contents = map.contents();
   const auto add = [&sections](std::string title, report::Block block) {

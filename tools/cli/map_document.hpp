@@ -12,17 +12,17 @@
 
 namespace chaintrue::cli {
 
-/// `source` is the name of the map's file, as the page's last line gives it. Pictures are made where
-/// `detail` is page. The map is held against `wish_mm`, an error of the tool, where that is given.
+/// `source` is the name of the map's file, for the page's last line. Pictures are made if `detail`
+/// is page. The map is compared with `wish_mm`, an error of the tool, if given.
 [[nodiscard]] report::Document map_document(const grid::CompensationMap& map,
                                             std::string_view source,
                                             report::Detail detail = report::Detail::page,
                                             std::optional<double> wish_mm = std::nullopt);
 
-/// What the pictures show.
+/// The data of the pictures.
 [[nodiscard]] report::MapPictures map_pictures(const grid::CompensationMap& map);
 
-/// Caution where a point was rejected or a setting is off.
+/// Caution if a point was rejected or a setting is off.
 [[nodiscard]] report::Tone tone_of(const grid::MapContents& contents);
 /// "Made from map.json by chaintrue 1.0."
 [[nodiscard]] std::string provenance_of(std::string_view source);

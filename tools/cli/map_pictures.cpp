@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the pictures of a compensation map show.
+// The data of a compensation map's pictures.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -24,12 +24,12 @@ using report::ErrorStep;
 constexpr int kColumns = 41;
 constexpr int kRows = 21;
 
-/// Where the tool landed minus where the model has it, as an arrow from the latter.
+/// An arrow from where the model puts the tool to where it landed.
 report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
   return {residual_mm.x(), residual_mm.y()};
 }
 
-/// The machine's bed; where there is no machine, the part that was measured.
+/// The machine's bed; without a machine, the measured part.
 report::Outline mapped_sheet(const grid::CompensationMap& map) {
   if (const model::Machine* machine = map.machine()) {
     const double half_width_mm = machine->bed.width_mm / 2,
@@ -57,7 +57,7 @@ std::vector<report::ReportPoint> points_of(const grid::CompensationMap& map) {
       point.before = tool_vector(from.*before);
       point.after = tool_vector(from.mapped_mm);
     }
-    // Of holes no place is known but through the distances that the fit used.
+    // The places of holes are known only through the distances used by the fit.
     if (!contents.distances) {
       point.held_out = tool_vector(from.left_out_mm);
       point.held_out_sigmas = from.distance_sigmas;

@@ -83,7 +83,7 @@ std::string about_mm(double mm) {
 std::string misses_sentence(std::optional<double> today_mm,
                             double expected_mm,
                             const Remedy& remedy) {
-  // Both hold what is uncertain of the map: what it says of the machine is no more than that.
+  // Both include the map's uncertainty, which limits what it shows about the machine.
   constexpr double kNoMoreThanUncertain = 1.4142;
   if (today_mm && *today_mm <= kNoMoreThanUncertain * expected_mm) {
     return fmt::format(
@@ -164,7 +164,7 @@ std::string points_sentence(const grid::CompensationMap& map) {
 
 namespace {
 
-/// The rms error that so many marks as good as the map's would leave; nothing where none can be planned.
+/// The expected rms error with this many marks of the map's quality; empty if none can be planned.
 std::optional<double> expected_with(const grid::CompensationMap& map, int points) {
   const grid::MapNoise& noise = map.contents().noise;
   grid::PlanRequest request;

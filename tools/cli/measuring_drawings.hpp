@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Drawings of how a reading is taken, for the sheets that are printed. Each is one SVG with a title,
-/// without a script; nothing in it is to scale.
+/// Drawings of how to take a reading, for printed sheets. Each is one SVG with a title, without a
+/// script; nothing in it is to scale.
 #pragma once
 
 #include <string>

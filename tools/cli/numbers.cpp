@@ -68,7 +68,7 @@ Option add_numbers(Verb verb,
                    const files::Range& range,
                    const std::string& help) {
   const auto read = [name = names, range, &values](const std::vector<std::string>& texts) {
-    // How many there are stays as it was typed, whatever they are.
+    // The number of values is kept as typed.
     for (const std::string& text : texts)
       values.push_back(read_number(name, text, range, false).value_or(0.0));
   };

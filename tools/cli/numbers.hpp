@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Options that are numbers, held to the rules of numbers in files (grid/files/number_text.hpp):
-/// the same ranges, the same sentences, all that is wrong at once, exit code 3. NaN and infinity
-/// are no numbers.
+/// Numeric options, with the rules of numbers in files (grid/files/number_text.hpp): the same
+/// ranges and messages, all problems at once, exit code 3. NaN and infinity are rejected.
 ///
 /// \code
 ///   add_number(verb, "--noise-dof", input.noise_dof, files::kNoiseDof, "How well known");
@@ -21,7 +20,7 @@
 namespace chaintrue::cli {
 
 namespace detail {
-/// `take` gets a number of the range.
+/// `take` gets a number in the range.
 Option add_number(Verb verb,
                   const std::string& names,
                   const grid::files::Range& range,
@@ -31,7 +30,7 @@ Option add_number(Verb verb,
                   std::optional<double> shown_default = {});
 }  // namespace detail
 
-/// `value` is double, a whole number, or optional of either; its default is shown where it has one.
+/// `value` is double, a whole number, or optional of either; a default is shown.
 template <class T>
 Option add_number(Verb verb,
                   const std::string& names,
@@ -66,7 +65,7 @@ Option add_numbers(Verb verb,
                    const grid::files::Range& range,
                    const std::string& help);
 
-/// After parsing. \throws files::InputError with every number that was none or out of its range.
+/// After parsing. \throws files::InputError with every invalid or out-of-range number.
 void check_numbers();
 /// Before another command line in this process.
 void forget_numbers();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All that is wrong with a command line, reported at once and before any file is read: numbers out of
-/// their range (numbers.hpp), what a verb says of its own options here, places of files
-/// (places.hpp). What depends on what a file says the verb finds by itself, later.
+/// All problems of a command line, reported at once and before any file is read: numbers out of
+/// range (numbers.hpp), a verb's own checks (here), places of files (places.hpp). Checks that
+/// depend on a file's content are the verb's.
 ///
 /// \code
 ///   add_option_check(verb, [options](OptionProblems& problems) {
@@ -18,8 +18,7 @@
 
 namespace chaintrue::cli {
 
-/// `check` is asked where the verb was chosen. It finds numbers out of their range at their
-/// defaults.
+/// `check` runs if the verb was chosen. Out-of-range numbers have their defaults then.
 void add_option_check(Verb verb, std::function<void(OptionProblems&)> check);
 
 /// Forgets what the verbs of an earlier command line in this process declared.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// --outside and --fade-mm: what a map does beyond its points, for every verb that asks.
+/// --outside and --fade-mm: a map's continuation beyond its points, shared by several verbs.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct OutsideOption {
 
 /// \param usual what happens without the option, in words
 void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual);
-/// The rule that was asked for, or the given one.
+/// The requested rule, or the given one.
 [[nodiscard]] grid::OutsideRule rule_of(const OutsideOption& option,
                                         const grid::OutsideRule& usual);
 

@@ -21,7 +21,7 @@ using grid::ProblemKind;
 namespace files = grid::files;
 namespace fs = std::filesystem;
 
-/// An option that names files; what it names is known once the command line is parsed.
+/// An option that names files; the names are known after parsing.
 struct Place {
   Verb verb;
   std::string names;  ///< "-o,--output"
@@ -54,7 +54,7 @@ std::optional<files::FileIdentity> identity_of_input(const fs::path& path) {
   return path == "-" ? files::identity_of_descriptor(STDIN_FILENO) : files::identity_of(path);
 }
 
-/// What two outputs must not have in common: the file, or the name that it will have.
+/// The identity of an output: the file, or its future name.
 std::string place_of(const fs::path& path) {
   if (is_standard_output(path)) return "-";
   std::error_code error;
@@ -65,7 +65,7 @@ std::string place_of(const fs::path& path) {
 }
 
 std::string beginning_of(const fs::path& path) {
-  // No file of ours that is recognised by more than its beginning is longer.
+  // The longest file that is recognised by more than its beginning.
   constexpr std::size_t kMost = std::size_t{64} << 20U;
   std::ifstream file(path, std::ios::binary);
   std::string text;
@@ -164,7 +164,7 @@ const Place* output_named(const std::vector<Place>& chosen, const std::string& p
   return nullptr;
 }
 
-/// The outputs as they go into their files.
+/// The outputs by file.
 std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& outputs) {
   end_progress();
   const std::vector<Place> chosen = chosen_places();
@@ -172,7 +172,7 @@ std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& o
   std::vector<files::OutputFile> result;
   for (const files::OutputFile& output : outputs) {
     if (output.path.empty()) continue;
-    // Standard output needs no option to be written to.
+    // Standard output needs no option.
     static const Place kAnswers;
     const Place* place =
         is_standard_output(output.path) ? &kAnswers : output_named(chosen, output.path.string());
@@ -218,7 +218,7 @@ Option add_output(Verb verb,
   Option option = verb.add_option(names, path, help);
   option.refuses([](const std::string& text) -> std::string {
     if (text.empty()) return "an empty name, expected the name of a file";
-    // What stands behind an option without a value: --svg= --force.
+    // The word after an option without a value: --svg= --force.
     if (text.size() > 1 && text.front() == '-')
       return text + ", expected the name of a file; ./" + text + " where it is one";
     return "";

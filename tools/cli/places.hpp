@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a verb reads and where it writes: said once, when its options are made, and held to by one
-/// rule for all verbs.
+/// The inputs and outputs of a verb: declared with its options, and checked by one rule for all
+/// verbs.
 ///
-/// Before any work (check_places): an output is none of the inputs, whatever it is called; no two
-/// outputs share a place; each lies in a folder that exists; and a file that stands there already
-/// is replaced only where this program made it and nobody has changed it since
-/// (grid/files/origin.hpp), or with --force. When the outputs are written all of it is looked at
-/// again, with what other files named as their machine among the inputs.
+/// Before any work (check_places): an output is not one of the inputs, under any name; no two
+/// outputs share a place; each is in an existing folder; and an existing file is replaced only if
+/// this program made it and it is unchanged (grid/files/origin.hpp), or with --force. All of this
+/// is checked again when the outputs are written, with machine files named by other files among the
+/// inputs.
 ///
 /// \code
 ///   add_input(verb, "map", command->map, "A chaintrue_map file").required();
@@ -35,37 +35,37 @@ Option add_input(Verb verb,
                  const std::string& names,
                  std::vector<std::string>& paths,
                  const std::string& help);
-/// An option that names a file to write; adds --force to the verb. \param kinds what is written
-/// there: a file of these kinds that this program made is replaced without being asked
+/// An option that names a file to write; adds --force to the verb. \param kinds of content:
+/// existing files of these kinds made by this program are replaced without --force
 Option add_output(Verb verb,
                   const std::string& names,
                   std::string& path,
                   std::vector<Origin> kinds,
                   const std::string& help);
 
-/// What an option of the verb names.
+/// The path named by an option of the verb.
 enum class PlaceUse { nothing, input, output };
 [[nodiscard]] PlaceUse use_of(Verb verb, const std::string& option);
 
-/// A folder that is made where it is not there yet; adds --force to the verb.
+/// An output folder, created if missing; adds --force to the verb.
 Option add_output_folder(Verb verb,
                          const std::string& names,
                          std::string& path,
                          const std::string& help);
 
-/// A file of such a folder, and what it is.
+/// A file of such a folder, and its kind.
 struct FolderFile {
   std::string name;
   std::string text;
   Origin kind;
 };
-/// Whether such files may be written there, before any work: the rules of outputs. A folder that is
-/// not there yet may be made. \throws files::InputError
+/// Checks, before any work, whether such files may be written there, by the rules of outputs. A
+/// missing folder may be created. \throws files::InputError
 void check_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
-/// All or none, held to the rules of outputs. \throws files::InputError
+/// Writes all or none, by the rules of outputs. \throws files::InputError
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
 
-/// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
+/// For the chosen verb, before its work. \throws files::InputError with all problems.
 void check_places();
 /// Before another command line in this process.
 void forget_places();
@@ -73,8 +73,8 @@ void forget_places();
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);
 void write_outputs(const std::vector<grid::files::OutputFile>& outputs);
-/// For outputs that are written piece by piece, in addition to whole texts. A path that is empty is left
-/// out.
+/// For outputs that are written piece by piece, in addition to whole texts. Empty paths are
+/// skipped.
 void take_place(grid::files::PendingFile& pending,
                 const std::string& path,
                 const std::vector<grid::files::OutputFile>& others);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be; and
-/// after a diagnosis, what to measure next.
+/// chaintrue plan: where to measure, as a list for the workshop, and the expected error of the map;
+/// and after a diagnosis, what to measure next.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -115,7 +115,7 @@ int run_follow_up(Verb verb, PlanOptions options) {
   return plan_after(options.follow_up, file);
 }
 
-/// What was said on the command line takes the place of a plan's own usual values.
+/// Options replace a plan's usual values.
 void take(std::optional<double> said, double& value) { value = said.value_or(value); }
 
 int run_check_plan(Verb verb, PlanOptions options) {

@@ -29,7 +29,7 @@ namespace files = grid::files;
 using grid::diagnosis::Diagnosis;
 using grid::diagnosis::MeasurementKind;
 
-/// A file as it was given, and which of the grids or of the sets of holes it is.
+/// An input file, and its index among the grids or the sets of holes.
 struct Source {
   std::string name;
   bool json = false;
@@ -43,7 +43,7 @@ struct Sources {
   std::vector<grid::MeasuredHoles> sets;
 };
 
-/// `few`: together with other files a reading or two are enough.
+/// `few`: with other files one or two readings are enough.
 void read(const InputFile& file,
           const std::optional<model::Machine>& machine,
           bool few,
@@ -78,7 +78,7 @@ Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
   return sources;
 }
 
-/// The diagnosis is of the points of these grids. A CSV may round them.
+/// Whether the diagnosis is of the points of these grids. A CSV may round them.
 bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids) {
   constexpr double kSamePlaceMm = 1e-3;
   std::vector<model::MarkPoint> marks;
@@ -95,7 +95,7 @@ bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids)
                     });
 }
 
-/// Empty where the diagnosis is of these files and of nothing else.
+/// Empty if the diagnosis is of exactly these files.
 std::string made_from_others(const PlanAfterOptions& options,
                              const Diagnosis& found,
                              const Sources& sources) {
@@ -118,7 +118,7 @@ std::string made_from_others(const PlanAfterOptions& options,
   return sentence(points || sources.grids.empty() ? "holes" : "points");
 }
 
-/// What goes into one of the files; readings of the machine into the first that holds any.
+/// The lines for one of the files; readings of the machine go into the first that has any.
 std::string lines_for(const Source& source,
                       const Diagnosis& found,
                       const Sources& sources,
@@ -127,7 +127,7 @@ std::string lines_for(const Source& source,
   if (source.of_holes) {
     text = source.json ? distances_json(found, sources.sets, source.position)
                        : distances_csv(found, sources.sets, source.position);
-  } else if (source.position == 0) {  // another point is set out on the first sheet
+  } else if (source.position == 0) {  // new points are on the first sheet
     const grid::MeasuredGrid& measured = sources.grids.front();
     text = source.json ? points_json(found, measured) : points_csv(found, measured);
   }

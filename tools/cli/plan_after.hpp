@@ -24,22 +24,22 @@ struct PlanAfterOptions {
   std::string drawing;
 };
 
-/// What options depend on. \throws files::InputError for a file of another kind.
+/// Facts on which options depend. \throws files::InputError for a file of another kind.
 [[nodiscard]] Facts facts_after(const InputFile& file);
 
-/// \param file that of the options, opened
+/// \param file the options' file, opened
 /// \throws files::InputError. Returns an exit code.
 [[nodiscard]] int plan_after(const PlanAfterOptions& options, const InputFile& file);
 
-/// What is to be measured next, without a file: the list for the workshop, the lines that are to be
-/// filled in, and the drawing (SVG).
+/// What to measure next, as texts: the list for the workshop, the lines to fill in, and the drawing
+/// (SVG).
 struct FollowUpTexts {
   std::string list;
   std::string csv;  ///< empty of belts, which have no CSV
   std::string json;
   std::string drawing;
 };
-/// Empty where the diagnosis is of other readings.
+/// Empty if the diagnosis is of other readings.
 [[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(
     const grid::diagnosis::Diagnosis& found,
     const std::vector<grid::MeasuredGrid>& grids,

@@ -30,9 +30,10 @@ using grid::diagnosis::Diagnosis;
 using grid::diagnosis::MeasurementKind;
 using grid::diagnosis::NextMeasurement;
 
-/// The diagnosis is of these places: each in its turn, with lengths that anchors and causes explain.
+/// Whether the diagnosis is of these places: in the same order, with lengths that anchors and
+/// causes explain.
 bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
-  // Beyond what any cause adds, an arm that is left out included.
+  // Larger than the effect of any cause, including an omitted arm.
   constexpr double kSamePlaceMm = 400.0;
   if (!found.belts) return false;
   return std::equal(
@@ -75,7 +76,7 @@ std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
   return lines.empty() ? lines : "\"points\": add, each null filled in\n" + lines;
 }
 
-/// An anchor's name, a point's number or "(x, y)" as the belts' file has it.
+/// An anchor's name, a point's number or "(x, y)" as in the belts' file.
 std::string end_of(const std::string& end) {
   if (model::belt_of(end)) return fmt::format("\"{}\"", end);
   const std::size_t comma = end.find(", ");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue plan BELTS --after: what a router on four belts should measure next.
+/// chaintrue plan BELTS --after: what a four-belt router should measure next.
 #pragma once
 
 #include <string>

@@ -40,7 +40,7 @@ std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) 
   return draw_follow_up(drawing, map.machine()->bed);
 }
 
-/// Whether a worn chain would show beyond what a shifted zero can do. Three sigmas are one chance in
+/// Whether a worn chain would be distinguished from a shifted zero. Three sigmas are one chance in
 /// 400, two one in 20.
 std::string_view what_shows(const model::PerSide<double>& sigmas) {
   const double least = std::min(sigmas.left, sigmas.right);

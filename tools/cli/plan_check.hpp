@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The part of chaintrue plan that sets the few points of a check.
+/// The part of chaintrue plan that chooses the few points of a check.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace chaintrue::cli {
 
 struct CheckPlanOptions {
-  /// The map to check later; empty: something else is planned.
+  /// The map to check later; empty for other plans.
   std::string map;
   grid::CheckPlanRequest request;
   /// Of --measure.

@@ -19,7 +19,7 @@ constexpr double kBedWide = 900.0, kLeft = 30.0, kTop = 80.0, kBelow = 90.0;
 constexpr double kBarWide = 300.0, kBarHigh = 14.0;
 constexpr int kBarSteps = 30;
 
-/// Light to dark, from the least expected error to the largest: dark is bad in grey print as well.
+/// Light to dark, from the least expected error to the largest, so that grey prints are readable.
 std::string colour(double share) {
   constexpr std::array<int, 3> kLight = {255, 247, 236};
   constexpr std::array<int, 3> kDark = {179, 88, 6};

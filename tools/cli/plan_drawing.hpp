@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 struct ExpectedErrors {
   int columns = 0;
   int rows = 0;
-  std::vector<double> cells_mm;  ///< negative where the map has no answer
+  std::vector<double> cells_mm;  ///< negative if the map has no answer
   double rms_mm = 0.0;
   double largest_mm = 0.0;
   model::MarkPoint worst_at;
@@ -29,7 +29,7 @@ struct ExpectedErrors {
                                     const model::Bed& bed,
                                     const ExpectedErrors& errors);
 
-/// Where a follow-up is measured: numbered crosses among the marks that are measured already.
+/// The places of a follow-up: numbered crosses among the existing marks.
 struct FollowUpDrawing {
   std::vector<model::MarkPoint> measured;
   struct Cross {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The part of chaintrue plan that sets holes and tape distances.
+/// The part of chaintrue plan that chooses holes and tape distances.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct HolesPlanOptions {
   grid::HolesPlanRequest request{.holes = 0, .progress = {}};
 };
 
-/// The numbers of holes and distances and their sigmas, as every verb that plans holes has them.
+/// The numbers of holes and distances and their sigmas, shared by all verbs that plan holes.
 void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request);
 
 void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points);

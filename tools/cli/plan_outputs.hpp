@@ -37,7 +37,7 @@ void add_answer(const std::vector<model::MarkPoint>& places,
                 const PlanOutputs& outputs,
                 std::vector<grid::files::OutputFile>& written);
 
-/// Fill it in, and fit it.
+/// The next step: fill it in, and fit it.
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);
 
 }  // namespace chaintrue::cli

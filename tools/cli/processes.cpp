@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 namespace {
 
 // What mpirun (Open MPI), MPICH's hydra and Slurm's own launcher leave in the environment. Started
-// by hand, the program does not wake MPI at all, which would cost more than a small sweep.
+// by hand, the program does not start MPI, which would cost more than a small sweep.
 bool is_launched_together() {
   for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
     if (std::getenv(variable) != nullptr) return true;

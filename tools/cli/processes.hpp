@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The processes that run one command together under mpirun or a cluster's scheduler. Without MPI,
-/// or outside mpirun, there is one.
+/// The processes of one command under mpirun or a cluster's scheduler. Without MPI, or outside
+/// mpirun, there is one.
 #pragma once
 
 #include <cstdint>
 
 namespace chaintrue::cli {
 
-/// Joins the others when it is made, leaves when it goes. One a program.
+/// Joins the others when constructed, leaves when destroyed. One per program.
 class Processes {
  public:
   Processes();
@@ -18,7 +18,7 @@ class Processes {
 
   [[nodiscard]] std::uint64_t rank() const { return rank_; }
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// Returns when all have come here; true for all where `ok` is true for all.
+  /// A barrier; returns true for all if `ok` is true for all.
   [[nodiscard]] bool all(bool ok) const;
 
  private:

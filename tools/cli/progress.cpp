@@ -28,8 +28,8 @@ ProgressState& state() {
 
 #ifdef __EMSCRIPTEN__
 
-/// A page has neither a terminal nor a second thread: its script, Module.onProgress, is given the
-/// words when a step or a share is, not more often than it can show them.
+/// A page has neither a terminal nor a second thread: its script, Module.onProgress, receives the
+/// words with each step or share, not more often than it can show them.
 class Line {
  public:
   void show() {
@@ -55,7 +55,7 @@ std::unique_ptr<Line> shown_line() { return std::make_unique<Line>(); }
 
 using Line = RepeatedLine;
 
-/// Nothing where nobody watches. Short work is not worth a word.
+/// No output without a terminal, or for short work.
 std::unique_ptr<Line> shown_line() {
   if (::isatty(::fileno(stderr)) == 0) return nullptr;
   constexpr std::chrono::seconds kQuiet(1);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Shows at a terminal that work goes on, from one second on: for how long, at what step
-/// of how many it is and, where that can be known, how much of the step is done and how long it will
-/// take yet. Not a byte of it where standard error is no terminal.
+/// Shows progress on a terminal after one second: elapsed time, the step and the number of steps
+/// and, if known, the share done and the time left. No output if standard error is not a terminal.
 ///
 /// \code
 ///   { const ProgressLine line("diagnose"); ... }            // main() does this for every verb
-///   options.progress = shown_progress();                    // whoever works tells its steps
-///   progress_is(finished, total);                           // or how far its only one is
-///   end_progress();                                         // before anything is said
+///   options.progress = shown_progress();                    // receives the steps of the work
+///   progress_is(finished, total);                           // or the progress of a single step
+///   end_progress();                                         // before printing anything
 /// \endcode
 #pragma once
 
@@ -29,9 +28,9 @@ class ProgressLine {
 
 /// Shows the steps that it receives. Safe from any thread, and cheap.
 [[nodiscard]] grid::Progress shown_progress();
-/// Of the step that was received last, or of the whole where none was.
+/// For the last step received, or the whole if none was.
 void progress_is(double finished, double total);
-/// Takes the line away; nothing more is shown. Without a ProgressLine nothing happens.
+/// Removes the line; nothing more is shown. No effect without a ProgressLine.
 void end_progress();
 
 }  // namespace chaintrue::cli

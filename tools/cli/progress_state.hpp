@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a line of progress says: the steps that were told, in the time of a clock that is given.
+/// The text of a progress line, from the steps received and the time of a given clock.
 #pragma once
 
 #include <atomic>
@@ -19,14 +19,14 @@ class ProgressState {
   using Clock = std::function<double()>;
   explicit ProgressState(Clock clock);
 
-  /// From here on the time of the whole counts.
+  /// Starts the time of the whole.
   void begin(std::string verb);
   void note(const grid::WorkStep& step);
-  /// Of the step that was told last, or of the whole where none was; negative while nobody knows. May
-  /// be called millions of times.
+  /// For the last step received, or the whole if none was; negative if unknown. Cheap enough for
+  /// millions of calls.
   void note_share(double share) { share_ = share; }
-  /// "fit: 3 s, step 1 of 2, settings and correction, 40 % done, about 2 s left". The time left is that
-  /// of the step, or of its pass: how long the others will take nobody knows.
+  /// "fit: 3 s, step 1 of 2, settings and correction, 40 % done, about 2 s left". The time left is
+  /// that of the step, or of its pass: that of the others is unknown.
   [[nodiscard]] std::string words() const;
 
  private:

@@ -137,7 +137,7 @@ int query_map(const QueryCommand& command, const grid::CompensationMap& stored) 
   return answer({in_frame}, command);
 }
 
-/// A program for belts knows one frame.
+/// Belts have only one frame.
 int query_anchors(const QueryCommand& command, const InputFile& file) {
   const files::FittedAnchors anchors = load_anchors(file);
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
@@ -170,7 +170,7 @@ int run_query(Verb verb, const QueryCommand& command) {
   return query_map(command, load_map(file));
 }
 
-/// What CLI11 cannot say of the options together.
+/// Rules between options that CLI11 cannot express.
 void check_usage(const QueryCommand& command) {
   const int ways = (command.coordinates.empty() ? 0 : 1) + (command.points.empty() ? 0 : 1) +
                    (command.inverse.empty() ? 0 : 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What chaintrue query answers, as a table and as JSON, of a map of either kind.
+/// The answers of chaintrue query as a table and as JSON, for maps of either kind.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace chaintrue::cli {
 
-/// A map of either kind, as it is asked.
+/// A map of either kind.
 struct AskedMap {
   const grid::LengthMap& map;
   int digits = 6;  ///< of lengths
   /// What the first two lengths are called in messages.
   const char* first = "left";
   const char* second = "right";
-  /// In place of the map's own reason why a point has no answer; empty: that.
+  /// Replaces the map's reason why a point has no answer; empty: the map's.
   std::string no_answer = {};
 };
 
-/// One line of the answer; numbers that are not there are empty cells, or left out.
+/// One line of the answer; missing numbers are empty cells, or omitted.
 struct AnswerLine {
   model::BedPoint point;
   tl::expected<grid::LengthsAnswer, grid::MapFailure> answer;

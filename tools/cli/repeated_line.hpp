@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One line of a terminal, written over and over by a thread of its own.
+/// One line of a terminal, rewritten by a separate thread.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@
 
 namespace chaintrue::cli {
 
-/// Silent for `quiet`; then it writes `words` and erases them for the next, each `step`. Once the object
-/// goes the line is empty.
+/// Silent for `quiet`; then it writes `words` and erases them for the next, each `step`. The line
+/// is empty after destruction.
 class RepeatedLine {
  public:
   RepeatedLine(std::FILE* out,

@@ -33,7 +33,7 @@ struct ReportCommand {
   std::string date;
 };
 
-/// A page of the file, and the command that comes next.
+/// A page of the file, and the next command.
 struct Reported {
   report::Document page;
   std::vector<std::string> next;
@@ -69,7 +69,7 @@ Facts fact_of(FileKind kind) {
   return kind == FileKind::anchors ? facts::anchors : facts::diagnosis;
 }
 
-/// What a page calls its source: the file, or what came through a pipe.
+/// The name of a page's source: the file, or standard input.
 std::string source_of(const InputFile& file) {
   if (file.path != "-") return std::filesystem::path(file.path).filename().string();
   if (file.kind == FileKind::map) return "a map";

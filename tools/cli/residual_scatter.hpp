@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A chart of residuals against something that may drive them: dots of two colours and a curve.
+/// A chart of residuals against a possible cause: dots of two colours and a curve.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ struct ResidualScatter {
   std::string x_title{};
   std::vector<ResidualDot> dots{};
   std::vector<std::pair<double, double>> curve{};  ///< x and mm
-  std::vector<double> y_also_mm{};               ///< what the window holds besides the good dots, 0 and the curve
+  std::vector<double> y_also_mm{};               ///< in the window besides the good dots, 0 and the curve
   double least_span_mm = 0.2;                    ///< of the window
   std::string first_label{};
   std::string second_label{};  ///< empty: one colour
@@ -33,7 +33,7 @@ struct ResidualScatter {
   const char* second_color = report::kAfterColor;
 };
 
-/// Bad dots stand at the rim, so that they do not flatten the rest.
+/// Bad dots are drawn at the rim, so that they do not flatten the rest.
 [[nodiscard]] report::Chart residual_scatter_chart(const ResidualScatter& scatter);
 
 }  // namespace chaintrue::cli

@@ -21,7 +21,7 @@ namespace {
 namespace files = grid::files;
 using model::ControllerKind;
 
-/// Which kinds read the same settings.
+/// Kinds of controllers with the same settings.
 enum class SettingsOf { maslow, wall_plotter, none };
 
 SettingsOf settings_of(ControllerKind kind) {
@@ -37,7 +37,7 @@ SettingsOf settings_of(ControllerKind kind) {
   return SettingsOf::none;
 }
 
-/// The kind of controller that reads `now`. \throws files::InputError where none does.
+/// The kind of controller that has `now`. \throws files::InputError if none does.
 ControllerKind kind_with(const model::Machine& stated,
                          const SettingsFile& now,
                          const ControllerKind* in_place) {

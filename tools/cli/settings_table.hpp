@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The machine's settings in words, as they were stated and as they are calibrated.
+/// The machine's settings in words, stated and calibrated.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct SettingRow {
   std::optional<double> stated_sigma;
   double calibrated = 0.0;
   double sigma = 0.0;
-  /// Further from what was stated than its uncertainty allows.
+  /// Farther from the stated value than its uncertainty allows.
   bool is_off = false;
 };
 [[nodiscard]] report::Table settings_table(const std::vector<SettingRow>& settings);

@@ -13,7 +13,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// Marks are whole millimetres; 0.0 takes the sign off a zero.
+/// Marks are whole millimetres; adding 0.0 removes the sign of a zero.
 std::string whole(double mm) { return fmt::format("{:.0f}", mm + 0.0); }
 
 }  // namespace
@@ -38,7 +38,7 @@ std::vector<SheetVisit> visits_of(const Sheet& sheet) {
   for (const std::size_t mark : order) {
     const std::size_t number = visits.size() + 1;
     SheetVisit visit{number, sheet.marks.at(mark), first[mark]};
-    // A drill follows a hole that is there.
+    // A drill follows an existing hole.
     visit.is_beside = visit.again != 0 && sheet.of == SheetOf::places;
     if (visit.is_beside) visit.mark.x_mm += visit.mark.x_mm > 0.0 ? -kBesideMm : kBesideMm;
     visits.push_back(visit);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A plan of marks as its owner takes it to the machine: a list with empty cells for what is read
-/// there, which fit, diagnose and check read once it is filled in, and a program that drives to the
-/// marks. Same marks, same bytes.
+/// A plan of marks for the machine: a list with empty cells for the readings, which fit, diagnose
+/// and check read once it is filled in, and a program that drives to the marks. Same marks, same
+/// bytes.
 #pragma once
 
 #include <optional>
@@ -15,32 +15,32 @@
 
 namespace chaintrue::cli {
 
-/// What is read at a mark.
+/// The reading at a mark.
 enum class SheetOf {
   places,   ///< the controller is sent there; where the tool stood
   lengths,  ///< the tool is brought there; both chains' lengths
 };
 
-/// From the bed's edge to the outermost marks and holes, where unsaid. A sled of 18 inches stands on
-/// the sheet with more than half of it, which it needs not to tip, and clears the supports below.
+/// Default distance from the bed's edge to the outermost marks and holes. More than half of an 18
+/// inch sled is then on the sheet, which keeps it from tipping, and it clears the supports below.
 inline constexpr double kReachableMm = 100.0;
 /// On a bed of less than half a metre a fifth of its shorter side.
 [[nodiscard]] double reachable_mm(const model::Bed& bed);
 
-/// The words of --measure, and what a machine's owner can do: a controller that knows only settings
-/// tells no lengths.
+/// The words of --measure, and the default for a machine: without a controller of known kinematics
+/// only lengths can be read.
 [[nodiscard]] SheetOf sheet_of(const std::string& word, const model::Machine* machine);
 void add_measure_option(Verb verb, std::string& word);
 
 struct Sheet {
   std::vector<model::MarkPoint> marks;
   SheetOf of = SheetOf::places;
-  /// Numbers of the marks in driving order; empty: each once, as they stand.
+  /// Numbers of the marks in driving order; empty: each once, in the given order.
   std::vector<std::size_t> visits = {};
 };
 
-/// So far beside the first hole a second visit drills, towards the middle: the two are holes of their own,
-/// and one place to who compares them (kRepeatDistanceMm).
+/// Distance from the first hole at which a second visit drills, towards the middle: separate holes
+/// that count as one place (kRepeatDistanceMm).
 inline constexpr double kBesideMm = 15.0;
 
 /// A line of a sheet. Marks are numbered in the order of their first visits.
@@ -49,14 +49,14 @@ struct SheetVisit {
   model::MarkPoint mark;
   std::size_t again = 0;  ///< the number of the mark's first visit; 0: this is the first
   bool is_beside = false;  ///< of a second visit: kBesideMm from there
-  /// "29 (next to mark 8)", or "29 (mark 8 again)" where nothing is drilled
+  /// "29 (next to mark 8)", or "29 (mark 8 again)" if nothing is drilled
   [[nodiscard]] std::string name() const;
 };
 [[nodiscard]] std::vector<SheetVisit> visits_of(const Sheet& sheet);
 
 /// order,commanded_x_mm,commanded_y_mm,x_mm,y_mm or order,x_mm,y_mm,left_mm,right_mm.
 [[nodiscard]] std::string sheet_csv(const Sheet& sheet);
-/// The same as a chaintrue_grid, with the machine and the noise in it.
+/// The list as a chaintrue_grid, including the machine and the noise.
 [[nodiscard]] std::string sheet_json(const Sheet& sheet,
                                      const model::Machine& machine,
                                      const grid::StatedNoise& noise);
@@ -67,7 +67,7 @@ struct DrillOptions {
 };
 void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options);
 
-/// A place of a program, and what it is called in its comments: "hole A".
+/// A place of a program, and its name in comments: "hole A".
 struct DrillPlace {
   std::string name;
   model::BedPoint at;
@@ -76,7 +76,7 @@ struct DrillPlace {
 [[nodiscard]] std::string drill_gcode(std::string_view what,
                                       const std::vector<DrillPlace>& places,
                                       const DrillOptions& options);
-/// Drills every mark; where lengths are read, stops above it until the owner goes on.
+/// Drills every mark; if lengths are read, stops above it until the owner continues.
 [[nodiscard]] std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
 
 /// A list in a file is JSON where the file is called so; on standard output, where it is asked for.

@@ -42,7 +42,7 @@ tr { break-inside: avoid; }
 /// Two tables next to each other, so that an evening's readings are on one sheet of paper; the next
 /// two below, on the next sheet.
 std::string tables_of(const std::string& head, const std::vector<std::string>& rows) {
-  // What is left of A4 and of Letter below the drawings, and a whole sheet.
+  // Space on A4 and Letter below the drawings, and on a whole sheet.
   constexpr std::size_t kFirstSheet = 2 * 18, kNextSheets = 2 * 36;
   std::string text;
   std::size_t from = 0;
@@ -71,7 +71,7 @@ std::string page_of(const std::string& title,
   std::string list = "<ol>\n";
   for (const std::string& step : steps) list += fmt::format("<li>{}</li>\n", escaped(step));
   list += "</ol>";
-  // So many lines leave room for the bed over the sheet's whole width.
+  // With this many lines the bed fits over the sheet's whole width.
   constexpr std::size_t kFewLines = 24;
   const std::string top =
       rows.size() <= kFewLines

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A plan as a page to print: the bed drawn, what is to be done in which order, and lines to write
-/// the readings on. For both A4 and Letter; nothing is fetched, no script runs. Same plan, same
-/// bytes.
+/// A plan as a page to print: the bed drawn, the steps in order, and lines to write the readings
+/// on. For both A4 and Letter; nothing is fetched, no script runs. Same plan, same bytes.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@
 
 namespace chaintrue::cli {
 
-/// `list` is the file that the readings are typed into; where it is empty, standard output's.
+/// `list` is the file for the readings; empty: standard output.
 [[nodiscard]] std::string sheet_page(const Sheet& sheet,
                                      const model::Machine& machine,
                                      const std::string& list);

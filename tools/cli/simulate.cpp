@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue simulate: a grid as a person would measure it on a machine with hidden effects, or the
-/// bare readings at given places.
+/// chaintrue simulate: a simulated grid measured on a machine with hidden effects, or the bare
+/// readings at given places.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ namespace {
 namespace files = grid::files;
 namespace synthetic = grid::synthetic;
 
-/// What is hidden is there to be found, where it is known how well the points were measured.
+/// Diagnose the hidden effects, if the noise of the points is known.
 void say_next_of(const SimulateOptions& options) {
   const bool has_noise = options.holes.plan.holes != 0 || options.noise.length_mm > 0.0;
   if (options.effects.empty() || !has_noise)
@@ -85,7 +85,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   }
   write_output(options.output, files::write_grid(read.grid));
   if (!read.unreachable.empty()) return kNotSupportedOrOutside;
-  // Few readings are for looking at; a map wants as many as a plan has at least.
+  // Few readings are only for viewing; a map needs at least as many as a plan has.
   if (static_cast<int>(read.grid.points.size()) >= grid::kFewestPlanned) {
     say_next_of(options);
   } else {

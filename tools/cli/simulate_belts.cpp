@@ -25,10 +25,10 @@ namespace {
 namespace files = grid::files;
 namespace synthetic = grid::synthetic;
 
-/// A machine as its file has it.
+/// A machine as in its file.
 struct StatedBelts {
   model::BeltMachine machine;
-  std::vector<model::AppliedEffect> causes;  ///< that anchors were fitted with
+  std::vector<model::AppliedEffect> causes;  ///< fitted together with the anchors
 };
 
 StatedBelts belts_of(const std::string& path) {
@@ -54,7 +54,7 @@ StatedBelts belts_of(const std::string& path) {
   return stated;
 }
 
-/// Adds the causes of the file; one that --effect gives stands in its place.
+/// Adds the causes of the file; those of --effect replace them.
 void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& spec) {
   for (model::AppliedEffect& own : causes) {
     const bool is_given = std::any_of(spec.hidden.begin(), spec.hidden.end(), [&](const auto& hidden) {
@@ -126,7 +126,7 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
     std::size_t index = 0;
     std::from_chars(
         problem.parameter.data() + 1, problem.parameter.data() + problem.parameter.size(), index);
-    // What has not the form of an effect is reported already.
+    // Malformed effects are already reported.
     if (spec.hidden[index].effect.empty()) continue;
     problems.add("--effect",
                  problem.value + " in " + options.effects[index],

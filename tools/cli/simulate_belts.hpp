@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue simulate --belts: a router on four belts finds its anchors.
+/// chaintrue simulate --belts: simulates a four-belt router that finds its anchors.
 #pragma once
 
 #include "tools/cli/simulate_options.hpp"
 
 namespace chaintrue::cli {
 
-/// Writes the belts file; an exit code. \throws files::InputError with all that is wrong.
+/// Writes the belts file; an exit code. \throws files::InputError with all problems.
 [[nodiscard]] int simulate_the_belts(const SimulateOptions& options);
 
 }  // namespace chaintrue::cli

@@ -17,7 +17,7 @@ struct HolesOptions {
 
 struct SimulateOptions;
 
-/// Writes the set, and what it hides where that is wanted; returns the exit code. \throws
+/// Writes the set and, if requested, its hidden truth; returns the exit code. \throws
 /// files::InputError for values out of range.
 [[nodiscard]] int simulate_the_holes(const SimulateOptions& options, const model::Machine& stated);
 

@@ -135,7 +135,7 @@ std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::strin
 }
 
 void check_words(const SimulateOptions& options, OptionProblems& problems) {
-  // Belts have effects and offsets of their own, which simulate_belts.cpp checks.
+  // Belts have different effects and offsets, which simulate_belts.cpp checks.
   if (!options.belts.empty()) return;
   synthetic::Design design;
   if (!options.grid.empty()) parse_lattice(options, design, problems);
@@ -143,8 +143,8 @@ void check_words(const SimulateOptions& options, OptionProblems& problems) {
   (void)parse_order(options, problems);
   (void)parse_model(options.model, problems);
   (void)parse_offsets(options.offsets, problems);
-  // What an effect may be does not hang on the machine but for the effects that this has already.
-  // What --effects declares is known once its files are read.
+  // Valid effects depend on the machine only through its existing effects. Effects of --effects are
+  // known after their files are read.
   if (options.declared.empty()) (void)parse_effects(options.effects, model::Machine{}, problems);
 }
 

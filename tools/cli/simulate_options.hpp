@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is said to chaintrue simulate, and what it means.
+/// The options of chaintrue simulate.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ namespace chaintrue::cli {
 
 struct SimulateOptions {
   std::string machine;
-  /// In place of a machine: a chaintrue_belts or chaintrue_anchors file.
+  /// Instead of a machine: a chaintrue_belts or chaintrue_anchors file.
   std::string belts;
-  /// Of belts: how hard they are pulled in each pass, as in 1,1.6.
+  /// For belts: the pull in each pass, as in 1,1.6.
   std::string pulls;
   std::string grid;
   std::string spacing = "regular";
@@ -51,14 +51,14 @@ struct SimulateOptions {
   std::string answer;
 };
 
-/// Of --model; a word that is none becomes a problem.
+/// From --model; an unknown word becomes a problem.
 [[nodiscard]] model::Model parse_model(const std::string& word, OptionProblems& problems);
 /// Of --offset.
 [[nodiscard]] std::vector<grid::synthetic::SettingOffset> parse_offsets(
     const std::vector<std::string>& arguments, OptionProblems& problems);
-/// What the words of a session or of places are, before any file is read.
+/// Checks the options of a session or of places before any file is read.
 void check_words(const SimulateOptions& options, OptionProblems& problems);
-/// A session's whole specification. \throws files::InputError with all that is wrong.
+/// A session's whole specification. \throws files::InputError with all problems.
 [[nodiscard]] grid::synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
                                                         const model::Machine& machine);
 

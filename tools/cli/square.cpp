@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue square: the test square that a person would cut and measure, predicted: by a map, or
-/// when the controller believes one machine and the machine is another; and the program that cuts
-/// it.
+/// chaintrue square: predicts the test square that an owner would cut and measure, by a map or for
+/// a controller with settings that differ from the machine; and the program that cuts it.
 #include <fmt/format.h>
 
 #include <array>
@@ -45,7 +44,7 @@ struct SquareOptions {
 
 constexpr const char* kSideNames[] = {"left", "top", "right", "bottom"};
 
-/// Where nobody says, around `middle`.
+/// By default around `middle`.
 model::SquareTask task_of(const SquareOptions& options, model::BedPoint middle) {
   const double half_mm = 0.5 * options.size_mm;
   const model::BedPoint corner =
@@ -75,8 +74,8 @@ tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& o
                     failure.sentence()});
 }
 
-/// A map, or what stands in its place, with its controller: that of --controller-machine, or the one
-/// that the map was measured with.
+/// A map, or its substitute, with its controller: that of --controller-machine, or the one that the
+/// map was measured with.
 std::unique_ptr<const GcodeMachine> machine_of(const SquareOptions& options) {
   GcodeOptions gcode;
   gcode.map = options.map;
@@ -92,8 +91,8 @@ model::BedPoint middle_of(const interp::Rectangle& sheet) {
   return {0.5 * (sheet.x_min + sheet.x_max), 0.5 * (sheet.y_min + sheet.y_max)};
 }
 
-/// The controller pays out what its settings say for each command; the map tells where the tool is
-/// with that.
+/// The controller pays out lengths by its settings for each command; the map gives the tool's
+/// position for them.
 tl::expected<model::CutSquare, SquareRefusal> by_map(const model::SquareTask& task,
                                                      const GcodeMachine& machine) {
   std::vector<model::BedPoint> cut;
@@ -185,7 +184,7 @@ void say_what_to_do(const SquareOptions& options, const model::SquareTask& task)
             options.program == "-" ? "-" : compensated_name(options.program)});
 }
 
-/// What stands in a map's place, null where two machines do.
+/// The substitute for a map; null for two machines.
 const grid::KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& machine) {
   return machine == nullptr ? nullptr : machine->plotter();
 }

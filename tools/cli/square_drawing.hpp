@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A cut square as a drawing that explains itself: the commanded outline, the cut one with its
-/// errors magnified, and the numbers that a ruler would show. Same square, same bytes.
+/// A self-explanatory drawing of a cut square: the commanded outline, the cut one with its errors
+/// magnified, and the numbers that a ruler would show. Same square, same bytes.
 #pragma once
 
 #include <string>

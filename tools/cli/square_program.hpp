@@ -12,7 +12,8 @@
 namespace chaintrue::cli {
 
 [[nodiscard]] std::string square_program(const model::SquareTask& task, double depth_mm);
-/// Of a V-plotter, in its controller's coordinates: one code on a line, the pen by its own commands.
+/// For a V-plotter, in its controller's coordinates: one code on a line, the pen by its own
+/// commands.
 [[nodiscard]] std::string square_program(const model::SquareTask& task, const grid::SetPlotter& plotter);
 
 }  // namespace chaintrue::cli

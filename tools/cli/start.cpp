@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue start: a folder with the machine, what to do next, and the sheets to print.
+/// chaintrue start: makes a folder with the machine, the next steps, and the sheets to print.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,14 +38,14 @@ struct StartCommand {
   std::string folder = "my-machine";
 };
 
-/// What the plans of `chaintrue plan` make where nothing else is said.
+/// The defaults of `chaintrue plan`.
 struct Plans {
   grid::MeasurementPlan marks;
   grid::HolesPlan holes;
 };
 
 tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) {
-  // Half a millimetre is what a careful eye makes of a square or a tape.
+  // Half a millimetre for careful reading of a square or a tape.
   constexpr double kByEyeMm = 0.5;
   constexpr double kPaidOutMm = 0.1;
   grid::PlanRequest marks;
@@ -96,14 +96,14 @@ int start_template(Verb verb, const std::string& folder) {
   return kDone;
 }
 
-/// Without a file the one word is the folder.
+/// Without a file the only word is the folder.
 bool names_a_folder(const std::string& word) {
   std::error_code error;
   return fs::is_directory(word, error) ||
          (!fs::exists(word, error) && fs::path(word).extension().empty());
 }
 
-/// An .ini that begins with its first section looks like a list: it is not asked for its kind.
+/// An .ini that begins with its first section looks like a list, so its kind is not detected.
 InputFile open_settings(const std::string& path) {
   InputFile file{path, files::name_in_messages(path), files::read_whole_file(path)};
   if (files::is_json(file.text) && file.text.find('{') < file.text.find('['))
@@ -129,7 +129,7 @@ int run_start(Verb verb, const StartCommand& command) {
     fmt::print(stderr, "chaintrue start: {}\n", plans.error().sentence());
     return kNotSupportedOrOutside;
   }
-  // Sheets of a machine file of ours are written to its folder.
+  // Sheets for a chaintrue_machine file are written to its folder.
   std::string folder = command.folder;
   if (started.is_ours && !verb.is_given("folder"))
     folder = fs::path(command.file).parent_path().string();

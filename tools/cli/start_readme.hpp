@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The words that lie in the folder of chaintrue start.
+/// The texts in the folder of chaintrue start.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ struct StartWays {
   double holes_mm = 0.0;
 };
 
-/// Of a folder with the sheets in it.
+/// For a folder with sheets.
 [[nodiscard]] std::string start_readme(const model::Machine& machine, const StartWays& ways);
-/// Of a folder with a machine file to fill in: what every key of it means.
+/// For a folder with a machine file to fill in: the meaning of every key.
 [[nodiscard]] std::string template_readme(const std::string& machine_path);
-/// The same key by key, as comments of the machine file.
+/// The keys' meanings as comments of the machine file.
 [[nodiscard]] std::vector<std::string> template_comments();
 
 }  // namespace chaintrue::cli

@@ -121,7 +121,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
   std::optional<files::ReadSweep> read;
   sweep::SweepRun run;
   try {
-    OptionProblems sound;  // check_options has made sure of it
+    OptionProblems sound;  // ensured by check_options
     run.share = parse_shard(options.shard, sound);
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();
@@ -132,8 +132,8 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
   } catch (...) {
     failure = std::current_exception();
   }
-  // Nobody starts before everybody has looked at the folder, and nobody gathers before everybody
-  // has finished.
+  // No process starts before all have checked the folder, and none collects before all have
+  // finished.
   if (processes.all(failure == nullptr)) {
     try {
       if (processes.rank() == 0)

@@ -61,7 +61,7 @@ report::Table table(const sweep::SweepSpec& spec, const std::vector<files::Level
                    {"cells", true}};
   const auto counts = sweep::level_counts(spec);
   for (const files::LevelError& error : errors) {
-    // A factor of one level says what the grids say.
+    // A factor with one level duplicates the grids.
     if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
     table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
                            sweep::level_name(spec, error.factor, error.level),
@@ -73,7 +73,7 @@ report::Table table(const sweep::SweepSpec& spec, const std::vector<files::Level
   return table;
 }
 
-/// Pooled over the grids, a level of a factor each; 0 where nothing was done.
+/// Pooled over the grids, one for each level of a factor; 0 if nothing was done.
 std::vector<double> errors_of_levels(const std::vector<files::LevelError>& errors,
                                      std::size_t factor,
                                      std::size_t levels) {
@@ -90,7 +90,7 @@ std::vector<double> errors_of_levels(const std::vector<files::LevelError>& error
   return squares;
 }
 
-/// What the sweep says to its own question, a sentence for each factor that varies.
+/// The sweep's answer to its question, a sentence for each varying factor.
 std::vector<std::string> answers(const sweep::SweepSpec& spec,
                                  const std::vector<files::LevelError>& errors) {
   const auto counts = sweep::level_counts(spec);
@@ -118,7 +118,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     const auto level = [&](auto at) {
       return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
     };
-    // What rounds to the same hundredths is the same to whoever cuts with it.
+    // Results that round to the same hundredths are equal in practice.
     if (fmt::format("{:.2f}", *least) == fmt::format("{:.2f}", *most)) {
       sentences.push_back(fmt::format(
           "{}: no difference, {:.2f} mm rms at the tool with each.", kTitles[factor], *least));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What every verb's last line says, and how talk looks: in colours on a terminal, without any in a
-/// pipe, or where NO_COLOR is set (no-color.org).
+/// The last line of every verb, and the style of messages: in colours on a terminal, without any in
+/// a pipe, or where NO_COLOR is set (no-color.org).
 #pragma once
 
 #include <initializer_list>
@@ -11,27 +11,27 @@
 
 namespace chaintrue::cli {
 
-/// Standard error shows colours.
+/// Whether standard error shows colours.
 [[nodiscard]] bool shows_colours();
 [[nodiscard]] std::string in_bold(std::string_view text);
 [[nodiscard]] std::string in_red(std::string_view text);
 
-/// The name under which the command was called, for the lines to paste: `build/chaintrue` as it was
-/// typed, `chaintrue` where it was found on the path.
+/// The name under which the command was called, for the lines to paste: `build/chaintrue` as typed,
+/// `chaintrue` if it was found on the path.
 void set_called_as(std::string_view name);
 
-/// `Next: chaintrue fit 'my marks.csv' -o map.json` on standard error, the words quoted where a
-/// shell needs it. Nothing is said where one of the words is "-": a pipe goes on by itself.
+/// `Next: chaintrue fit 'my marks.csv' -o map.json` on standard error, the words quoted for a shell
+/// if necessary. Prints nothing if one of the words is "-": the pipeline continues.
 void say_next(const std::vector<std::string>& words);
 
-/// Messages under --quiet: kept back, and printed after all where the verb did not do what it was asked.
+/// Messages under --quiet: held back, and printed if the verb fails.
 class QuietTalk {
  public:
   explicit QuietTalk(bool is_quiet);
   ~QuietTalk();
   QuietTalk(const QuietTalk&) = delete;
   QuietTalk& operator=(const QuietTalk&) = delete;
-  /// From here on messages are printed again; what was kept back is printed first if `is_to_be_reported`.
+  /// Messages are printed again; those held back are printed first if `is_to_be_reported`.
   void end(bool is_to_be_reported);
 
  private:
@@ -39,7 +39,8 @@ class QuietTalk {
   int kept_ = -1;
 };
 
-/// Standard output and standard error are one and the same: lines must then end before others begin.
+/// Whether standard output and standard error are the same: lines must then end before others
+/// begin.
 void keep_lines_whole();
 
 }  // namespace chaintrue::cli

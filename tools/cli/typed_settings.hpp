@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A check whose points were commanded with other settings than the map's. Those of a file; or the
-/// numbers of export groundcontrol, all or some of which somebody typed in since the map was measured, or
-/// has not typed in where the map is for them: then it says so, and is of the map for what is in force.
+/// A check whose points were commanded with settings other than the map's: those of a file, or the
+/// numbers of export groundcontrol if all or some were typed in since the map was measured, or not
+/// typed in although the map is for them. This is reported, and the check uses the map for the
+/// settings in force.
 #pragma once
 
 #include <optional>
@@ -13,24 +14,24 @@
 
 namespace chaintrue::cli {
 
-/// The map for what the controller holds by the file `settings`; `measured` becomes what it is as
-/// commanded with these. `map_name` is what messages call the map.
+/// The map for the settings in the file `settings`; `measured` is recomputed for commands with
+/// these. `map_name` is for messages.
 /// \throws files::InputError for a bad file, settings of a wall plotter, or a map without a machine.
 [[nodiscard]] grid::CompensationMap with_settings_of(const std::string& settings,
                                                      const std::string& map_name,
                                                      const grid::CompensationMap& map,
                                                      grid::Measured& measured);
 
-/// Whether a map says that it was made from the file `from`, as that is now.
+/// Whether a map was made from the file `from` with its present content.
 [[nodiscard]] bool was_made_from(const std::string& made, const std::string& from);
 
-/// What the controller held when the map was measured that export made this one from, where that map lies
-/// beside it unchanged.
+/// The controller's settings for the map from which export made this one, if that map is next to it
+/// unchanged.
 [[nodiscard]] std::optional<model::ControllerSettings> settings_before(const std::string& map);
 
-/// `found` is what the check of `map` against `measured` says. Nothing where the map's own settings
-/// serve, or where the others do not explain the points either. The others are those of `before`,
-/// what the controller held before the numbers that the map is for; else those of export groundcontrol.
+/// `found` is the check of `map` against `measured`. Empty if the map's settings fit, or if the
+/// others do not explain the points either. The others are those of `before`, the settings before
+/// the map's numbers; else those of export groundcontrol.
 [[nodiscard]] std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
                                                              const grid::Measured& measured,
                                                              const grid::Check& found,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How a verb joins the command: one pair of files (fit.hpp not needed; fit.cpp defines add_fit),
-/// one line in verbs.def.
+/// How to add a verb: one pair of files (fit.hpp not needed; fit.cpp defines add_fit), one line in
+/// verbs.def.
 ///
 /// \code
 ///   void add_fit(Verb app) {

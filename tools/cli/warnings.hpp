@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a file's reader assumed or found odd, said on standard error.
+/// Prints a reader's assumptions and warnings on standard error.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace chaintrue::cli {
 
-/// `message (name)` where the environment has CHAINTRUE_PROBLEM_NAMES, for tests and other programs:
-/// names stay when sentences change. The message alone otherwise.
+/// `message (name)` if the environment has CHAINTRUE_PROBLEM_NAMES, for tests and other programs:
+/// names are stable when sentences change. Otherwise only the message.
 [[nodiscard]] std::string with_name(std::string message, std::string_view name);
 
 void print_warnings(const std::vector<grid::files::Warning>& warnings);
