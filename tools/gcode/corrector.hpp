@@ -8,7 +8,8 @@
 /// play is half the width of a named direction_hysteresis, with the sign of each chain's direction
 /// of motion; zero if none was named.
 ///
-/// A CorrectionFailure says why there is no command for a position, or no tool for a command.
+/// A CorrectionFailure states why there is no command for a position, or no tool position for a
+/// command.
 #pragma once
 
 #include <string_view>
@@ -36,7 +37,7 @@ using Corrected = tl::expected<T, CorrectionFailure>;
 [[nodiscard]] CorrectionFailure correction_failure(const grid::MapFailure& failure);
 [[nodiscard]] CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why);
 
-/// By which a curvature that was sampled may be too small.
+/// Factor by which a sampled curvature may be too small.
 inline constexpr double kCurvatureSafety = 2.0;
 
 /// Signs of the chains' directions of motion: +1 paying out, -1 reeling in.

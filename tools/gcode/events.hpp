@@ -102,7 +102,7 @@ struct Note {
   std::size_t line = 0;
   std::string_view name;  ///< stable, such as "no_program_end"
   std::string sentence;
-  /// What it is for a reader that needs the program's places on the sheet.
+  /// The problem for a reader that needs the program's places on the sheet.
   std::optional<ProblemName> problem{};
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A map's error changes over the spacing of its points, some hundred millimetres.
 constexpr double kSquareMm = 20.0;
-/// What a plunge counts for among cuts.
+/// Weight of a plunge among cuts.
 constexpr double kPlungeMm = 1.0;
 /// A whole circle in chords that stay within a square.
 constexpr double kChordsPerRadian = 4.0;
@@ -81,7 +81,7 @@ std::optional<ExpectedError> CutPlaces::expected(const grid::LengthMap& map) con
   for (const auto& [at, square] : squares_) {
     const model::BedPoint middle{kSquareMm * (at.first + 0.5), kSquareMm * (at.second + 0.5)};
     const auto answer = map.query(middle);
-    // A square's middle may lie off the map where the cut does not.
+    // A square's middle may be off the map although the cut is not.
     if (!answer) continue;
     if (!answer->tool_sigma_mm) return std::nullopt;
     (answer->status == grid::MapStatus::extrapolated ? outside : measured)

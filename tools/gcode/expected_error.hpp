@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a map says of the tool's error along the cuts of a program, by how much of the cuts lies
-/// where. Rapids cut nothing and do not count.
-///
-/// The sheet is taken in squares, so that memory and time do not grow with the program; a map's
+/// A map's error of the tool along the cuts of a program, weighted by length. Rapids do not count.
+/// The sheet is divided into squares, so that memory and time do not grow with the program; a map's
 /// error changes little within one.
 ///
 /// \code
@@ -38,17 +36,17 @@ struct ExpectedError {
   ErrorAlong outside;
 };
 
-/// Is not copied: it points into itself.
+/// Not copyable: it points into itself.
 class CutPlaces {
  public:
   CutPlaces() = default;
   CutPlaces(const CutPlaces&) = delete;
   CutPlaces& operator=(const CutPlaces&) = delete;
-  /// A straight piece of a cut, on the sheet; of no length where it plunges.
+  /// A straight piece of a cut, on the sheet; of zero length for a plunge.
   void add(std::size_t line, const Point& from, const Point& to);
   /// A whole move of any kind, on the sheet.
   void add(const Move& move);
-  /// Empty where the map does not know its error.
+  /// Empty if the map does not know its error.
   [[nodiscard]] std::optional<ExpectedError> expected(const grid::LengthMap& map) const;
 
  private:

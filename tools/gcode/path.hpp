@@ -32,7 +32,7 @@ constexpr double dot(Point a, Point b) {
 
 /// u along the arc's first axis, v along its second, from the centre, and the height over its plane.
 [[nodiscard]] Point in_plane(const Arc& arc, double u, double v, double height_mm);
-/// Of an arc, so that none bows by more, nor are there fewer.
+/// Number of chords of an arc for this bow, and at least this many.
 [[nodiscard]] double chords_within(double radius_mm,
                                    double sweep_rad,
                                    double bow_mm,
@@ -43,7 +43,7 @@ constexpr double dot(Point a, Point b) {
 
 /// Length of the path, mm. For spirals with the mean radius: their radii differ only by rounding.
 [[nodiscard]] double length_mm(const Move& move);
-/// Of any feed mode; 0 where none was stated.
+/// For any feed mode; 0 if none was stated.
 [[nodiscard]] double feed_mm_per_min(const Move& move);
 
 [[nodiscard]] double distance_mm(Point a, Point b);

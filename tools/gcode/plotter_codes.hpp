@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Codes with which plotters lift their pens and rest their motors, and which LinuxCNC does not know: a
-/// line of one of them is passed on as it is.
+/// Codes with which plotters lift their pens and rest their motors, and which LinuxCNC does not
+/// know: such a line is passed on unchanged.
 ///
 /// Sources: MarlinFirmware/Marlin, Marlin/src/gcode/gcode.cpp; bdring/FluidNC, FluidNC/src/GCode.cpp.
 #pragma once

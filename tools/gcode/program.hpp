@@ -14,8 +14,8 @@
 ///   }
 /// \endcode
 ///
-/// A ProgramStream gives the events one by one to who pulls them: moves, words that are passed
-/// through, the end.
+/// A ProgramStream delivers the events one by one on request: moves, words that are passed through,
+/// the end.
 #pragma once
 
 #include <cstdint>

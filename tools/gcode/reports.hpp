@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a program is: without a map its bounding box, its moves, and the lines that leave the sheet;
-/// with a map the chain lengths along its path, at the end of every move, and between, no further
-/// apart than requested, at least eight per turn.
+/// Reports on a program: without a map its bounding box, its moves, and the lines that leave the
+/// sheet; with a map the chain lengths along its path, at the end of every move, and between, no
+/// further apart than requested, at least eight per turn.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct Box {
 
 struct Sheet {
   interp::Rectangle area;
-  bool is_assumed = false;  ///< nobody has stated it
+  bool is_assumed = false;  ///< not stated
 };
 
 struct Survey {

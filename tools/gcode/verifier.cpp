@@ -50,7 +50,7 @@ std::string words(const PathPiece& piece) {
 }
 
 Dialect with_home_at_zero(Dialect dialect) {
-  // A plotter's home stays where it is, in whatever numbers.
+  // A plotter's home is a fixed place in any coordinates.
   if (auto& place = dialect.plotter_home_mm) {
     for (const std::size_t axis : {0, 1}) (*place)[axis] += dialect.home_mm[axis];
   }
@@ -149,7 +149,7 @@ class Verification {
     }
   }
 
-  /// From home nothing begins but at a place.
+  /// From home curves start only at a known place.
   [[nodiscard]] bool begins_here(const Move& move) const {
     return homed_ ? move.names_xy : begins(move);
   }
