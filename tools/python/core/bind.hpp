@@ -29,7 +29,7 @@ using Pairs = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// Texts of chaintrue_grid, chaintrue_holes and chaintrue_belts files, grids first.
 using Texts = std::vector<std::string>;
-/// As written by this module: a few points or distances are enough, since these may only check.
+/// As written by this module: a few points or distances are enough for a check.
 [[nodiscard]] grid::MeasuredGrid grid_of(const std::string& text);
 [[nodiscard]] grid::files::ReadHoles holes_of(const std::string& text);
 /// From here on files::InputError, cli::Failed and cli::GcodeRefused arrive in Python as the exceptions of

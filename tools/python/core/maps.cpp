@@ -65,7 +65,7 @@ grid::BeltMap belt_map(const FittedAnchors& anchors) {
   return grid::BeltMap(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
 }
 
-/// What answers for a map or for anchors, ready to be asked many times.
+/// A map or anchors, prepared for many queries.
 class Answering {
  public:
   explicit Answering(const std::string& text) {
@@ -87,7 +87,7 @@ class Answering {
 
   /// Of a map.
   [[nodiscard]] std::string sentence() const { return cli::fit_sentence(*map_); }
-  /// Of a map: with its settings as fitted; empty of a direct surface.
+  /// For a map: with its fitted settings; empty for a direct surface.
   [[nodiscard]] std::string machine() const {
     return map_->machine() == nullptr ? "" : files::write_machine(*map_->machine());
   }

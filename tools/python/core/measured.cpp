@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Files read, and texts held to what such a file is held to.
+/// Reads files, and checks texts like files.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -45,8 +45,8 @@ files::ReadHoles read_as_holes(const std::string& text,
   return files::parse_holes(text, file, options);
 }
 
-/// The text as this program writes it, and what was assumed of it in sentences. `machine` is the text
-/// of one in place of that in the file, or empty.
+/// The text as this program writes it, and its warnings. `machine` is the text of a machine that
+/// replaces the file's, or empty.
 py::tuple parse(const std::string& kind,
                 const std::string& text,
                 const std::string& file,
@@ -87,7 +87,7 @@ py::tuple parse(const std::string& kind,
   return answer(files::write_diagnosis(found, files::made_by_of(text, file)), {});
 }
 
-/// The same of a file, and the files that were read for it.
+/// As above for a file, with the files that were read for it.
 py::tuple read(const std::string& kind,
                const std::string& path,
                const std::string& machine,
