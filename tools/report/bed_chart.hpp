@@ -24,8 +24,9 @@ struct Outline {
   double y_max_mm = 0.0;
 };
 
-/// The colours of every chart, page and sheet, of Okabe and Ito's palette, which every colour vision
-/// tells apart. tests/report holds the chart specifications, the page's style and Python to this list.
+/// The colours of every chart, page and sheet, from Okabe and Ito's palette, which is
+/// distinguishable with every colour vision. tests/report holds the chart specifications, the
+/// page's style and Python to this list.
 inline constexpr const char* kBeforeColor = "#d55e00";  ///< as it is, too long, a bad reading
 inline constexpr const char* kAfterColor = "#0072b2";   ///< with the map or the causes, too short
 inline constexpr const char* kThirdColor =

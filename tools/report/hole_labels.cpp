@@ -66,7 +66,7 @@ class Labels {
     return labels;
   }
 
-  /// 0: nearer to its own hole than to any other, on nothing and within the drawing.
+  /// 0: nearer to its hole than to any other, without overlap, and within the drawing.
   [[nodiscard]] double fault_of(const HoleLabel& label, std::size_t own) const {
     // Off the bed it would be cut at the picture's edge.
     double fault =

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where the names of holes stand in a drawing, so that none can be read as a neighbour's: a label is
-/// nearer to its own hole than to any other and lies on no label and no hole.
-///
-/// A label has a name and a place, "A (-1118, 509)". Where no position for both keeps to that, the place
-/// is left out; the list next to the drawing has it.
+/// Positions of the holes' names in a drawing, so that none can be read as a neighbour's: a label
+/// is nearer to its hole than to any other and covers no label and no hole. A label has a name and
+/// a place, "A (-1118, 509)". If no position fits both, the place is omitted; it is in the list
+/// next to the drawing.
 #pragma once
 
 #include <string>
@@ -31,8 +30,8 @@ struct HoleLabel {
 /// From a point to the nearest point of a label; 0 inside.
 [[nodiscard]] double distance_to(const HoleLabel& label, double x, double y);
 
-/// One for each hole, between `left` and `right`. Where holes are too near each other for any position
-/// it is the one that overlaps least.
+/// One for each hole, between `left` and `right`. If holes are too close for any position, the one
+/// with the least overlap.
 [[nodiscard]] std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
                                                   double left,
                                                   double right);
