@@ -2,8 +2,8 @@
 // Compensating G-code as it comes from CAM programs: a relief of short straight cuts and a plate of
 // arcs, on a map that was fitted to fixtures/grids/seven_by_four.json. items_per_second are input
 // blocks. gcode/compensate_and_verify runs the output on the simulated controller and machine too,
-// as the command does. gcode/compensate/200_mb streams a program of 200 MB that is made as it is
-// read; peak_rss_mb is the whole process's, map and benchmark included.
+// as the command does. gcode/compensate/200_mb streams a program of 200 MB that is generated while
+// it is read; peak_rss_mb is the whole process's, map and benchmark included.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -55,7 +55,7 @@ void query_with_sigma(benchmark::State& state) {
 }
 BENCHMARK(query_with_sigma)->Name("map/query");
 
-/// A thousand places at once, as a program that is compensated or drawn asks for them.
+/// A thousand places at once, as in compensating or drawing a program.
 std::vector<model::MarkPoint> thousand_places() {
   std::vector<model::MarkPoint> places;
   for (int i = 0; i < 1000; ++i) places.push_back({2.0 * i - 1000.0, 0.5 * i - 250.0});
