@@ -64,7 +64,7 @@ grid::MeasuredGrid few_of(const Scan& scan, grid::MeasuredGrid whole) {
   return whole;
 }
 
-/// Of the tool at the marks that were not fitted, in x and y.
+/// Errors of the tool at the marks that were not fitted, in x and y.
 Eigen::Vector2d rms_at_others(const Scan& scan,
                               const grid::MeasuredGrid& whole,
                               const grid::CompensationMap& map) {
@@ -111,7 +111,7 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
   EXPECT_LE(rms.y(), GetParam().most_y_rms_mm);
 }
 
-// With the noise stated causes are weighed; as scanned nobody states it, and none is.
+// With stated noise causes are compared; the scan states none, so no cause is.
 TEST_P(RealScans, CausesMakeNoMapWorse) {
   const grid::MeasuredGrid whole = whole_of(GetParam());
   grid::MeasuredGrid few = few_of(GetParam(), whole);

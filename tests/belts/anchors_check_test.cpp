@@ -34,7 +34,7 @@ TEST(AnchorsCheck, NamesABeltWhoseZeroShiftedWithItsSize) {
   const Check check = check_anchors(*fit, shifted).value();
   EXPECT_EQ(check.hypotheses.front().what, model::Change::zero) << "seeds 1 and 501";
   EXPECT_EQ(check.hypotheses.front().side, "br");
-  // Six places of which each leaves br some half of its noise, and the anchors' own doubt.
+  // Six places that each leave br about half of its noise, and the anchors' uncertainty.
   EXPECT_NEAR(check.hypotheses.front().size(), 6.0, 4.0 * kNoiseMm);
   EXPECT_THAT(check.sentence, HasSubstr("drawn in and let out anew"));
 }

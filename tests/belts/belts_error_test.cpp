@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// By how much a router on four belts misses, today and with fitted anchors, against machines whose
-// truth is known.
+// The error of a four-belt router, today and with fitted anchors, on machines with a known truth.
 #include "grid/belts/belts_error.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +30,8 @@ MeasuredBelts measured(double noise_mm, std::uint64_t seed) {
       .value();
 }
 
-/// Over the part of the frame that was measured: where the tool of `truth` is for commands of a
-/// controller that believes `believed`, the shift and turn that lay the sheet taken out.
+/// Over the part of the frame that was measured: the tool of `truth` for commands of a controller
+/// with `believed`, without the shift and turn that place the sheet.
 double true_error_mm(const model::BeltMachine& believed, const model::BeltMachine& truth) {
   constexpr int kColumns = 20;
   constexpr int kRows = 12;
@@ -62,13 +61,14 @@ TEST(BeltsError, TodayIsWhatTheTrueMachineMissesBy) {
   ASSERT_TRUE(error->today);
   const double true_mm = true_error_mm(testing_support::stated(), testing_support::truth());
   EXPECT_GT(true_mm, 1.0) << "12 and 9 mm at two anchors";
-  // Two rasters over one area, whose outer rows lie up to a tenth of it apart; what wrong anchors do grows at most with
-  // the square of the distance from the middle: 1 - 0.9^2.
+  // Two rasters over one area, whose outer rows lie up to a tenth of it apart; the effect of wrong
+  // anchors grows at most with the square of the distance from the middle: 1 - 0.9^2.
   EXPECT_NEAR(error->today->rms_mm, true_mm, 0.19 * true_mm);
   EXPECT_GE(error->today->maximum_mm, error->today->rms_mm);
 }
 
-// To first order the error is the sum of what each principal axis of the anchors' covariance moves.
+// To first order the error is the sum of the shifts by each principal axis of the anchors'
+// covariance.
 TEST(BeltsError, ExpectedIsWhatTheAnchorsUncertaintyMoves) {
   const auto fit = fit_belts(measured(0.5, 1)).value();
   const auto error = error_of_belts(fit);

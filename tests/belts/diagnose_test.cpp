@@ -181,8 +181,8 @@ TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {
   EXPECT_EQ(again.causes.front().cause, found.causes.front().cause);
 }
 
-// A skip near to the noise: what is likely is not said to be absent as well, and no places are proposed that
-// reach next to nothing.
+// A skip near the noise: a likely cause is not also reported absent, and no places are proposed
+// that achieve almost nothing.
 TEST(BeltsDiagnosis, WhatMayActIsNotAbsent) {
   int likely = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -220,7 +220,7 @@ TEST(BeltsDiagnosis, FailsInTheWordsOfTheFit) {
   EXPECT_THAT(found.error().sentence(), HasSubstr("too few"));
 }
 
-// With the causes nothing but this uncertainty is left of the tool's error.
+// With the causes only this uncertainty remains of the tool's error.
 TEST(BeltsDiagnosis, WhatTheReadingsLeaveUncertainIsInEveryErrorOfTheTool) {
   const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
   const Diagnosis found = diagnosed(read.belts);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws in the lengths of four belts: found beside a listed cause, said in the sentence, kept in the file,
-/// drawn, and none where there is none.
+/// Laws in the lengths of four belts: found besides a listed cause, reported, written to the file,
+/// drawn, and not found if there is none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(LawsOfBelts, AWaveOfOneTurnIsFoundBesideTheStretch) {
   // Four sigmas: once in ten thousand sets.
   EXPECT_NEAR(size.value, 1.2, 4.0 * size.sigma);
   EXPECT_NEAR(period.value, kTurnMm, 4.0 * period.sigma);
-  // A real frame's belts give with the pull; that stays named.
+  // A real frame's belts yield with the pull; that cause is still named.
   ASSERT_FALSE(found.causes.empty());
   EXPECT_EQ(found.causes.front().cause.effect->id, "belt_stretch");
   EXPECT_THAT(found.sentence,
@@ -78,7 +78,7 @@ TEST(LawsOfBelts, EachPointStandsNextToTheCurve) {
     square += std::pow(point.residual_mm - value_of(law, point.at), 2);
     EXPECT_FALSE(point.left_x_mm) << "belts do not tell where the tool should have been";
   }
-  // What these readings scatter by without any law: a quarter of a millimetre.
+  // The scatter of these readings without a law: a quarter of a millimetre.
   EXPECT_LT(std::sqrt(square / static_cast<double>(law.points.size())), 0.6);
 }
 
@@ -88,7 +88,7 @@ TEST(LawsOfBelts, NoneIsFoundWhereNoneIs) {
   EXPECT_THAT(found.unexplained->laws, IsEmpty());
 }
 
-// The belts give with and without the wave: the law changes no name.
+// The belts yield with and without the wave: the law changes no name.
 TEST(LawsOfBelts, CausesAreComparedOnceMoreWithoutIt) {
   BeltsAnalysis a = analyse(with_wave(1.2), {}).value();
   const BeltRules rules(a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Anchors by the one estimator: at the minimum of the sum of squares, wherever it starts.
+/// Anchors by the estimator: at the minimum of the sum of squares, from any start.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ std::vector<NamedSet> simulated_sets() {
   return sets;
 }
 
-/// Readings of real machines; none where they are not with this checkout.
+/// Readings of real machines; empty without the shared data.
 std::vector<NamedSet> real_sets() {
   std::vector<NamedSet> sets;
   const std::filesystem::path folder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4";
@@ -117,7 +117,8 @@ struct Slopes {
   double by_place = 0.0;
 };
 
-/// By formulas of their own: a belt's print moves with its anchor as with its place, the other way.
+/// By independent formulas: the derivative of a printed length by its anchor is minus that by its
+/// place.
 Slopes slopes_at(const MeasuredBelts& measured, const BeltsFit& fit) {
   const auto column_of = [](Belt belt) -> Eigen::Index {
     return belt == Belt::tl ? 0 : belt == Belt::tr ? 2 : belt == Belt::br ? 4 : -1;
@@ -211,8 +212,9 @@ TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
   }
 }
 
-// The estimator's loop for units rejects a place, whose two rows are one unit, and weights down what
-// lies beyond 95 of 100; the search for single readings keeps the other three of the place.
+// The estimator's loop for units rejects a place, whose two rows are one unit, and reduces the
+// weight of those beyond 95 of 100; the search for single readings keeps the other three of the
+// place.
 TEST(OneEstimator, TheLoopForUnitsRejectsThePlacesOfWhichAReadingIsRejected) {
   for (const std::uint64_t seed : {11, 12}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Belts that stretch when they are pulled, and holes, in one fit: the stretch is found with the
-// anchors, which it no longer bends.
+// Stretching belts and holes in one fit: the stretch is estimated with the anchors and no longer
+// distorts them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStretch = 0.002;
 
-/// Belts read short by that share of themselves at the pull of their motors, by their tension.
+/// Belts read short by this share at the pull of their motors, in proportion to their tension.
 SimulatedHoles stretched(std::uint64_t seed) {
   SimulatedHoles made = simulate_with_holes({.seed = seed});
   int visit = 0;

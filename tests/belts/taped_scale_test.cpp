@@ -16,7 +16,7 @@ using model::Belt;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Belts that give by 0.4 %, and the diagonal of the true frame.
+/// Belts that stretch by 0.4 %, and the diagonal of the true frame.
 MeasuredBelts stretched_and_taped() {
   synthetic::BeltsSpec spec;
   spec.width_share = 0.7;

@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid::two_pulls {
 
-/// Of the second pass, over the first.
+/// Pull of the second pass over the first.
 inline constexpr double kHarder = 1.6;
 
 inline MeasuredBelts measured(std::vector<model::AppliedEffect> hidden,

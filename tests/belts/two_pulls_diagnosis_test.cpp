@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sessions in which belts were pulled to two forces: how they are simulated, and that what gives with the
-// pull parts from what does not.
+// Sessions with two pulls of the belts: their simulation, and that causes that yield with the pull
+// are distinguished from others.
 #include <gtest/gtest.h>
 
 #include "grid/diagnosis/diagnose.hpp"
@@ -24,7 +24,7 @@ TEST(TwoPulls, APassHasItsPullAndVisitsAreNumberedOn) {
     const BeltPoint& first = belts.points[k];
     const BeltPoint& second = belts.points[k + 42];
     EXPECT_EQ(*second.order, static_cast<int>(k) + 42);
-    // A belt that holds carries more as well: 0.6 of 0.4 % times its own tension, less the weight's part.
+    // A holding belt carries more too: 0.6 of 0.4 % times its own tension, less the weight's part.
     EXPECT_LT(second.lengths_mm.tl, first.lengths_mm.tl);
     EXPECT_LT(second.lengths_mm.tr, first.lengths_mm.tr);
     // Level spans of belts with arm and heights: 0.6 of 0.4 % of the belt, to a twentieth.
@@ -42,7 +42,7 @@ TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
   const Diagnosis two = diagnosis::diagnose(measured(flex, {1.0, kHarder}, 0.5, 3)).value();
   ASSERT_EQ(two.verdict, Verdict::named) << two.sentence;
   EXPECT_EQ(two.causes.front().cause.effect->id, "anchor_flex") << two.sentence;
-  // It is at the least pull that sizes are said, to three of its sigmas.
+  // Sizes are reported at the least pull, to three of their sigmas.
   EXPECT_NEAR(two.causes.front().parameters.front().value,
               2.0,
               3.0 * two.causes.front().parameters.front().sigma);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Files of cases: command lines as somebody would paste them, and what must follow. One line each:
+/// Files of cases: command lines as pasted by a user, and the expected results. One line each:
 ///
 ///   given NAME             steps that cases of this file begin with; they run once
 ///   case NAME
@@ -8,7 +8,7 @@
 ///   file PATH              holds the lines that follow and begin with "| "
 ///   $ LINE                 a shell line in the case's folder; $F are the fixtures; a case that uses
 ///                          $D, the shared data, or $MPIRUN is skipped where there is none
-///   exit CODE [CODE...]    of the last line; 0 where nothing is said
+///   exit CODE [CODE...]    of the last line; 0 by default
 ///   exists PATH...         absent PATH...        same PATH PATH
 ///   has PATH TEXT          lacks PATH TEXT       lines PATH COUNT
 ///   says BEGIN             a line of .err begins like this: a file, a place in it, the value found
@@ -47,7 +47,7 @@ struct CaseFile {
   std::vector<Case> cases;
 };
 
-/// \throws std::runtime_error with the line of what it does not know.
+/// \throws std::runtime_error with an unknown line.
 [[nodiscard]] CaseFile read_cases(const std::filesystem::path& path);
 
 }  // namespace chaintrue::testing_support

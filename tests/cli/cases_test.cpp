@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A temporary folder, and what the steps of a case do and find there.
+/// A temporary folder, and the steps and checks of a case in it.
 class Workplace {
  public:
   explicit Workplace(const CaseFile& file) : file_(file) {
@@ -82,7 +82,7 @@ class Workplace {
     }
   }
 
-  /// A given runs once a process; each case has a copy of what it left.
+  /// A given runs once per process; each case gets a copy of its result.
   void begin_where(const std::string& name) {
     static std::map<std::string, std::unique_ptr<Workplace>> done;
     auto& place = done[file_.path.string() + " " + name];
@@ -109,7 +109,7 @@ class Workplace {
         " MPIRUN=" CHAINTRUE_MPIRUN " PATH=$(dirname " CHAINTRUE_COMMAND "):$PATH && { " + line +
         "\n} >.next.out 2>.next.err";
     const int status = std::system(shell.c_str());
-    // The line itself may read what the last one printed.
+    // The line may read the last one's output.
     for (const char* stream : {"out", "err"})
       fs::rename(folder_ / (std::string(".next.") + stream), folder_ / (std::string(".") + stream));
     code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

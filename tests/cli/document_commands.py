@@ -30,7 +30,7 @@ def verbs_in(text):
 def documents(root):
     index = (root / "docs/index.md").read_text(encoding="utf-8")
     found = [(root / "docs" / target).resolve() for target in re.findall(r"\]\(([^)#]*\.md)\)", index)]
-    # What changed is said of versions that had other options.
+    # A changelog mentions versions with other options.
     return [root / "README.md"] + [path for path in found if path.name != "CHANGELOG.md"]
 
 
@@ -59,7 +59,7 @@ def problem_of(command, words):
         at += 1
     if not verbs and words and re.fullmatch(r"[a-z][a-z0-9]*", words[0]) and words[0] != "help":
         return f"there is no verb {words[0]}"
-    # What the command takes before a verb it takes after one as well.
+    # Options before a verb are also accepted after it.
     known = set(re.findall(r"(?<![\w-])--?[a-zA-Z][\w-]*", help_of(command) + help_of(command, *verbs)))
     for word in words[at:]:
         option = re.match(r"(--[a-z][\w-]*|-[a-zA-Z])(?=[=,.)\]]|$)", word)

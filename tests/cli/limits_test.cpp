@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is too much is refused while it is read: 256 MB of memory and 2 s of processor time for any refused input.
+// Oversized input is refused while it is read: 256 MB of memory and 2 s of processor time for any
+// refused input.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -52,7 +53,7 @@ const std::vector<Flood>& floods() {
 
 class Limits : public testing_support::CommandFixture {
  protected:
-  /// Runs the command by itself: its exit code and what it took.
+  /// Runs the command: its exit code, memory and time.
   void expect_refused_soon(const std::string& command) const {
     SCOPED_TRACE(command);
     const pid_t child = ::fork();
@@ -70,7 +71,7 @@ class Limits : public testing_support::CommandFixture {
     EXPECT_FALSE(exists("out.json"));
     constexpr std::uintmax_t kMostSaid = 4000;  // bytes: a page of the terminal
     EXPECT_LT(std::filesystem::file_size(folder_ / "said"), kMostSaid);
-// Sanitizers and builds that are not optimised take several times as much of either.
+// Sanitizers and unoptimised builds take several times as much of either.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     constexpr long kMostKb = 256L * 1024L;
 #if defined(_GLIBCXX_ASSERTIONS)
@@ -92,7 +93,7 @@ TEST_F(Limits, HoldForEveryKindOfFile) {
     if (flood.file.ends_with(".json")) text += flood.file == "points.json" ? "]}" : "}";
     write(flood.file, text);
     expect_refused_soon(flood.command + " " + flood.file);
-    // Twelve times as much, of which no more is read, whatever it is.
+    // Twelve times as much, of which no more is read.
     if (&flood != &floods().front()) continue;
     std::filesystem::resize_file(folder_ / flood.file, kFarTooLarge);
     for (const char* command : {"fit ", "import groundcontrol ", "import plotter "})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A drawing's fit in a map's place: G-code for a plotter with Marlin whose gondola tilts and whose pins
-// are not level, which no setting of Marlin says. Pens hang by tests/lab/generator.
+// A drawing's fit instead of a map: G-code for a plotter with Marlin whose gondola tilts and whose
+// pins are not level, for which Marlin has no setting. Pens hang by tests/lab/generator.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ constexpr double kSpacingMm = 1200.0;
 /// In the controller's coordinates the pins are here.
 constexpr double kMiddleX = 600.0, kMiddleY = 900.0;
 
-/// Nothing is typed in first, so that corrections are some hundredths of what is drawn.
+/// Without typing numbers in first, corrections are some hundredths of the drawing.
 const std::string kSteep = " --steepest-correction 0.1";
 
 Json stated_plotter(const std::string& firmware) {
@@ -114,7 +114,7 @@ double apart(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/// By how much all distances between the corners of a square of this side are off, at worst.
+/// The largest error of all distances between the corners of a square of this side.
 double worst_distance(const std::vector<std::array<double, 2>>& corners, double side_mm) {
   double worst = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -138,7 +138,7 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
   corners.pop_back();
   const double before = worst_distance(corners, 500.0);
   EXPECT_GT(before, 3.0);
-  // square says the same of the plotter as it was found: what a ruler reads is within its noise.
+  // square agrees for the fitted plotter: a ruler's readings are within their noise.
   const Outcome sides = run("square --map found.json --size-mm 500 --json");
   ASSERT_EQ(sides.code, 0) << sides.err;
   const Json predicted = Json::parse(sides.out);
@@ -175,7 +175,7 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
                               apart(a, b));
     }
   }
-  // The ruler's 0.3 mm on 24 measures leave about as much.
+  // The ruler's 0.3 mm on 24 measures give about this error.
   EXPECT_LT(worst_distance(found, 500.0), 0.6);
   EXPECT_LT(bow, 0.3);
   EXPECT_LT(worst_distance(found, 500.0), 0.2 * before);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// V-plotters through the command: settings in, a test page out, what a ruler read of it in, and the
-// numbers to type in out. Pens hang by tests/lab/generator, which shares no equation with the product.
+// V-plotters through the command: settings in, a test page out, ruler readings in, and the numbers
+// to type in out. Pens hang by tests/lab/generator, which shares no equation with the product.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ constexpr double kSpacingMm = 1500.0;
 constexpr double kPulleyMm = 12.69;
 constexpr double kMassBelowMm = 20.0;
 
-/// A mural as the generator can hang one: stiff belts, pulleys as far off the wall as the pins, and a
-/// tilt below half a radian.
+/// A mural that the generator can simulate: stiff belts, pulleys as far off the wall as the pins,
+/// and a tilt below half a radian.
 Json stiff_mural() {
   return Json::parse(R"({
   "file_type": "chaintrue_plotter", "format_version": "1.0",
@@ -41,7 +41,7 @@ Json stiff_mural() {
     "area": {"left_mm": -400, "right_mm": 400, "top_mm": -300, "bottom_mm": -1100}}}})");
 }
 
-/// What is typed into the firmware.
+/// The firmware's settings.
 struct Typed {
   double top_distance_mm = kSpacingMm;
   double pulley_diameter_mm = kPulleyMm;
@@ -78,7 +78,7 @@ class HiddenMural {
   generator::HiddenPlotter plotter_;
 };
 
-/// The drawing with every null filled in, to a tenth of a millimetre as a person writes.
+/// The drawing with every null filled in, to a tenth of a millimetre.
 Json filled_in(const Json& drawing, const Typed& typed, double noise_mm, std::uint64_t seed) {
   const HiddenMural mural;
   return testing_support::ruled(

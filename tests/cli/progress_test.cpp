@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is shown of the work that goes on, by a clock that the test turns; and that the long computations
-// tell their steps.
+// The progress display, by a clock under the test's control; and that long computations report
+// their steps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(ProgressState, SaysHowMuchIsDoneAndHowLongTheStepWillTakeYet) {
   EXPECT_EQ(state.words(), "sweep: 2 s");
   state.note_share(0.25);
   EXPECT_EQ(state.words(), "sweep: 2 s, 25 % done, about 6 s left");
-  // A step has a clock of its own.
+  // A step has a separate clock.
   state.note({"the map at the new points", 1, 2, 0.0});
   now_s = 110.0;
   state.note({"the map at the new points", 1, 2, 0.8});
@@ -84,7 +84,7 @@ TEST(RepeatedLine, IsSilentForShortWork) {
   EXPECT_EQ(text_of(file.get()), "");
 }
 
-/// The steps that were told, each with the last share.
+/// The steps received, each with the last share.
 struct Told {
   std::map<int, grid::WorkStep> steps;
   grid::Progress progress() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a person reads off a test drawing that a hidden plotter drew.
+/// Readings of a test drawing that a hidden plotter drew.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace chaintrue::testing_support {
 /// Where the pen comes to rest for a command in the frame of the pins.
 using PenOf = std::function<generator::PenAtRest(double x_mm, double y_mm)>;
 
-/// The drawing with every null filled in, to a tenth of a millimetre as a person writes.
+/// The drawing with every null filled in, to a tenth of a millimetre.
 inline nlohmann::ordered_json ruled(nlohmann::ordered_json drawing,
                                     const PenOf& pen,
                                     double noise_mm,

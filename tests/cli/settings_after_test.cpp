@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Once better numbers are typed in, the map of --map-after is right and the one before is not. The
-// machine is the hidden side's own (tests/lab/generator), the controller is written down here from the
-// firmware's description, and what the tool does is computed from what was written: the product's
-// models decide nothing. What check and compensate say of settings: tests/cli/cases/settings.cases.
+// After typing in better numbers, the map of --map-after is right and the previous one is not. The
+// machine is the hidden side's own (tests/lab/generator), the controller is written down here from
+// the firmware's description, and what the tool does is computed from what was written: the
+// product's models decide nothing. What check and compensate say of settings:
+// tests/cli/cases/settings.cases.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ Lengths paid_out(const Settings& s, Vec2 command) {
   return lengths;
 }
 
-/// What the machine truly is: worn chains, motors and ring some millimetres off what was typed.
+/// The true machine: worn chains, motors and ring some millimetres off the typed values.
 class Truth {
  public:
   Truth() {
@@ -229,9 +230,9 @@ TEST_P(SettingsAfter, TheMapAfterIsRightAndTheOneBeforeIsNot) {
   const double typed_alone = true_error_mm("part.nc");
   // One draw of a smooth error over the bed has few independent parts: twice its sigma is rare.
   EXPECT_LT(after, 2.0 * stated);
-  // What the numbers mend, the old map mends once more.
+  // The old map repeats the correction by the numbers.
   EXPECT_GT(before, 2.0);
-  // Numbers cannot say that the beam's middle is not the bed's and that it rises; the map can.
+  // Settings cannot describe a beam that rises and is not centred on the bed; the map can.
   EXPECT_LT(after, 0.5 * typed_alone);
 }
 

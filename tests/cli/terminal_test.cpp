@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// At a terminal: work that takes long says so, and Ctrl-C stops it without leaving files behind. What is
-// said by which clock is tested in progress_test.cpp.
+// At a terminal: long work shows its progress, and Ctrl-C stops it without leaving files behind.
+// The timing is tested in progress_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>

@@ -14,7 +14,7 @@ int main(int count, char** arguments) try {
   // Bad input throws, with every problem in the message.
   const auto read = files::read_grid(arguments[1]);
 
-  // A normal numeric outcome is a value: test it, and read its reason or its sentence.
+  // A normal numeric outcome is a value: test it, and read its reason or sentence.
   const auto map = grid::fit(read.grid);
   if (!map && map.error() == grid::FitReason::no_machine) return 3;
   if (!map) return fmt::print(stderr, "{}\n", map.error().sentence()), 1;
@@ -42,7 +42,7 @@ int main(int count, char** arguments) try {
     fmt::print("{}: probability {:.2f}\n", cause.cause.effect->id, cause.probability);
   }
 
-  // Everything that the report draws, as a file, with the files that were read for it.
+  // All data of the report, as a file, with its input files.
   const grid::Provenance made_by = {
       std::string(files::version()), "consumer", {}, files::sources_read()};
   std::ofstream(arguments[2]) << files::write_diagnosis(*found, made_by);

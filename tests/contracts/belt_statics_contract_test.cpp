@@ -96,7 +96,7 @@ TEST(BeltTensions, OneThatHoldsCarriesWhatIsAlongItAndThreeTheLeast) {
   EXPECT_GT(one.tl, 0.0);
   const Anchor& a = machine.anchors.tl;
   const Eigen::Vector2d along(a.x_mm - place.x_mm, a.y_mm - place.y_mm);
-  // What is left of the forces is across that belt: rounding.
+  // The remaining force is across that belt: rounding.
   EXPECT_NEAR(force(machine, one, place).dot(along.normalized()), 0.0, 1e-12);
   const PerBelt<double> three = tensions_of(machine, kOnePulled, 1.0, place);
   for (const Belt belt : kBelts) EXPECT_LE(three[belt], 1.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The effects of the catalogue that act on paper, chain and reading, written as files, do to a
-/// session what the built-in ones do.
+/// The effects of the catalogue that act on paper, chain and reading, written as files, change a
+/// session as the built-in ones do.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is done with a calibrated mechanism is the same whatever hangs: a map that answers both ways,
-/// and a check by new readings. Two chains, four belts and a toy that no product code knows are fitted
-/// from readings at positions that are known and, where their lengths check each other, at some that
-/// nobody measured.
+/// A calibrated mechanism of any kind gives a map that answers both ways, and a check by new
+/// readings. Two chains, four belts and a toy that no product code knows are fitted from readings
+/// at positions that are known and, where their lengths check each other, at some that nobody
+/// measured.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -26,7 +26,7 @@ using MechanismPtr = std::shared_ptr<const Mechanism>;
 
 constexpr double kNoiseMm = 0.3;
 
-/// A mechanism; what re-zeroing mends and what it does not, as readings show them.
+/// A mechanism, with changes that re-zeroing corrects and that it does not.
 struct Hung {
   std::string name;
   std::function<MechanismPtr()> make;
@@ -51,7 +51,7 @@ std::vector<Hung> every_mechanism() {
   return {{"chains",
            [] { return model::make_chain_mechanism(model::Machine{}); },
            false,
-           // Both motors' x by as much sideways: no zero does that to lengths of all directions.
+           // Both motors shifted equally in x: no zero has that effect in all directions.
            [](const Mechanism& m) { return shifted(*shifted(m, 0, 9.0), 3, -9.0); },
            {0}},
           {"belts",
@@ -66,8 +66,8 @@ std::vector<Hung> every_mechanism() {
            {0, 1, 2}}};
 }
 
-/// `columns` by `rows` places over the middle of what the mechanism reaches, each with noise; of every
-/// third nobody says where it is, where `some_unknown`.
+/// `columns` by `rows` places over the middle of what the mechanism reaches, each with noise; every
+/// third at an unknown position if `some_unknown`.
 std::vector<LengthsAtPlace> read(const Mechanism& truth,
                                  int columns,
                                  int rows,
@@ -140,7 +140,7 @@ TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
     EXPECT_NEAR(first->right_mm, answer->lengths_mm[1], 1e-11);
     const auto tool = map.tool({answer->lengths_mm[0], answer->lengths_mm[1]});
     ASSERT_TRUE(tool) << tool.error().sentence();
-    // What Newton's steps end at.
+    // Newton's tolerance.
     EXPECT_NEAR(tool->x_mm, at.x_mm, 1e-9);
     EXPECT_NEAR(tool->y_mm, at.y_mm, 1e-9);
     EXPECT_GT(answer->sigma.left_mm, 0.0);
@@ -190,7 +190,8 @@ std::array<int, 3> verdicts(const Hung& hung,
   return count;
 }
 
-// Of 40 sets four may miss a verdict that is right nineteen times in twenty: more in one run of twenty.
+// Of 40 sets four may miss a verdict that is right nineteen times in twenty; more do in one run in
+// twenty.
 constexpr int kMostWrong = 4;
 
 TEST_P(CalibratedMechanism, FreshReadingsSayThatItIsStillValid) {

@@ -64,7 +64,7 @@ Analysis analysed(double knot_mm) {
   return *std::move(analysis);
 }
 
-/// A knot is a zero that is off by more than a zero of 2 mm ever is: ten of its sigmas.
+/// A knot acts like a zero error of ten sigmas of 2 mm.
 TEST(MechanismDiagnosis, TheEffectOfAToyIsNamedWithItsSize) {
   const Analysis a = analysed(20.0);
   EXPECT_EQ(a.decision.verdict, Verdict::named) << "seed " << kSeed;

@@ -107,7 +107,7 @@ TEST_P(MechanismEffectsContract, EffectsAreFiniteAtTheirBounds) {
         for (const MechanismVisit& visit : visits(*mechanism)) {
           for (const ToolPosition& q : {e.centre(), aside}) {
             const auto at = with->predict(q, visit);
-            // A pen that is held by more than its gondola weighs has no equilibrium.
+            // A pen held by more than its gondola's weight has no equilibrium.
             const bool is_held = !at && effect->id == "pen_friction";
             EXPECT_TRUE(is_held || (at && at->lengths_mm.allFinite()));
           }
@@ -123,7 +123,7 @@ TEST_P(MechanismEffectsContract, AnEffectOfOneSideChangesItsLengthAlone) {
   for (const AppliedEffect& effect : nominal_effects(*mechanism)) {
     const auto own = std::find(lengths.begin(), lengths.end(), effect.side);
     if (own == lengths.end() || !mechanism->problems_of_effects({effect}).empty()) continue;
-    // A cord that gives or weighs more tilts the gondola, and the other cord with it.
+    // A cord that stretches or weighs more tilts the gondola, which changes the other cord too.
     if (effect.effect.starts_with("cord_")) continue;
     SCOPED_TRACE(effect.effect + ":" + effect.side);
     for (const MechanismVisit& visit : visits(*mechanism)) {

@@ -136,7 +136,7 @@ TEST(TapedDistances, JoinPlacesToABlockWithARowMoreThanTheyLeaveAlone) {
   ASSERT_EQ(with.blocks().size(), 2U);
   const auto line = with.linearise(View(set.mechanism), columns_of(with));
   ASSERT_TRUE(line);
-  // What was read is what is predicted: lengths and distance agree, to what positions are found to.
+  // Readings equal predictions: lengths and distance agree to the accuracy of positions.
   EXPECT_LT((with.measured() - line->predicted).cwiseAbs().maxCoeff(), 1e-8);
 }
 
@@ -160,8 +160,8 @@ TEST(TapedDistances, ToAPositionThatIsGivenThrows) {
                std::invalid_argument);
 }
 
-/// By how much residuals, brought to units of noise, change where each place is linearised about a position so
-/// many millimetres off the one that its lengths give.
+/// The change of whitened residuals if each place is linearised about a position some millimetres
+/// from the one by its lengths.
 double change_about(const Taped& set, double off_mm) {
   std::vector<LengthsAtPlace> moved = set.places;
   for (LengthsAtPlace& place : moved) {
@@ -189,7 +189,7 @@ TEST(GivenPositions, ToLineariseAboutChangeTheResidualsToSecondOrderAlone) {
   const double near = change_about(set, 2.0);
   EXPECT_GT(near, 0.0);
   EXPECT_LT(near, 0.02);  // 2 mm squared over a metre of belt, a few times for lengths of different directions
-  // Of a second order a quarter is left at half the way; what is left of higher orders is 2 mm over a metre.
+  // Of a second order a quarter is left at half the way; higher orders are 2 mm over a metre.
   EXPECT_NEAR(change_about(set, 1.0) / near, 0.25, 0.02);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A third mechanism that no product code knows: three strings from nails on the x axis to a point
-/// below it, as long as the straight way; the middle nail is at 0. All count from one zero. One effect,
-/// a knot that shortens all.
+/// below it, of straight length; the middle nail is at 0. All share one zero. One effect, a knot
+/// that shortens all.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,8 +17,7 @@ namespace chaintrue::model {
 
 class ToyMechanism final : public Mechanism {
  public:
-  /// Of the nails the left one is stated to 5 mm; nothing is known of the right one. The zero is
-  /// stated to 2 mm.
+  /// The left nail is stated to 5 mm, the right one has no prior. The zero is stated to 2 mm.
   ToyMechanism(double left_x_mm, double right_x_mm, double zero_mm = 0.0)
       : values_(Eigen::Vector3d(left_x_mm, right_x_mm, zero_mm)),
         parameters_{{{"left_nail_x_mm", "mm", left_x_mm, 5.0},

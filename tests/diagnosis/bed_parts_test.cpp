@@ -69,7 +69,7 @@ TEST(BedParts, EachOfSixteenIsAQuarterOnOneSide) {
     // Of 34 readings eight; the six repeats go with the marks that they repeat.
     EXPECT_GE(part.units.size(), a.system.units.size() / 4);
     EXPECT_LE(part.units.size(), a.system.units.size() / 4 + 2);
-    // All on one side of a line: what is left out reaches further towards it than what stays.
+    // All on one side of a line: the left-out part reaches farther towards it than the rest.
     const auto reach = [&](std::size_t u) {
       const model::MarkPoint& mark = a.system.places[a.system.units[u].places.front().place].mark;
       return mark.x_mm * std::cos(part.towards_rad) + mark.y_mm * std::sin(part.towards_rad);
@@ -112,7 +112,7 @@ TEST(BedParts, NoPartLeavesALine) {
   }
 }
 
-// Where nothing but noise and a cause is, the likelihood is right: nothing is averaged.
+// With only noise and a cause the likelihood is right: nothing is averaged.
 TEST(Averaging, ChangesNothingWhereNoPatternStands) {
   const MeasuredGrid grid = session_of({kLongLeftOfParts}, 5);
   const Analysis whole = analysed(grid, false);
@@ -153,8 +153,8 @@ std::string name_of(const CauseId& cause) {
   return std::string(cause.effect->id) + std::string(model::effects::name(cause.side));
 }
 
-// A part by what the whole comparison holds, and by a comparison of its own: averaged over the parts, each
-// cause's probability is the same within 0.03.
+// A part by the whole comparison's models, and by a separate comparison: averaged over the parts,
+// each cause's probability is the same within 0.03.
 TEST(Averaging, EqualsComparisonsOfEachPart) {
   constexpr int kSeed = 1;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
@@ -167,7 +167,7 @@ TEST(Averaging, EqualsComparisonsOfEachPart) {
     std::vector<bool> excluded = nothing_rejected(a.system);
     for (const std::size_t u : part.left_out.units) excluded[u] = true;
     const ModelComparison own = compare_models(a.system, excluded, {});
-    // As if the rest of the bed had been a session of its own.
+    // As if the rest of the bed were a session.
     RegressorSystem split = a.system;
     for (const std::size_t u : part.left_out.units) split.units[u].observation = 1;
     const PartPosterior shortcut =
@@ -254,7 +254,8 @@ TEST(Sessions, TheOrderOfTheFirstIsFoundInItsReadings) {
   EXPECT_EQ(alone->visiting_order->probability, d->visiting_order->probability);
 }
 
-// Where the probabilities are averaged over parts of the bed, each session's are still those of its readings.
+// If probabilities are averaged over parts of the bed, each session's are still those of its
+// readings.
 TEST(Sessions, AreWeighedByThemselvesBesideAPattern) {
   const auto session = [](const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
     return with_ridge(session_of(hidden, seed, 8, 5), 1.5, 100.0);

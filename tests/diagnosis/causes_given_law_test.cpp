@@ -34,7 +34,7 @@ MeasuredGrid with_wave(const MeasuredGrid& grid) {
       grid, [](const auto&, const auto& reading) { return wave(reading.pose.lengths.left_mm); });
 }
 
-/// What with_wave() adds, as the system has it.
+/// The system's rows for what with_wave() adds.
 Eigen::VectorXd rows_of_wave(const MeasuredGrid& without, const Analysis& a) {
   const MeasuredGrid with = with_wave(without);
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(a.system.e.size());
@@ -85,7 +85,7 @@ TEST(CausesGivenLaw, WhereNoCauseCouldBeNamedTheyAreNotComparedAgain) {
   EXPECT_FALSE(rows_of_claimed_law(a, laws));
 }
 
-// As if the friction were the law: it is then no cause, and no probability says so.
+// With friction as the law it is not a cause, and its probability is low.
 TEST(CausesGivenLaw, WhatOnlyTheLawMadeLikelyIsNoName) {
   Analysis a = analysed(with_friction(0.6));
   ASSERT_EQ(a.decision.listed.size(), 1U);
@@ -103,7 +103,7 @@ TEST(CausesGivenLaw, WhatOnlyTheLawMadeLikelyIsNoName) {
   EXPECT_LT(probability_of(a, cause), 0.1);
 }
 
-// A little weaker than what shows under the wave.
+// A little weaker than what is visible with the wave.
 TEST(CausesGivenLaw, WhatTheLawHidesIsSaid) {
   const Diagnosis found = diagnose(with_wave(with_friction(0.24)), testing_support::verdict_alone()).value();
   ASSERT_NE(claimed_law(found), nullptr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test drawing through the one analysis: settings that are off, a bad measure, a cause that no
+// A test drawing through the common analysis: settings that are off, a bad measure, a cause that no
 // settings make, and the file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// What is measured on the page that a plotter with this effect draws.
+/// Measures of the page that a plotter with this effect draws.
 TestDrawing drawn_with(const model::PlotterMachine& set,
                        const std::vector<model::AppliedEffect>& hidden,
                        std::uint64_t seed) {

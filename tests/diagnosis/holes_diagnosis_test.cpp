@@ -42,7 +42,8 @@ Diagnosis diagnosed(const MeasuredHoles& set, const DiagnosisOptions& options = 
   return *found;
 }
 
-// Ninety-three distances of which Eigen's division for singular values made NaN, so that no model was left.
+// Ninety-three distances for which Eigen's divide and conquer for singular values gave NaN, so that
+// no model remained.
 TEST(HolesDiagnosis, SingularValuesThatAreNearlyEqualAreNoMatter) {
   const MeasuredHoles set =
       files::read_holes(CHAINTRUE_FIXTURES "/holes/thirty_holes.json").holes;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws as files of a cause of one's own: the formula is the law, a second session of the machine confirms
-/// it and a foreign one does not, a map has the mean over the places where a step may stand.
+/// Laws as files of declared causes: the formula is the law, a second session of the machine
+/// confirms it and another machine's does not, a map has the mean over the possible places of a
+/// step.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,7 +74,7 @@ Law law_of(Coordinate of, LawShape shape, Enters enters) {
   return law;
 }
 
-/// Its amplitudes as a curve's columns have them.
+/// Its amplitudes in the order of a curve's columns.
 LawCurve curve_of(const Law& law, Eigen::VectorXd& amplitude, double& at) {
   LawCurve curve;
   curve.of = law.of;
@@ -112,7 +113,7 @@ struct Written {
 
 class EveryLaw : public testing::TestWithParam<Written> {};
 
-// The formula, the columns that were weighed and value_of() are the same function.
+// The formula, the compared columns and value_of() are the same function.
 TEST_P(EveryLaw, IsTheSameAsAFileAsColumnsAndAsAFunction) {
   const Law law = law_of(GetParam().of, GetParam().shape, GetParam().enters);
   const MeasuredGrid grid = session_of({}, 31);
@@ -140,7 +141,8 @@ TEST_P(EveryLaw, IsTheSameAsAFileAsColumnsAndAsAFunction) {
     as_columns += LawColumns(a.system).of(constant, -1e9) * Eigen::VectorXd::Constant(
         1, law.parameters[0].value * off * off);
   }
-  // What moves the tool is written by the chain's angle, which is its direction but for the ring.
+  // A movement of the tool is written by the chain's angle, which is its direction except for the
+  // ring.
   const bool moves_tool = law.enters == Enters::x || law.enters == Enters::y || law.enters == Enters::along;
   const double tolerance = moves_tool ? 0.05 : 1e-4;
   EXPECT_LT((as_columns - *as_effect).norm(), tolerance * as_columns.norm());
@@ -226,7 +228,7 @@ TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
     EXPECT_EQ(denying.declared.front().says, DeclaredAnswer::Says::denied)
         << denying.declared.front().probability;
   }
-  // A few marks of the same machine may not tell it, and do not deny it.
+  // A few marks of the same machine may not confirm it, and do not deny it.
   for (std::uint64_t seed = 61; seed < 67; ++seed) {
     const Diagnosis few = with_law(with_left(session_of({}, seed, 4, 3), [](const auto&, const auto& reading) {
       return 0.45 * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + 0.7);
@@ -236,7 +238,7 @@ TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
   }
 }
 
-// A step over what one chain does stands between two values of that chain, whatever the other's are.
+// A step in one chain's variable lies between two values of that chain, whatever the other's are.
 TEST(LawFiles, AStepOfOneChainsLengthHasTheGapOfThatChain) {
   const auto written =
       declaration_of(law_of(Coordinate::length_left, LawShape::step, Enters::left), model::Bed{});
@@ -264,7 +266,8 @@ TEST(LawFiles, AStepOfOneChainsLengthHasTheGapOfThatChain) {
   EXPECT_GT(others, 0) << "the other chain's lengths lie in these gaps";
 }
 
-// A step between two columns of marks: no reading tells where, and the map has the mean over these places.
+// A step between two columns of marks: no reading shows where, and the map has the mean over these
+// places.
 TEST(LawFiles, TheMapAveragesOverTheGapInWhichAStepMayStand) {
   const auto written = declaration_of(laws_found(analysed(with_step_along_x(12))).laws, model::Bed{});
   ASSERT_TRUE(written) << written.error();
@@ -281,7 +284,7 @@ TEST(LawFiles, TheMapAveragesOverTheGapInWhichAStepMayStand) {
   const Cause& cause = fit.built_on.front();
   ASSERT_EQ(cause.parameters.back().parameter, "place_mm");
   const ParameterEstimate& place = cause.parameters.back();
-  // A column of readings is a few millimetres wide where the lengths say that it is.
+  // A column of readings is a few millimetres wide by its lengths.
   constexpr double kColumnMm = 6.0;
   EXPECT_NEAR(place.value, 0.5 * (below + above), kColumnMm);
   EXPECT_NEAR(place.sigma, (above - below) / std::sqrt(12.0), kColumnMm);
@@ -297,7 +300,7 @@ TEST(LawFiles, TheMapAveragesOverTheGapInWhichAStepMayStand) {
   // The map's own file has them all.
   const model::Machine& base = std::get<ModelSurface>(fit.fit.map.contents().surface).machine;
   EXPECT_EQ(base.effects.size(), effects.size());
-  // A cause without such a place is what it was.
+  // A cause without such a place is unchanged.
   Cause pitch = cause;
   pitch.cause = {find_effect("chain_pitch_error"), EffectSide::left};
   pitch.parameters = {{"elongation", 0.001, 0.0001}};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What laws are functions of and where they enter: of four belts a law's columns are what readings with the
-/// law differ by; short waves that evenly spaced marks cannot tell from long ones are not weighed; a step over
-/// what one chain does stands between that chain's readings.
+/// Variables and entries of laws: for four belts a law's columns are the difference of readings
+/// with the law; short waves that evenly spaced marks alias are not tried; a step in one chain's
+/// variable lies between that chain's readings.
 #include "grid/diagnosis/law_variables.hpp"
 
 #include <gmock/gmock.h>
@@ -76,7 +76,7 @@ TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
   }
 }
 
-/// Waves over the span of the shortest that is weighed.
+/// Waves over the span of the shortest one tried.
 double most_waves(const RegressorSystem& system, Coordinate of, LawShape shape) {
   double most = 0.0;
   for (const LawCurve& curve : law_curves(system)) {
@@ -95,7 +95,7 @@ TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
   EXPECT_NEAR(most_waves(even, Coordinate::x, LawShape::harmonics), 2.0, 0.13);
   EXPECT_NEAR(most_waves(even, Coordinate::y, LawShape::wave), 2.5, 0.26);
   EXPECT_GT(most_waves(even, Coordinate::length_left, LawShape::wave), 40.0);
-  // Marks that stand anywhere tell short waves too.
+  // Scattered marks resolve short waves too.
   constexpr std::uint64_t kSeed = 7;
   Random random(kSeed);
   for (MeasuredPoint& point : grid.points) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws of what no listed cause explains: found with their place and size, shared out so that a longer
-/// list raises no false rate, weaker than a listed cause that does the same.
+/// Laws of what no listed cause explains: found with their place and size, with priors that keep
+/// the false rate for a longer list, and weaker than a listed cause with the same effect.
 #include "grid/diagnosis/laws.hpp"
 
 #include <gmock/gmock.h>
@@ -100,7 +100,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// What the curve leaves of the partial residuals is noise, and what the law leaves at the tool as well.
+// The partial residuals minus the curve are noise, and so is the tool's residual with the law.
 TEST(Laws, PointsStandAboutTheCurveByTheirNoise) {
   for (const auto& [name, grid] :
        {std::pair{"wave", with_half_turns(11)}, std::pair{"step", with_step_along_x(12)}}) {
@@ -135,8 +135,8 @@ TEST(Laws, NothingAndListedCausesAreNoLaw) {
   for (const std::uint64_t seed : {21, 22, 23}) {
     EXPECT_THAT(laws_found(analysed(session_of({}, seed))).laws, IsEmpty()) << "seed " << seed;
   }
-  // What these do a law would do as well: a line of the left chain's length, a kink of its angle and a wave
-  // of its length. The listed cause is the likelier one beforehand.
+  // Laws with the same effect exist: a line in the left chain's length, a kink in its angle and a
+  // wave in its length. The listed cause has the larger prior.
   for (const auto& [id, values] :
        {std::pair{"chain_pitch_error", std::vector{0.0012}},
         std::pair{"angular_kink", std::vector{6.0, 0.5}},
@@ -159,7 +159,7 @@ TEST(Laws, AListThatHoldsEachLawTwiceSaysTheSame) {
   const std::size_t number = a.comparison.best().marginalised;
   const double of_once = probability_of_any({weigh_laws(a, number, once)});
   const double of_twice = probability_of_any({weigh_laws(a, number, twice)});
-  // Laws far below the best are not looked at again, of two lists not the same ones.
+  // Laws far below the best are not refined; these differ between two lists.
   EXPECT_NEAR(of_twice, of_once, 0.01);
 }
 

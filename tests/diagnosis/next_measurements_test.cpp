@@ -127,7 +127,7 @@ double drawn_named_alone(const std::vector<Alternative>& alternatives,
 }
 
 // Both chains long, or the tape long, is one class for distances. A reading that depends on one
-// says nothing of the other, whichever of them fits slightly better.
+// carries no information about the other, whichever of them fits slightly better.
 TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
   int sets = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

@@ -199,7 +199,7 @@ Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& out
   return basis;
 }
 
-// A set's weight, and that no other reading is worse, by the whole covariance.
+// A set's weight, and a check by the whole covariance that no other reading is worse.
 TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -257,7 +257,7 @@ TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
       }
     }
     EXPECT_EQ(outlier_sets(system, nothing_rejected(system), {{}}).front(), best);
-    // What is left without them is what the comparison weighs causes in; to rounding.
+    // The remaining rows are those of the comparison, to rounding.
     const Weighed w = weighed_without(best);
     const MarginalisedSystem left = marginalise(system, best);
     EXPECT_EQ(left.kept.size(), w.rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is expected of causes before anything is read: the shares of one catalogue add up to that of one
-// cause against nothing, and no other catalogue has a say in it.
+// Priors of causes: the shares of one catalogue sum to that of one cause against nothing,
+// independent of other catalogues.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ double prior_of(const RegressorSystem& system, const std::vector<int>& set, bool
 
 TEST(Prior, OneCauseOfBeltsHasItsShareWhateverChainsAreListed) {
   const RegressorSystem system = system_of_flat_frame();
-  // By effect, what its sides that can show have; the others would have as much each.
+  // By effect, the prior of its testable sides; each other side would have as much.
   std::map<std::string, double> share;
   std::map<std::string, std::map<model::effects::EffectSide, bool>> sides;
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
@@ -62,7 +62,7 @@ TEST(Prior, OneCauseOfBeltsHasItsShareWhateverChainsAreListed) {
            static_cast<double>(sides[effect].size());
     share[effect] = 0.0;
   }
-  // A sixth of nothing, as belts_system.cpp states it. Rounding, of a thousand addends.
+  // A sixth of the prior of nothing, as in belts_system.cpp. Rounding, of a thousand addends.
   EXPECT_NEAR(one, kPriorOfNothing / 6.0, 1e-9);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Declared effects: what is wrong with a declaration, units of names, and what places are compared
-/// with.
+/// Declared effects: problems of a declaration, units of names, and variables of places.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The formula of a declared effect: values and derivatives against closed forms and differences,
-/// units, and what is said of a text that is no formula.
+/// units, and the messages for a text that is not a formula.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -211,7 +211,7 @@ TEST(Formula, RefusesMoreStepsThanItKeeps) {
   EXPECT_EQ(parsed.error().expected, "a shorter formula");
 }
 
-// The deepest formula that is taken fits the stack of values that evaluate() has.
+// The deepest accepted formula fits the stack of evaluate().
 TEST(Formula, TheDeepestFormulaIsEvaluated) {
   std::string text = "1";
   for (std::size_t i = 0; i + 1 < Formula::kDeepest; ++i)

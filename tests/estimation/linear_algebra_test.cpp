@@ -184,7 +184,7 @@ TEST(PivotedCholesky, SolvesWhatIsSemidefinite) {
     const MatrixXd root = factor.root(0.0);
     expect_near(plain_product(root, root.transpose()), m);
   }
-  // An unknown that nothing says anything of stays 0.
+  // An undetermined unknown stays 0.
   MatrixXd m = identity(3);
   m(1, 1) = 0.0;
   expect_near(PivotedCholesky(m).solve(VectorXd(VectorXd::Ones(3))), Eigen::Vector3d(1.0, 0.0, 1.0));
@@ -262,7 +262,7 @@ TEST(LeastSquares, LeavesWhatIsOrthogonalAndIsShortest) {
     const VectorXd b = random_matrix(20, 1, random);
     const VectorXd x = least_squares(a, b);
     expect_near(plain_product(a.transpose(), b - a * x), MatrixXd::Zero(4, 1));
-    // Shortest: nothing of it lies where A sees nothing.
+    // Shortest: no part of it is in A's null space.
     const MatrixXd unseen = range_of(a.transpose()).rest;
     expect_near(plain_product(unseen.transpose(), x), MatrixXd::Zero(unseen.cols(), 1));
     const MatrixXd two = random_matrix(20, 2, random);
@@ -312,7 +312,7 @@ class Placed {
   double* data_ = nullptr;
 };
 
-/// What a table makes of the same input, one after another in a column.
+/// A table's results for the same input, concatenated in a column.
 VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
   Random random(kSeed);
   const Placed a(random_matrix(n, n, random), offset);

@@ -73,8 +73,9 @@ VerifySummary verified(const std::string& original,
   return *summary;
 }
 
-/// Real files that LinuxCNC or we refuse, that do not fit the bed, or that the output language cannot
-/// express: by name, since every test of this program would read all of them first.
+/// Real files that LinuxCNC or this program refuses, that do not fit the bed, or that the output
+/// language cannot express; by name, since otherwise every test of this program would read all of
+/// them first.
 constexpr std::array<std::string_view, 16> kOthers = {
     "fluidnc_gcode_conditionals_test.nc",
     "fluidnc_parsetest.nc",

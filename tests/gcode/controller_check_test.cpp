@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How unmodified controllers execute a program, by the formulas of their firmware. What is said of it:
+/// How unmodified controllers execute a program, by the formulas of their firmware. The messages:
 /// tests/cli/cases/gcode_programs.cases.
 #include "tools/gcode/controller_check.hpp"
 

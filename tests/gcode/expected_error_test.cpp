@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a map says of the tool's error along the cuts, on maps whose error is a formula.
+// A map's error along the cuts, on maps whose error is a formula.
 #include "tools/gcode/expected_error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A mechanism that no product code knows is compensated as every other: its controller believes nails
-/// elsewhere than they are; the output keeps to the path on the machine as calibrated, the program as
-/// it was does not.
+/// A mechanism that no product code knows is compensated like any other: its controller has wrong
+/// positions of the nails; the output keeps to the path on the calibrated machine, the original
+/// program does not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +52,7 @@ TEST(MechanismPath, AStraightPathOfAMechanismThatNobodyKnowsIsCompensatedAndVeri
   const auto summary = compensator.run(source, {});
   ASSERT_TRUE(summary) << summary.error().message();
   EXPECT_TRUE(compensator.findings().problems.empty());
-  // Nails that are 3 and 6 mm aside move the tool by as much, about.
+  // Nails that are 3 and 6 mm off move the tool by about as much.
   EXPECT_GT(summary->largest_correction_mm, 1.0);
 
   const auto holds = [&](const std::string& run) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables as people and their spreadsheets keep them: the same readings, however they were written.
+// Tables as written by people and spreadsheets: the same readings in every notation.
 #include "grid/files/csv_table.hpp"
 
 #include <gmock/gmock.h>
@@ -93,7 +93,7 @@ TEST(CsvTable, ADashIsNoReading) {
   for (std::size_t row = 0; row < 4; ++row) EXPECT_FALSE(found.rows[row][1]) << row;
 }
 
-// 1,113 may be a metre or a millimetre: nothing is made of it where nothing else says which.
+// 1,113 may be a metre or a millimetre: it is rejected if nothing else shows which.
 TEST(CsvTable, ACommaOfWhichNobodyKnowsTheMeaningIsRefused) {
   EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508\n").refusals, ElementsAre(HasSubstr("found 1,113")));
   EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508.5\n").refusals, ElementsAre(HasSubstr("found 1,113")));
@@ -101,7 +101,7 @@ TEST(CsvTable, ACommaOfWhichNobodyKnowsTheMeaningIsRefused) {
   EXPECT_THAT(read("x_mm;y_mm\n555,5;1.5\n").refusals, ElementsAre(HasSubstr("found 555,5")));
 }
 
-// 0.125 is no group of thousands, whatever another cell says of points.
+// 0.125 is not a group of thousands, whatever other cells contain.
 TEST(CsvTable, ANumberBelowOneIsNotMultipliedByAThousand) {
   EXPECT_THAT(read("x_mm;y_mm\n1.113,5;0.125\n").refusals, Not(IsEmpty()));
   EXPECT_THAT(read("x_mm;y_mm\n1,113.5;0,125\n").refusals, Not(IsEmpty()));
@@ -114,7 +114,7 @@ TEST(CsvTable, SaysWhatItDidNotUse) {
               ElementsAre(HasSubstr("line 3, column 1: a note, no reading: left out")));
 }
 
-// A column that is nearly one that is asked for is a slip, not a column of the owner's own.
+// A column with nearly a known name is a slip, not an additional column.
 TEST(CsvTable, RefusesWhatMayBeAReading) {
   EXPECT_THAT(read("x_mm,y_mm,ordr\n1,2,1\n").refusals,
               ElementsAre(HasSubstr("\"ordr\" is probably order")));
@@ -154,7 +154,7 @@ TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
   }
 }
 
-/// What no session has is refused while it is read, not after it was kept.
+/// Oversized tables are refused while they are read, not after.
 TEST(CsvTable, OfMoreThanAnySessionHasIsRefused) {
   std::string rows = "x_mm,y_mm\n";
   for (int i = 0; i < 400'001; ++i) rows += "1,2\n";

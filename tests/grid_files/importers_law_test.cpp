@@ -27,7 +27,7 @@ namespace {
 const std::filesystem::path kFixtures = CHAINTRUE_FIXTURES;
 const std::filesystem::path kReports = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "reports";
 
-/// What comes of a text, and what is said of it.
+/// The result of reading a text, and its messages.
 struct Answer {
   std::string written;
   std::string said;
@@ -199,7 +199,7 @@ class Folders {
   std::vector<std::pair<std::size_t, std::string>> keys_;
 };
 
-/// Lines of a log that say again what others say: which waypoint is next, and where all are.
+/// Redundant lines of a log: which waypoint is next, and where all are.
 bool is_said_again(const std::string& line) {
   return line.find("Measured waypoint") != std::string::npos ||
          line.find("Waypoints [") != std::string::npos || line.find("perAnchor") != std::string::npos;
@@ -235,8 +235,8 @@ bool is_label(const std::string& text, const FoundNumber& number) {
   return text.substr(0, number.at).ends_with(kBefore);
 }
 
-/// What was ignored is named by its key, or by a folder that it lies in; lines of a log that hold neither a
-/// reading nor a place are named together.
+/// Ignored settings are listed by key, or by a folder that contains them; lines of a log that hold
+/// neither a reading nor a place are named together.
 bool is_named(const std::string& said, const FoundNumber& number) {
   const bool may_count = number.line.find("CLBM") != std::string::npos ||
                          number.line.find("coordinates:") != std::string::npos;
@@ -289,7 +289,7 @@ TEST(Importers, HonourOrNameEveryNumber) {
   EXPECT_GT(tried, 200U);
 }
 
-/// Whatever it is given: an importer answers with numbers, or refuses by the file's name.
+/// For any input an importer returns numbers, or refuses with the file's name.
 TEST(Importers, AnswerOrRefuseEveryFileThereIs) {
   std::size_t answered = 0, refused = 0;
   static const std::regex no_number(R"(\b(nan|inf)\b)", std::regex::icase);

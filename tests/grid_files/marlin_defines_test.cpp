@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Configuration.h as Marlin ships it and owners change it: which definition is in force, and what its
-// compiler makes of it.
+// A Configuration.h as Marlin ships it and owners change it: which definition is in force, and its
+// value.
 #include "grid/files/marlin_defines.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kName = "X_BED_SIZE";
 
-/// Of the name, in digits; nothing where it is reported, or not defined.
+/// The name's value as text; empty if it is reported or not defined.
 std::optional<std::string> value_of(const std::string& text) {
   Problems problems("Configuration.h");
   const SettingTexts texts = marlin_texts(text, {kName}, problems);
@@ -71,7 +71,7 @@ TEST(MarlinDefines, CountWhereTheirConditionHolds) {
                               {"defined(OFF) && !defined NOT_THERE", "1"},
                               {"!(ENABLED(ON) || ENABLED(OFF))", "2"},
                               {"0", "2"},
-                              // Of other kinds nothing is known.
+                              // Other kinds of conditions are unknown.
                               {"ENABLED(OFF) && MB(RAMPS)", std::nullopt},
                               {"MOTHERBOARD == 3", std::nullopt},
                               {"((", std::nullopt}};
@@ -81,7 +81,7 @@ TEST(MarlinDefines, CountWhereTheirConditionHolds) {
             "2");
   EXPECT_EQ(value_of("#define X_BED_SIZE 1\n#ifndef X_BED_SIZE\n#define X_BED_SIZE 2\n#endif"), "1");
   EXPECT_EQ(value_of("#define X_BED_SIZE 1\n#undef X_BED_SIZE\n#define X_BED_SIZE 2"), "2");
-  // An excerpt need not contain what its #if asks for.
+  // An excerpt need not contain the names in its #if.
   EXPECT_EQ(value_of("#if ENABLED(POLARGRAPH)\n#define X_BED_SIZE 1\n#endif"), "1");
 }
 
@@ -111,7 +111,7 @@ TEST(MarlinDefines, OfAShippedConfigurationAreThePlotters) {
   EXPECT_EQ(set.longest_belt_mm, 1035.0);
   EXPECT_EQ(set.segments_per_second, 5.0);
   ASSERT_TRUE(set.home);
-  // Digits of the value that the formula is handed on as.
+  // Digits of the formula's value.
   EXPECT_NEAR(set.home->y_mm, -std::sqrt(1035.0 * 1035.0 - 325.0 * 325.0), 1e-9);
 }
 

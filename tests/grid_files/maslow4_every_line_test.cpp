@@ -40,7 +40,7 @@ TEST(EveryLine, OfTheFixtureCutDeletedDoubledOrGarbledGetsAnAnswerOrARefusal) {
       for (const InputProblem& problem : error.problems()) EXPECT_FALSE(problem.expected.empty() && problem.sentence.empty());
     }
   });
-  // The share that is asked for.
+  // The required share.
   EXPECT_GE(answered, std::ceil(0.85 * logs)) << "seed " << testing_support::kDamageSeed;
 }
 

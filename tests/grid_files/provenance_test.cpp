@@ -69,7 +69,7 @@ class Sources : public testing::Test {
 };
 
 TEST_F(Sources, AreNamedWithoutFoldersAndHashedByTheirBytes) {
-  // UTF-16 is read as UTF-8; the hash is of what lies on the disk.
+  // UTF-16 is read as UTF-8; the hash is of the bytes on disk.
   const std::string bytes(
       "\xFF\xFE"
       "a\0",

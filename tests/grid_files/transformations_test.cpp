@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one search for how numbers were meant, on marks of random machines: each transformation of all rows,
-// of those from one on and of a column is named, with where it begins; sound grids are left alone.
+// The search for how numbers were meant, on marks of random machines: each transformation of all
+// rows, of those from one on and of a column is reported, with its first row; sound grids are
+// accepted.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +19,7 @@ using model::MarkPoint;
 constexpr double kMmPerInchOfTests = 25.4;
 constexpr std::size_t kRows = 30;
 
-/// Marks 5 x 6 in rows from below, where a machine that errs by some millimetres was sent, good to 0.4 mm.
+/// Marks 5 x 6 in rows from below, with a machine error of some millimetres and noise of 0.4 mm.
 MeasuredGrid sound_grid(std::uint64_t seed) {
   Random random(seed, 7);
   MeasuredGrid grid;

@@ -102,7 +102,7 @@ TEST_F(WholeFile, NewOnesHaveTheRightsOfTheProcess) {
   EXPECT_EQ(static_cast<unsigned>(fs::status(folder_ / "file").permissions()), 0640U);
 }
 
-/// The second cannot take its name, which a folder has taken in the meantime.
+/// The second cannot be renamed, because a folder has its name in the meantime.
 TEST_F(WholeFile, OneThatFailsLeavesTheOthersAsTheyWere) {
   write_whole_file(folder_ / "old", "old");
   for (const char* first : {"old", "new"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A measured machine with its map, what may happen to it afterwards, and new readings.
+/// A measured machine with its map, later changes, and new readings.
 #pragma once
 
 #include <functional>
@@ -50,7 +50,7 @@ inline grid::MeasuredGrid read_at(const std::vector<model::MarkPoint>& marks,
   return grid;
 }
 
-/// Both chains or one grow by a twentieth of a per cent.
+/// Both chains or one grow by 0.05 %.
 inline void grow(model::Machine& machine, const char* side) {
   machine.effects.push_back({"chain_pitch_error", side, {{"elongation", 0.0005}}});
 }

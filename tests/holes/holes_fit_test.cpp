@@ -104,7 +104,7 @@ TEST(HolesFit, ASheetThatIsLargerMovesEachEdgeByHalfOfThat) {
         observation::distance_geometry(set, places).predicted_mm - as_said.predicted_mm;
     **size -= kLarger;
     ASSERT_GT(moved.norm(), 0.0);
-    // It is linear: what is left is rounding of metres.
+    // It is linear: the remainder is rounding of metres.
     EXPECT_LT((moved - kLarger * as_said.by_size.col(axis)).cwiseAbs().maxCoeff(), 1e-9);
   }
 }

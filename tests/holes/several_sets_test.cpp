@@ -58,7 +58,7 @@ MeasuredGrid with_zeros_more(MeasuredGrid grid, double left_mm, double right_mm)
   return grid;
 }
 
-/// What of a shift stays with everything else, the prior holding it near nothing.
+/// The share of a shift that goes to everything else, since the prior keeps it small.
 double pulled_mm(const estimation::SessionZero& zero, double shift_mm) {
   return std::abs(shift_mm) * std::pow(zero.sigma_mm / estimation::kSessionZeroSigmaMm, 2);
 }
@@ -142,7 +142,7 @@ TEST(UnknownTapeZero, OneThatIsOffIsSpokenOf) {
   EXPECT_THAT(fit->map.contents().notes, testing::Contains(HasSubstr("Every tape distance reads")));
 }
 
-// A hook, or a bit's width, in every distance, and nobody stated it: the map was up to 2.5 mm off.
+// An unstated hook or bit width in every distance made the map wrong by up to 2.5 mm.
 TEST(TapeZero, OneThatNobodyStatedIsTakenOffAndSaid) {
   for (const double zero_mm : {6.35, -5.0}) {
     SCOPED_TRACE(testing::Message() << zero_mm << " mm, seed 3");

@@ -158,7 +158,7 @@ Ran InputFolder::run(const std::string& lines) const {
   make_missing_files(lines);
   const fs::path folder = folder_ / "run";
   fs::create_directory(folder);
-  // A map that is not to be cut with ends with 1, and is written and asked all the same.
+  // A map unfit for cutting gives exit code 1 but is written and can be queried.
   const std::string then = "; s=$?; [ $s -le 1 ] || exit $s; " CHAINTRUE_COMMAND " ";
   const std::string commands =
       replaced(replaced(lines, "; ", then), "@", folder_.string() + "/");

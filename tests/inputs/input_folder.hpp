@@ -25,7 +25,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 class InputFolder {
  public:
-  /// Files that the command makes are made once a run names them.
+  /// Files made by the command are made when a run first names them.
   InputFolder();
   ~InputFolder();
   InputFolder(const InputFolder&) = delete;

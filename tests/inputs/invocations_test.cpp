@@ -29,7 +29,7 @@ const InputFolder& folder() {
 
 std::string help_of(const std::string& verb) { return folder().run(verb + " --help").out; }
 
-/// What a call answers, run once for all tests.
+/// A call's answer, run once for all tests.
 const Ran& answer_of(const Invocation& call) {
   static std::map<std::string, Ran> answers;
   const auto known = answers.find(call.line);
@@ -60,7 +60,8 @@ TEST(Invocations, EveryVerbAnswersEachKindOfInput) {
   for (const Invocation& call : invocations()) {
     called.insert(call.verb);
     const Ran& ran = answer_of(call);
-    // A map not to be cut with, a machine that is out of square: found, and reported.
+    // A map unfit for cutting, a machine that is out of square: findings, reported by the exit
+    // code.
     EXPECT_THAT(ran.code, AnyOf(0, 1, 4)) << call.line << "\n" << ran.err;
     EXPECT_FALSE(ran.out.empty() && ran.err.empty()) << call.line;
   }
@@ -85,7 +86,7 @@ struct Refusal {
   const cli::OptionRule* rule;
 };
 
-/// Of the options of a verb those that would do nothing with what it is given.
+/// The options of a verb without effect on the given input.
 std::vector<Refusal> refusals_of(const Invocation& call, const std::vector<Option>& options) {
   std::vector<Refusal> refusals;
   for (const Option& option : options) {

@@ -243,7 +243,7 @@ TEST(Reml, AFieldThatIsNotThereStaysUncertain) {
   plain.prior = SmoothingPrior::none;
   const auto fit = fit_penalised(problem, plain).value();
   EXPECT_NEAR(fit.edf, 3.0, 0.01);  // lambda stops ten decades above balance
-  // Even so the estimated field is not zero: averaging over lambda keeps some of its variance.
+  // The estimated field is not zero: averaging over lambda keeps some of its variance.
   EXPECT_GT(fit.corrected_covariance.trace(), 1.05 * fit.covariance.trace());
   // The prior that avoids the boundary keeps some of the field itself.
   EXPECT_GT(fit_penalised(problem).value().edf, 3.05);

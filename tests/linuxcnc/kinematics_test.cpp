@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module that export linuxcnc writes, compiled as C against the few names that it uses of
-// LinuxCNC, loaded and asked: its lengths against the map's, there and back, and outside.
+// The module that export linuxcnc writes, compiled as C against a stub of LinuxCNC, loaded and
+// called: its lengths compared with the map's, inverse and forward, and outside.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -118,7 +118,7 @@ TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
     EXPECT_NEAR(pose.tran.y, y, 1e-6);
     EXPECT_EQ(pose.tran.z, -3.5);
   }
-  // Twice what was found in the middles of cells, where an error of the third order is largest but for
+  // Twice the error in the middles of cells, where an error of the third order is largest but for
   // the edges' cells.
   EXPECT_LT(worst, 2.0 * kTableErrorMm) << "seed " << kSeed;
 }

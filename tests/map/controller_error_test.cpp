@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a machine misses as it is used: a machine whose error is known gives back that error.
+// The error of a machine in use: a known error is reproduced.
 #include "grid/map/controller_error.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ namespace {
 using model::BedPoint;
 using model::ChainLengths;
 
-/// A machine that believes its file, whose motors hang elsewhere; the sheet lies `shift_mm` to the
-/// right of where its numbers say.
+/// A machine that uses its file but has its motors elsewhere; the sheet is `shift_mm` to the right
+/// of its nominal position.
 struct Session {
   model::Machine file{};
   model::Machine truth{};
@@ -28,7 +28,7 @@ struct Session {
     truth.motors.right.y_mm += both_y_mm;
   }
 
-  /// Where the tool stands on the sheet, by the sheet's numbers, when it is sent to `command`.
+  /// The tool's position in the sheet's numbers when sent to `command`.
   [[nodiscard]] BedPoint reached(BedPoint command) const {
     const ChainLengths paid_out = *model::make_controller_kinematics(file)->lengths(command);
     const BedPoint on_bed = *model::make_controller_kinematics(truth)->command(paid_out);
@@ -68,7 +68,7 @@ TEST_P(ErrorInUse, IsThatOfTheMachine) {
                    std::pow(reached.y_mm - place.commanded.y_mm, 2);
   }
   const double true_rms_mm = std::sqrt(squares_mm2 / within);
-  // What the map itself may be off, three sigmas, and its first order: a thousandth of the error.
+  // Three sigmas of the map's own error, and its first order: a thousandth of the error.
   EXPECT_NEAR(found->rms_mm,
               true_rms_mm,
               3.0 * map->contents().accuracy.expected_tool.rms_mm + 1e-3 * true_rms_mm);
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Machines,
                                          Session(0.0, 0.0, 6.0),
                                          Session(-2.0, 3.0, 4.0)));
 
-// Splines through lengths know no machine that could miss.
+// Splines through lengths have no machine, so no error in use.
 TEST(ErrorInUse, OfAMapWithoutAMachineIsUnknown) {
   MeasuredGrid grid;
   const auto kinematics = model::make_controller_kinematics(model::Machine{});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is uncertain of a map grows by the difference of two others, where they differ and nowhere else.
+// The uncertainty of a map grows by the difference of two others, only where they differ.
 #include "grid/map/larger_error.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,8 @@ TEST(LargerError, ADifferenceOfMapsIsADirectionOfTheTool) {
       const auto low = from.lengths({x, y}).value().lengths, high = to.lengths({x, y}).value().lengths;
       const Eigen::Vector2d sigma_mm(kShare * (high.left_mm - low.left_mm), kShare * (high.right_mm - low.right_mm));
       const Eigen::Matrix2d added = after.covariance - before.covariance;
-      // Splines over half the spacing of the marks follow what machines a few millimetres apart differ by.
+      // Splines over half the spacing of the marks follow the difference of machines a few
+      // millimetres apart.
       EXPECT_LT((added - sigma_mm * sigma_mm.transpose()).norm(), 0.02 * sigma_mm.squaredNorm() + 1e-4)
           << x << " " << y;
       most_mm = std::max(most_mm, sigma_mm.norm());

@@ -27,7 +27,7 @@ TEST(LargestError, OfOnePlaceIsItsQuantile) {
   EXPECT_NEAR(largest.bound_mm(), 2.448, tolerance(0.05 * 2.448));
 }
 
-// Places that err together are one place; two that err by themselves are two chances.
+// Places with equal errors count as one; independent ones are two chances.
 TEST(LargestError, KnowsWhatHangsTogether) {
   LargestError together, apart;
   Eigen::Matrix2Xd first = Eigen::Matrix2Xd::Zero(2, 4), second = first;
@@ -40,7 +40,7 @@ TEST(LargestError, KnowsWhatHangsTogether) {
   EXPECT_GT(apart.bound_mm(), together.bound_mm());
 }
 
-// Far from nothing only what lies along the error counts, and to one side: 1.645 sigmas.
+// Far from zero only the component along the error counts, to one side: 1.645 sigmas.
 TEST(LargestError, AddsToWhatIsExpected) {
   LargestError largest;
   largest.add({1000.0, 0.0}, Eigen::Matrix2d::Identity());

@@ -56,7 +56,7 @@ TEST(Rounding, IsAFloorOfWhatIsStated) {
   EXPECT_EQ(not_below_rounding({0.01, 0.3, 7.0}, grid).position_mm, 0.3);
 }
 
-/// Repeats say the scatter, but never less than rounding.
+/// Repeats give the scatter, but never less than rounding.
 TEST(RepeatScatter, IsNotBelowRounding) {
   const observation::PointNoise unit{1.0, 0.0};
   const auto found = [&](double apart_mm, double rounding_mm) {

@@ -152,7 +152,7 @@ std::vector<std::string> names_of(const std::vector<Lacking>& lacking) {
   return names;
 }
 
-// Found in one way: from a machine, and from a map of the same machine.
+// The same result from a machine and from a map of it.
 TEST(SettingsToType, OfAMachineAreThoseOfItsMap) {
   Machine machine = imported_machine();
   machine.motors.left.x_mm -= 3.0;
@@ -183,8 +183,8 @@ TEST(SettingsToType, OfAMachineAreThoseOfItsMap) {
   EXPECT_LE(by_machine->typed.rms_mm, by_machine->as_it_is.rms_mm);
 }
 
-// A beam that bends and a beam that is not level have no number in the stock firmware: its tilt stays what it
-// was, and what they cost is said.
+// A beam that bends and a beam that is not level have no number in the stock firmware: its tilt is
+// unchanged, and their contribution is reported.
 TEST(SettingsToType, SayWhatTheFirmwareLacks) {
   Machine machine = imported_machine();
   machine.controller.settings.top_beam_tilt_deg = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The straight lines that come nearest to a map: what they leave, found anew from the map's tool, and that
-/// no other lines leave less.
+/// The best straight lines for a map: their error, recomputed from the map's tool, and that no
+/// other lines have less.
 #include "grid/map/straight_settings.hpp"
 
 #include <gtest/gtest.h>
@@ -26,9 +26,8 @@ const CompensationMap& sagging_map() {
   return map;
 }
 
-/// Where the tool is, by the map itself, when a controller of straight lines that was switched on at 0, 0
-/// is sent to the measured places: root mean square of the distances from there, with what is uncertain
-/// of the map.
+/// The tool's position by the map when a straight-line controller that was switched on at 0, 0 is
+/// sent to the measured places: rms of the distances from these, with the map's uncertainty.
 double tool_rms_mm(const CompensationMap& map, const StraightSettings& s) {
   const MapInFrame in_frame(map);
   const auto origin = in_frame.lengths({0.0, 0.0});
@@ -83,7 +82,7 @@ TEST(StraightSettings, NoOtherLinesLeaveLess) {
       EXPECT_GT(tool_rms_mm(sagging_map(), other), least) << i << " " << sign;
     }
   }
-  // Fewer numbers cannot come nearer.
+  // Fewer numbers cannot fit better.
   const auto level = straight_settings(sagging_map(), Anchors::level);
   ASSERT_TRUE(level);
   EXPECT_EQ(level->anchors.left.y_mm, level->anchors.right.y_mm);

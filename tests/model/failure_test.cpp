@@ -14,7 +14,7 @@ enum class Why { slack, outside };
 std::string_view sentence_of(Why why) {
   return why == Why::slack ? "a chain hangs slack" : "the place lies outside";
 }
-/// Has no words of its own: whole tasks say what they were about.
+/// Has no sentence: failures of whole tasks give their own.
 enum class TaskWhy { no_machine };
 
 TEST(Failure, OfAReasonAloneHasTheReasonsWords) {

@@ -66,7 +66,7 @@ TEST(PlotterMap, IsThePlotterAsFoundOnAPageWhereItsCrossesWereDrawn) {
   const auto mechanism = model::make_plotter_mechanism(machine_found(plotter.set, *plotter.found));
   const PlotterController controller(
       plotter.set.firmware, plotter.set.machine, plotter.set.pins_middle);
-  // As a whole the crosses are drawn where they were commanded.
+  // On average the crosses are drawn where they were commanded.
   double x = 0.0, y = 0.0, worst = 0.0;
   const TestDrawing drawing = planned_drawing(plotter.set);
   for (const DrawnCross& cross : drawing.crosses) {
@@ -101,7 +101,7 @@ TEST(PlotterMap, IsThePlotterAsFoundOnAPageWhereItsCrossesWereDrawn) {
 
 TEST(PlotterMap, KnowsItsErrorOfShapeAndNotOfPlace) {
   KnownPlotter plotter = known_plotter();
-  // Pins that are higher or lower turn the drawing of a point, whole: that is no error of its shape.
+  // A rise of the pins rotates a point's whole drawing, which is not an error of its shape.
   plotter.found->pin_spacing_mm.sigma = plotter.found->zero_left_mm.sigma = 0.0;
   plotter.found->zero_right_mm.sigma = plotter.found->scale_left_mm_per_m.sigma = 0.0;
   plotter.found->scale_right_mm_per_m.sigma = 0.0;

@@ -19,7 +19,7 @@ using model::PlotterMachine;
 using observation::DrawnMeasure;
 using Reason = DrawingFailure::Reason;
 
-/// What a person measures on the page that `truth` draws with a controller that holds `stated`.
+/// Measures of the page that `truth` draws with a controller set to `stated`.
 TestDrawing measured(const PlotterMachine& stated,
                      PlotterFirmware firmware,
                      const PlotterMachine& truth,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The lines to paste are those of a machine that is known: scales, zeros and pins that were put in
-/// come out in each controller's own words.
+/// The lines to paste for a known machine: given scales, zeros and pins come out in each
+/// controller's format.
 #include "grid/plotter/settings_to_paste.hpp"
 
 #include <gmock/gmock.h>
@@ -102,15 +102,15 @@ TEST(SettingsToPaste, OnceTypedInTheControllerCountsTheCordsRight) {
   ASSERT_TRUE(next.home);
   EXPECT_NEAR(std::hypot(next.home->x_mm + 602.0, next.home->y_mm), 995.0 / 1.001, 1e-8);
   EXPECT_NEAR(std::hypot(next.home->x_mm - 602.0, next.home->y_mm), 995.0 / 0.998, 1e-8);
-  // A second time nothing is left to type in.
+  // A second time nothing changes.
   model::PlotterMachine sound = truth;
   sound.zero_mm = {};
   sound.scale_mm_per_m = {};
   EXPECT_EQ(once_typed_in(next, sound).steps_per_mm.left, next.steps_per_mm.left);
 }
 
-/// With what each controller can hold typed in, a machine that is as found draws true, but for what
-/// the controller cannot hold.
+/// With its settings typed in, the fitted machine draws correctly, except for what the controller
+/// cannot store.
 TEST(SettingsToPaste, TypedInTheMachineDrawsWhereItIsSent) {
   model::PlotterMachine truth;
   truth.pin_spacing_mm = 1207.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Reports in a real browser: every chart drawn with every row, nothing on the console, values on hovering,
-/// nothing cut off on a phone or on paper; and a check that broken pages fail. One browser opens all pages.
+/// nothing cut off on a phone or on paper; and a check that broken pages fail. One browser opens
+/// all pages.
 #include "tests/report/browser.hpp"
 
 #include <fmt/format.h>
@@ -113,8 +114,8 @@ std::string paper_probe() {
       paper().height_px);
 }
 
-/// Verdict, causes and what to do; the rest is a click away, in a line each. A chart that is unfolded gets
-/// its width: a loaded machine may be slow to draw anew, so it is looked at until it fits.
+/// Verdict, causes and what to do; the rest is folded, one line each. An unfolded chart gets its
+/// width: a busy machine may be slow to redraw, so it is polled until it fits.
 constexpr const char* kFoldedProbe = R"(
       const lines = [...document.querySelectorAll("section.folded")].map((section) => section.getBoundingClientRect().height);
       const page = document.documentElement;
@@ -257,7 +258,7 @@ TEST(Browser, PagesAreDrawnWhole) {
     SCOPED_TRACE("arrows");
     EXPECT_EQ(number_after(visits[12].dom, "data-shafts=\""), 28);
     EXPECT_EQ(number_after(visits[12].dom, "data-down=\""), 28) << "where it landed minus where it was sent";
-    // What the worn chain alone does, and what was measured before it was known.
+    // The effect of the worn chain alone, and the measurements before naming it.
     EXPECT_EQ(number_after(visits[13].dom, "data-common=\""), 1);
   }
 }
@@ -281,7 +282,7 @@ TEST(Browser, FaultsOfAPageAreFound) {
   EXPECT_THAT(problems_of(visits[4]), IsEmpty());
 }
 
-// What is folded on the screen stays off the paper; the sheets of an evening are one page each.
+// Folded sections are not printed; the sheets of start are one page each.
 TEST(Browser, PagesAreShortOnPaper) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   const int sheets = printed_sheets(diagnosis_of_the_demo());

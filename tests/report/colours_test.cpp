@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One list of colours: what a chart, the page's style and Python's plots draw in is on it, so that
-/// vermilion and blue mean the same everywhere.
+/// One list of colours: all colours of charts, the page's style and Python's plots are on it, so
+/// that vermilion and blue mean the same everywhere.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(Colours, OfEveryChartAreOnTheOneList) {
           << colour << " of " << chart.name << " is on no list of tools/report/bed_chart.hpp";
     }
   }
-  // A scale that nobody draws is taken off the list.
+  // An unused scale must be removed from the list.
   for (const std::string& colour : kScales) EXPECT_TRUE(used.contains(colour)) << colour;
 }
 

@@ -37,8 +37,8 @@ TEST(DiagnosisPage, OfHolesTellsOfDistances) {
   EXPECT_THAT(html, Not(HasSubstr("Over one sprocket turn")));
 }
 
-// Where the cause puts the tool is what the tested model says: with the shift the machine with the
-// cause has the lengths that the machine without it has at the mark.
+// The cause's shift agrees with the model: at the shifted position the machine with the cause has
+// the lengths that the machine without it has at the mark.
 TEST(DiagnosisPage, DrawsWhereEachCauseAlonePutsTheTool) {
   const Diagnosis found = sample_diagnosis();
   const std::string html = page_of(found);

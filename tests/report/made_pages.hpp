@@ -9,7 +9,7 @@
 
 namespace chaintrue::report::testing {
 
-/// What a shell line with the command leaves in `file`, in a folder of its own.
+/// The content of `file` after a shell line with the command, in a separate folder.
 [[nodiscard]] std::string made_by(const std::string& line, const std::string& file);
 [[nodiscard]] std::string page_of(const grid::diagnosis::Diagnosis& found);
 

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-# What is typed, and a document that must be among the first three hits; none: nothing is found.
+# A query, and a document that must be among its first three hits; none: nothing is found.
 QUESTIONS = [
     ("worn chain", "diagnosis"),
     ("hook offset", "holes"),

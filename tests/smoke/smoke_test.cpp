@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// One hidden machine of every kind: drawn by another implementation (tests/lab/generator), its file read like a user's,
-/// diagnosed, and only then compared with the truth. Each set states what the diagnosis must say of it; seeds are fixed and
-/// part of a test's name. Rates over hundreds of such sets are the laboratory's (tests/lab/sealed).
+/// diagnosed, and only then compared with the truth. Each set states its expected diagnosis; seeds
+/// are fixed and part of a test's name. Rates over hundreds of such sets are the laboratory's
+/// (tests/lab/sealed).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ namespace {
 using ::testing::IsSupersetOf;
 using ::testing::SizeIs;
 
-/// A set of plan.hpp with what is hidden in it, and facts of outcome.hpp that must be true.
+/// A set of plan.hpp with its hidden cause, and facts of outcome.hpp that must be true.
 struct Set {
   const char* kind;
   std::uint64_t seed;
@@ -125,7 +126,7 @@ TEST(LawSmoke, LawIsClaimedWithItsVariableAndAFieldIsNot) {
   EXPECT_FALSE(field.claimed) << line_of("gaussian", field);
 }
 
-// The list of `chaintrue start`, and a zero that moves on the way: what a first evening brings.
+// The list of `chaintrue start`, and a zero that moves during the session: a typical first evening.
 TEST(EveningSmoke, ZeroThatMovesIsTakenOutOfTheMap) {
   constexpr std::uint64_t kSeed = 1;
   generator::Recipe recipe = recipe_of_start();
@@ -140,7 +141,7 @@ TEST(EveningSmoke, ZeroThatMovesIsTakenOutOfTheMap) {
   const auto before = map_errors(set, plain->map);
   const auto after = map_errors(set, own->fit.map);
   ASSERT_TRUE(before && after);
-  // Most of a shift of 10 mm in half of the readings is left to a map that does not know of it.
+  // A map that ignores a shift of 10 mm in half of the readings keeps most of it.
   EXPECT_GT(before->true_rms_mm, 2.5) << "seed " << kSeed;
   // 32 readings of half a millimetre make a map of some 0.25 mm; twice that.
   EXPECT_LT(after->true_rms_mm, 0.5) << "seed " << kSeed;

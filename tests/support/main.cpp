@@ -5,7 +5,7 @@
 ///   grid_tests --folder=belts --part=1/2      those of tests/belts, the first half of its source files
 ///   grid_tests --gtest_filter='BeltsFit.*'
 ///
-/// Parts are of whole files, so that what the tests of a file share is prepared once.
+/// Parts consist of whole files, so that shared preparations are made once.
 #include <gmock/gmock.h>
 #ifdef __EMSCRIPTEN__
 #include <sys/stat.h>
@@ -76,7 +76,7 @@ int leave_out_others(const Choice& choice) {
 
 int main(int argc, char** argv) {
 #ifdef __EMSCRIPTEN__
-  ::umask(022);  // as a shell would have it, and node has not
+  ::umask(022);  // as in a shell; node lacks it
 #endif
   testing::InitGoogleMock(&argc, argv);
   Choice choice;

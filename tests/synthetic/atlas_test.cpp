@@ -30,8 +30,8 @@ MechanismPointer classic() {
       files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json"));
 }
 
-/// A pen on two cords from spools, so that what needs a pulley acts too; cords that have weight and
-/// give, so that forces move the pen.
+/// A pen on two cords from spools, so that effects of pulleys act too; heavy elastic cords, so that
+/// forces move the pen.
 MechanismPointer point_plotter() {
   model::PlotterMachine machine;
   machine.pulley_radius_mm = 10.0;
@@ -142,7 +142,7 @@ model::BeltMachine adjusted(const MeasuredBelts& session) {
   return frame;
 }
 
-/// What the controller of belts believes while it draws: the anchors set, or those that it found.
+/// The belts controller's anchors while it draws: those set, or those that it found.
 model::BeltMachine believed(const AtlasPicture& picture, double size) {
   if (picture.effect == nullptr) return belt_frame();
   BeltsSpec spec;
@@ -152,7 +152,7 @@ model::BeltMachine believed(const AtlasPicture& picture, double size) {
   return adjusted(*simulate_belts(belt_frame(), belt_frame(), spec));
 }
 
-/// Which way each length goes along a line; its first point is reached the way the line goes on.
+/// The direction of each length along a line; its first point is reached in the line's direction.
 std::vector<double> ways(const Mechanism& set, const AtlasLine& line, std::size_t i) {
   const std::size_t to = std::max<std::size_t>(i, 1);
   const auto from = set.predict(line.points[to - 1], {});
@@ -244,7 +244,7 @@ TEST_P(EveryPicture, ShowsTheUsualSizeAndMovesSomeLine) {
     ASSERT_LT(picture.usual, picture.frames.size());
     for (std::size_t i = 1; i < picture.frames.size(); ++i)
       EXPECT_LT(picture.frames[i - 1].size, picture.frames[i].size);
-    // A line of a pen is half a millimetre wide; what moves it by less than a hundredth is not drawn.
+    // A pen's line is half a millimetre wide; shifts below a hundredth of it are not drawn.
     EXPECT_GT(picture.largest_shift_mm, 0.01);
     if (picture.effect == nullptr) continue;
     for (const auto& parameter : picture.effect->parameters) {

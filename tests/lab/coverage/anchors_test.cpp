@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Anchors of four belts are off by as much as is stated; bad readings are found and good ones kept.
+// Errors of four belts' anchors agree with their stated sigmas; bad readings are found and good
+// ones kept.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Without a cause every reported p-value is uniform; where a cause acts is as uncertain as is stated; and
-// what is proposed next makes the right answer likelier.
+// Without a cause every reported p-value is uniform; the place of a cause has its stated
+// uncertainty; and proposed measurements make the right answer likelier.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,7 +87,7 @@ TEST(PlaceSigma, IsTheScatterOfThePlace) {
       spec.stated = StatedNoise{0.2, 0.3, 12.0};
       spec.hidden = {hidden};
       spec.unmodelled_mm = unmodelled_mm;
-      // A sigma is for machines whose settings are as likely as stated.
+      // A sigma is valid for machines whose settings have the stated distribution.
       spec.draw_settings = true;
       spec.seed = seed;
       const auto found =

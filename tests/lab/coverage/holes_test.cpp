@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits to distances between holes: spacing, scales and the tape's zero are off by as much as is stated,
-// bad distances are found, plans keep their promise; and how often a diagnosis names a cause.
+// Fits to distances between holes: errors of spacing, scales and the tape's zero agree with their
+// stated sigmas, bad distances are found, plans reach their predicted accuracy; and how often a
+// diagnosis names a cause.
 #include <gtest/gtest.h>
 
 #include <cmath>

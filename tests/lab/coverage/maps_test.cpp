@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps of two chains and settings of plotters are off by as much as is stated; how often a check of a map
-// comes to the right verdict.
+// Errors of two-chain maps and of plotters' settings agree with their stated sigmas; rates of right
+// verdicts of a map's check.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The numbers of what the command answered, so that two answers can be compared.
+/// The numbers of an answer, for comparing two answers.
 #pragma once
 
 #include <string>

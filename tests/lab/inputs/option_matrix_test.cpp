@@ -27,14 +27,14 @@ std::string line_of(const Invocation& use, const Telling& telling) {
   return line;
 }
 
-/// The line without an option that stands in it with its value, so that it can be given anew.
+/// The line without an option and its value, so that it can be given again.
 std::string without(const std::string& line, const std::string& option) {
   const bool is_output = option == "--output";
   std::string result = std::regex_replace(line, std::regex(" " + option + "( [^- ][^ ]*)?"), "");
   return is_output ? std::regex_replace(result, std::regex(" -o [^ ]+"), "") : result;
 }
 
-/// What is wrong with a cell; empty where nothing is.
+/// The fault of a cell; empty if none.
 std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran& base, const std::string& option) {
   const Telling* telling = telling_of(use.verb, option, use.name);
   if (telling == nullptr) return "has no telling value in this test";
@@ -44,7 +44,7 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
   Ran ran = folder.run(line + then);
   Ran before = telling->instead.empty() ? base : folder.run(line_of(use, *telling) + then);
   if (ran.code == 2 || ran.code == 3) {
-    // A sentence that says why it cannot, by what the file holds.
+    // A sentence with the reason, by the file's content.
     if (ran.err.empty()) return "is refused without a sentence";
   }
   static const std::vector<std::string> kEchoes = {

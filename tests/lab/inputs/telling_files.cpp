@@ -88,10 +88,10 @@ void add_telling_files(InputFolder& folder) {
   Json moved = Json::parse(folder.text_of("belts.json"));
   moved["machine"]["anchors"]["tl"]["x_mm"] = -19.0;
   folder.write("moved_belts.json", moved.dump(1));
-  // What the plotter's controller may hold now.
+  // Possible present settings of the plotter's controller.
   folder.write("moved_plotter.json", replaced(folder.text_of("wide_plotter.json"), "3000", "2996"));
   folder.write("narrow_holes.json", narrow_holes(folder.text_of("holes.json")));
-  // Links that are hardly longer than they should be, in place of the catalogue's.
+  // Links with a slightly long pitch, instead of the catalogue's cause.
   Json own = Json::parse(content_of(fixtures + "effects/catalogue/own_chain_pitch_error.json"));
   own["parameters"][0]["upper"] = 0.001;
   folder.write("own.json", own.dump(1));
@@ -110,7 +110,7 @@ void add_telling_files(InputFolder& folder) {
   folder.write("short.nc",
         "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.06 Y0 F300\nG1 X100.06 Y100 F600\nM2\n");
   folder.write("slow.nc", replaced(folder.text_of("simple.nc"), "F600", "F588"));
-  // Whoever wants to know of line 6 has to come out of the loop first.
+  // Explaining line 6 requires leaving the loop first.
   folder.write("loop.nc",
         "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
         "G1 X0 Y0\nM2\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Every option at a value that changes the answer, and the files which that takes.
+/// Every option at a value that changes the answer, and the files needed.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace chaintrue::inputs {
 
-/// How it shows that an option acts.
+/// How an option's effect shows.
 enum class Shows {
   in_numbers,  ///< of the answer
   in_form,     ///< other bytes, the numbers may be the same
@@ -29,12 +29,12 @@ struct Telling {
   /// and of what was made of it, or a whole line.
   std::string instead;
 };
-/// The one for this invocation if there is one; null where the option has none at all.
+/// The one for this invocation if there is one; null if the option has none.
 [[nodiscard]] const Telling* telling_of(const std::string& verb,
                                         const std::string& option,
                                         const std::string& use);
 
-/// Commands that read the numbers out of what this call wrote, where the file repeats the input.
+/// Commands that extract the numbers from this call's output, if the file repeats the input.
 [[nodiscard]] std::string then_of(const Invocation& call);
 /// Adds the files that are named by the table.
 void add_telling_files(InputFolder& folder);

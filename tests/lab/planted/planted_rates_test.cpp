@@ -137,7 +137,7 @@ TEST_F(RealScan, ACauseIsAddedAtTheStrengthAsked) {
     SCOPED_TRACE(generator::card(draw.hidden.cause).id);
     const double noise_factor = reference_of(references_, scan_.name).field.noise_factor;
     EXPECT_LE(draw.strength, draw.white / noise_factor);
-    // The sheet, which the strength asked does not know, takes a part.
+    // The sheet, which the requested strength ignores, absorbs a part.
     EXPECT_LE(draw.white, 20.1);
     EXPECT_GT(draw.white, 1.0);
     EXPECT_EQ(draw.with_order, draw.plain.points.front().order.has_value());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The strength of a cause given a smooth field, held against cases that need no field, and the field
-/// against one that was drawn.
+/// The strength of a cause given a smooth field, compared with cases that need no field, and the
+/// fitted field with the drawn one.
 #include "planted/judge/smooth_field.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(Calibrate, FindsSettingsAndSheet) {
   for (ReadMark& m : marks) m.mark = {m.mark.x + 10.0, m.mark.y - 6.0};
   const CalibratedSession session = calibrate(stated, marks, {});
   const generator::Vec2 first = session.on_bed(marks.front().mark);
-  // Settings that are stated 2 mm off pull what is found by a part of it that 28 marks outweigh.
+  // Settings stated 2 mm off pull the result by a part that 28 marks outweigh.
   EXPECT_NEAR(first.x, marks.front().mark.x - 10.0, 1.0);
   EXPECT_NEAR(first.y, marks.front().mark.y + 6.0, 1.0);
   EXPECT_LT(session.residual.norm(), 1.5);

@@ -104,7 +104,7 @@ TEST_F(RealFrames, BeltsStretchAndNothingElseIsNamed) {
     // 0.13 to 0.26 %; with a pattern the sigma states how well they are known.
     const auto& size = found.causes[0].parameters[0];
     EXPECT_NEAR(size.value, 0.0019, 0.0007 + 2.0 * size.sigma);
-    // A fit has the anchors of a diagnosis.
+    // A fit gives the same anchors as a diagnosis.
     const auto fit = diagnosis::fit_with_causes(belts).value();
     for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
       EXPECT_EQ(fit.coordinates[i].fitted_mm, found.belts->coordinates[i].fitted_mm);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Logs cut at a line, and with a line deleted, doubled or garbled: most are diagnosed all the same, their
-// anchors are those of the whole log, and no cause is sure that the whole log has unlikely.
+// Logs cut at a line, and with a line deleted, doubled or garbled: most are still diagnosed, their
+// anchors are those of the whole log, and no cause is certain that is unlikely in the whole log.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 using testing_support::Damage;
 using testing_support::kDamageSeed;
 
-/// Empty where the log is refused or does not fix its anchors.
+/// Empty if the log is refused or does not determine its anchors.
 std::optional<diagnosis::Diagnosis> diagnosed(const std::string& text) {
   try {
     const files::Maslow4Import read = files::parse_maslow4(text, "log.txt");
@@ -61,7 +61,7 @@ void expect_like_the_whole(const std::string& text) {
           << own.name;
     }
   });
-  // The share that is asked for.
+  // The required share.
   EXPECT_GE(answered, std::ceil(0.85 * logs)) << "seed " << kDamageSeed;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The machine's own fit, as it is compared with: exact spans give back their frame.
+// The machine's own fit, used for comparison: exact spans give back their frame.
 #include "sealed/judge/firmware_anchors.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::vector<Spans> exact_spans() {
 TEST(FirmwareAnchors, ExactSpansGiveTheFrameBack) {
   const FirmwareAnchors found = firmware_anchors(exact_spans());
   ASSERT_TRUE(found.converged);
-  // Where Levenberg and Marquardt stop: a millionth of the sum of squares.
+  // The tolerance of Levenberg-Marquardt: a millionth of the sum of squares.
   constexpr double kConvergedMm = 1e-3;
   for (std::size_t j = 0; j < 4; ++j) {
     EXPECT_NEAR(found.anchors[j][0], kAnchors[j][0], kConvergedMm);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An excerpt of the sealed laws: sets whose outcome must stay. The rates are those of build/sealed_laws
-/// (docs/diagnosis_rates.md).
+/// An excerpt of the sealed laws: sets with a fixed outcome. The rates are those of
+/// build/sealed_laws (docs/diagnosis_rates.md).
 #include <gtest/gtest.h>
 
 #include "sealed/judge/laws_trial.hpp"
@@ -30,9 +30,9 @@ TEST(SealedLaws, AreClaimedAndRightInBeltsAndHoles) {
       EXPECT_TRUE(trial.claimed) << line_of(kind, trial);
       EXPECT_TRUE(trial.leads) << line_of(kind, trial);
       EXPECT_LT(trial.worst_sigmas.value_or(0.0), 3.0) << line_of(kind, trial);
-      // A wave predicts what was left out better than what knows no law, also where nothing was measured; of
-      // holes all distances are left out, or the others would say where it is. A step is much as a smooth
-      // pattern has it but for its two neighbours.
+      // A wave predicts left-out readings better than models without a law, even outside the
+      // measured part; all distances of a hole are left out, or the others would determine its
+      // position. A step differs from a smooth pattern only at its two neighbours.
       ASSERT_FALSE(trial.laws.empty());
       if (!is_periodic(trial.laws.front().shape)) continue;
       const auto& held_out = trial.laws.front().held_out;

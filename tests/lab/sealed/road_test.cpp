@@ -75,13 +75,13 @@ TEST(Road, ASkippedToothIsTakenOutOfTheReadingsAndNotFitted) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
     ASSERT_THAT(road.own.built_on, SizeIs(1)) << "seed " << seed;
     EXPECT_EQ(road.own.built_on.front().cause.effect->id, "tooth_skip");
-    // A map of 34 readings of 0.4 mm is good to some 0.25 mm; 0.5 is twice that.
+    // A map of 34 readings of 0.4 mm is accurate to some 0.25 mm; 0.5 is twice that.
     EXPECT_LT(road.own_mm(), 0.5) << "seed " << seed;
     EXPECT_GT(road.plain_mm(), 1.0) << "seed " << seed;
   }
 }
 
-/// The list of start with a zero that moves on the way.
+/// The list of start with a zero that moves during the session.
 generator::SealedSet set_of_start(const Hidden& hidden, std::uint64_t seed) {
   generator::Recipe recipe = recipe_of_start();
   recipe.exactly = {hidden};
@@ -194,7 +194,7 @@ TEST(Road, ACauseThatStaysOutsideIsInTheExpectedError) {
   EXPECT_GT(open, 0) << "drift looks like other causes where marks are visited in rows";
 }
 
-// The fit takes what a skipped tooth does for noise: it expected 0.7 mm where the tool was 4 mm off.
+// The fit treats a skipped tooth as noise: it expected 0.7 mm when the tool was 4 mm off.
 TEST(Road, WhatIsLeftOutIsStatedWhereItContradictsTheFit) {
   for (const std::uint64_t seed : {1, 2}) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
@@ -215,7 +215,7 @@ TEST(Road, WhatMayBeTheTapeIsOfferedUntilItsOwnerDecides) {
   EXPECT_EQ(asked.own.offered.front().reason, OfferedCause::Reason::may_be_paper);
   EXPECT_THAT(grid::diagnosis::in_words(asked.own),
               ::testing::ElementsAre(::testing::HasSubstr("--accept-class")));
-  // With the yes it is weighed by what it gains, like any other.
+  // With the owner's yes it is judged by its gain, like any other.
   const Road accepted = road_of(both, 60, 1, true);
   for (const OfferedCause& offered : accepted.own.offered)
     EXPECT_EQ(offered.reason, OfferedCause::Reason::gains_nothing);

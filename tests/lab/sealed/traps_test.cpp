@@ -117,7 +117,7 @@ TEST(Traps, DriftIsOwnedUpToWhenTheOrderIsARaster) {
   }
 }
 
-// There and back the order shows; at random nothing says it.
+// A serpentine order shows; a random one does not.
 TEST(Traps, WithoutAnOrderHysteresisIsTestableWhereTheReadingsSayTheOrder) {
   const std::vector<Hidden> friction{{Cause::direction_hysteresis, Where::both, 0.8, 0.0}};
   const auto without_order = [&](Order order) {

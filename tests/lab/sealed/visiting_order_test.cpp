@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Orders of visits that nobody wrote down, found from readings of the hidden machine.
+/// Unrecorded orders of visits, estimated from readings of the hidden machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

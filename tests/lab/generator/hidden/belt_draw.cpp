@@ -86,7 +86,7 @@ void let_anchors_give(const BeltSession& session, double give_mm_per_n, std::vec
 }
 
 /// Readings of all four without noise, each belt in the true frame of its visit, starting with this
-/// visit; motors pull so many times as hard as the frame has it.
+/// visit; motors pull `times` as hard as in the frame.
 std::vector<FourLengths> readings(const BeltFrame& frame,
                                   const BeltSecret& secret,
                                   const std::vector<std::array<double, 2>>& commands,
@@ -139,8 +139,8 @@ std::vector<FourLengths> less(std::vector<FourLengths> read, const std::vector<F
   return read;
 }
 
-/// What each cause of the catalogue at its usual size leaves, as unit vectors; what sets in does so at
-/// every visit.
+/// The projected signature of each cause of the catalogue at its usual size, as unit vectors;
+/// causes that set in do so at every visit.
 std::vector<Eigen::VectorXd> rivals_of(const BeltFrame& frame,
                                        const std::vector<std::array<double, 2>>& commands,
                                        const std::vector<FourLengths>& plain,

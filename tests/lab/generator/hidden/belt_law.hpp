@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws that no catalogue lists, and fields that are no law, in the reading of one of four belts. Written from
-/// the words of the task, without a look at the product's own list.
+/// Laws that no catalogue lists, and fields that are no law, in the reading of one of four belts.
+/// Written independently of the product's list.
 #pragma once
 
 #include <string_view>
@@ -38,7 +38,7 @@ struct BeltLaw {
   double phase = 0.0;
   double sign = 1.0;  ///< the sense in which a slope rises
   std::vector<HiddenWave> waves{};
-  double strength = 0.0;  ///< what no single cause nor the anchors explain, in sigmas
+  double strength = 0.0;  ///< not explained by the anchors and any single cause, in sigmas
 };
 
 /// Of size 1, at a position and the belt's length there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the five anchor coordinates and the position of each point leave of a change of four belts' readings.
+/// The remainder of a change of four belts' readings after projection on the five anchor
+/// coordinates and the position of each point.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws that no catalogue lists, and fields that are no law: what a law search is tried on. Written from
-/// the words of the task, without a look at the product's own list.
+/// Laws that no catalogue lists, and fields that are no law: test cases of a law search. Written
+/// independently of the product's list.
 ///
 /// A law is a function of one thing (a coordinate of the sheet, a direction across it, one chain's length
 /// or angle) or of two, and enters one chain's reading or moves the tool along an axis. A field is a sum
@@ -77,7 +77,7 @@ struct SizedLaw {
                                 double most_delta,
                                 Dice& dice);
 
-/// What it moves the tool by, or adds to the readings, at each site.
+/// Its shift of the tool, or addition to the readings, at each site.
 [[nodiscard]] std::vector<Vec2> law_at(const HiddenLaw& law,
                                        std::span<const Visit> visits,
                                        const std::vector<Rest>& at_rest);

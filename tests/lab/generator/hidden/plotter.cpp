@@ -66,7 +66,7 @@ Real mass_height(const HiddenPlotter& p, const GondolaPose& pose) {
   return pose.y + p.mass_right_mm * std::sin(pose.tilt) - p.mass_below_mm * std::cos(pose.tilt);
 }
 
-/// A cord of links that hangs at the pen's end on (h, v): what its extent lacks.
+/// A cord of links with the pull (h, v) at the pen's end: the error of its extent.
 std::array<Real, 2> shot(
     const HiddenPlotter& p, Real h, Real v, Real s, int links, std::array<Real, 2> extent) {
   const Real own = s / links;

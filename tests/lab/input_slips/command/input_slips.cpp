@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// input_slips: spoils sessions of machines of tests/lab/generator with every kind of gross slip, and
-/// prints how often reading the file names it; then sessions without one, and what was said of them.
-/// Not part of the test run; its table stands in docs/reliability.md.
+/// input_slips: puts every kind of gross slip into sessions of machines of tests/lab/generator, and
+/// prints how often reading the file reports it; then sessions without one, and their messages. Not
+/// part of the test run; its table is in docs/reliability.md.
 ///
 ///   input_slips --machines 10 --clean 400
 #include <fmt/format.h>

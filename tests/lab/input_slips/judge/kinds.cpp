@@ -64,7 +64,7 @@ std::size_t some_row(const MeasuredGrid& grid, Dice& dice) {
   }
 }
 
-/// `spoil` answers with the words that name it; none: another row is to be tried.
+/// `spoil` returns the words that report it; none: another row is tried.
 using OneRow = std::function<std::vector<std::string>(MeasuredPoint&, Dice&)>;
 
 Kind one_point(const char* id, Way way, OneRow spoil) {
@@ -171,7 +171,7 @@ void add_commands(std::vector<Kind>& kinds) {
   kinds.push_back(one_point("a digit wrong", way, [](auto& p, Dice& dice) -> std::vector<std::string> {
     const double meant = p.mark.x_mm;
     p.mark.x_mm = digit_wrong(meant, dice);
-    // A hundred more is the tape's mark as well.
+    // A hundred more is also the tape's mark.
     return {rather(meant, p.mark.x_mm)};
   }));
   kinds.push_back(one_point("a digit dropped", way, [](auto& p, Dice&) -> std::vector<std::string> {
@@ -230,7 +230,7 @@ void add_lengths(std::vector<Kind>& kinds) {
   const auto every = [&](const char* id, std::vector<std::string> words, WholePoints spoil) {
     kinds.push_back(every_point(id, way, std::move(words), std::move(spoil)));
   };
-  // Of a frame that is its own mirror image nothing tells these two apart: both are said.
+  // For a mirror-symmetric frame these two are indistinguishable: both are reported.
   every("left and right exchanged", {"left_mm and right_mm look swapped"}, [](auto& p) {
     std::swap(p.lengths->left_mm, p.lengths->right_mm);
   });
@@ -314,7 +314,7 @@ void add_holes(std::vector<Kind>& kinds) {
                        auto& hole = set.holes[dice.below(set.holes.size())];
                        if (hole.commanded.x_mm > -100.0) continue;
                        hole.commanded.x_mm = -hole.commanded.x_mm;
-                       // Where another hole is there already, the two are named.
+                       // If another hole is there already, both are reported.
                        return Expected{{fmt::format("hole {} was cut at", hole.name),
                                         fmt::format("as hole {}: is a minus missing", hole.name)},
                                        "",
@@ -420,7 +420,8 @@ Outcome try_kind(const Kind& kind, std::uint64_t seed) {
 
 std::vector<std::string> false_alarms(Way way, std::uint64_t seed) {
   std::vector<std::string> messages = reported_of(clean_session(way, seed)).messages;
-  // Friction and drift part a mark's two visits as well: that they disagree is so, and names no slip.
+  // Friction and drift separate a mark's two visits too: the report of a disagreement is right, and
+  // not a slip.
   std::erase_if(messages, [](const std::string& message) {
     return message.find("was measured twice, also at") != std::string::npos;
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The slips that a file is spoilt with, one of each kind at a time, and how each was answered.
+/// The slips put into a file, one at a time, and the response to each.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace chaintrue::slips {
 
-/// What a message must have that names it.
+/// Required parts of a message that reports it.
 struct Expected {
   std::vector<std::string> words;  ///< any one of them will do
   std::string place;               ///< "/points/13"; empty for the file as a whole
@@ -37,7 +37,7 @@ struct Outcome {
 };
 [[nodiscard]] Outcome try_kind(const Kind& kind, std::uint64_t seed);
 
-/// Of a session without a slip: what was said all the same.
+/// For a session without a slip: the false reports.
 [[nodiscard]] std::vector<std::string> false_alarms(Way way, std::uint64_t seed);
 
 }  // namespace chaintrue::slips

@@ -89,8 +89,7 @@ grid::MeasuredHoles holes_of(std::uint64_t seed) {
   return set;
 }
 
-/// The anchors as their owner taped them, commands where a frame of these would have the sled, and a
-/// diagonal by the tape.
+/// The anchors as taped by their owner, commands for a frame with these, and a taped diagonal.
 grid::MeasuredBelts belts_of(std::uint64_t seed) {
   generator::BeltRecipe recipe;
   recipe.nothing = seed % 2 == 0;
@@ -167,7 +166,7 @@ Session clean_session(Way way, std::uint64_t seed) {
 
 namespace {
 
-/// Nobody states a hook that he does not know of.
+/// An unknown hook is not stated.
 std::string without_tape_zero(std::string text) {
   const std::size_t from = text.find("\"hook_offset_mm\"");
   if (from == std::string::npos) return text;

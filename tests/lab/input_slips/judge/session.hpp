@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A measured session of a machine of tests/lab/generator, of any way of measuring, and what reading its
-/// file says. The machine is off its statement by usual amounts, and every second one has an effect
-/// besides.
+/// A measured session of a machine of tests/lab/generator, by any way of measuring, and the
+/// messages on reading its file. The machine differs from its stated values by usual amounts, and
+/// every second one has an effect.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// planted: diagnoses marks drawn at random from real scans, as they were read and with a known cause
-/// added, and prints how often the cause is named and how often a claim is made that the whole scan
-/// denies; or compares two versions of the diagnosis draw by draw (docs/diagnosis_rates.md).
+/// planted: diagnoses marks drawn at random from real scans, as read and with a known cause added,
+/// and prints how often the cause is named and how often a claim contradicts the whole scan; or
+/// compares two versions of the diagnosis draw by draw (docs/diagnosis_rates.md).
 ///
 ///   planted now.txt --scan C.csv --scan D.csv --draws 36          # resumable
 ///   planted now.txt --most 0                                      # the table of what there is

@@ -45,12 +45,12 @@ struct Cluster {
 };
 /// 95 % bounds of a rate over scans of which each has its own: the wider of the binomial ones and those of
 /// Student's t with a degree of freedom less than there are scans (W. Cochran, Sampling Techniques (1977),
-/// section 9A: the ratio estimate of a sample of clusters). 0 to 1 for a single scan, which says nothing
-/// about another.
+/// section 9A: the ratio estimate of a sample of clusters). 0 to 1 for a single scan, which carries
+/// no information about another.
 [[nodiscard]] sealed::RateBounds clustered_bounds(const std::vector<Cluster>& clusters);
 
-/// Of all claims of 0.1 and more whose truth is known: right are the planted cause and what the whole scan bears out,
-/// wrong what it denies.
+/// Of all claims of 0.1 and more whose truth is known: the planted cause and classes confirmed by
+/// the whole scan are right, classes it denies are wrong.
 [[nodiscard]] sealed::Calibration claims_held_against(const std::vector<Outcome>& outcomes,
                                                       const std::vector<Reference>& references);
 

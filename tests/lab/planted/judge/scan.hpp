@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Real readings with a known cause added: marks of a scan drawn at random, as they were read, and the
-/// same with what the generator's machine, calibrated to the scan, reads more with the cause.
+/// Real readings with a known cause added: marks of a scan drawn at random, as read, and with the
+/// change that the cause makes on the generator's machine, calibrated to the scan.
 ///
-/// Nobody recorded when a mark was visited. Causes that act by the visit are added, and diagnosed, in an
-/// order drawn at random, which nothing else on the scan follows; all others are diagnosed without one.
+/// The order of visits was not recorded. Causes that act by the visit are added, and diagnosed, in
+/// an order drawn at random, which nothing else on the scan follows; all others are diagnosed
+/// without one.
 #pragma once
 
 #include <cstdint>

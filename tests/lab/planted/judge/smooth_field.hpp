@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The strength of a cause on a real machine: the norm of its signature where settings, sheet, noise
-/// and one smooth field take their share.
+/// The strength of a cause on a real machine: the norm of its signature after projection on
+/// settings, sheet, noise and one smooth field.
 ///
 /// Notation, besides that of generator/hidden/strength.hpp
 ///   X    derivatives by the settings (with their stated sigmas as further rows), by shift and turn of

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   for (const auto& cause : chaintrue::sealed::usual_causes()) {
     if (!only.empty() && only != cause.effect) continue;
     const auto found = chaintrue::sealed::coverage_of(cause, first_seed, sessions, side);
-    // Coordinates of one session err together: a session is what counts of the bounds.
+    // Errors of one session's coordinates are correlated, so the bounds count sessions.
     const int held = static_cast<int>(static_cast<double>(sessions) * found.held / found.of + 0.5);
     const auto bounds = chaintrue::sealed::rate_bounds_95(held, sessions);
     fmt::print(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// firmware_halves: what the lower belts read at either half of the places, predicted from the other
-/// half, by the machine's own fit (firmware_anchors.hpp) and by this one. Prints the table of
+/// firmware_halves: predicts the lower belts at each half of the places from the other half, by the
+/// machine's own fit (firmware_anchors.hpp) and by this program's. Prints the table of
 /// docs/maslow4_rates.md.
 ///
 ///   firmware_halves ../shared/data/maslow4

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// road: what the road from readings to a cut is worth, with the causes that are found in the map and
-/// without. On hidden machines it holds each map's true error against what the map states; on a real
-/// scan it draws marks and holds both maps against all the others. Not part of the test run; its
-/// tables stand in docs/map_rates.md. Same options, same table.
+/// road: measures the accuracy from readings to a cut, with and without the causes found in the
+/// map. On hidden machines it compares each map's true error with its stated one; on a real scan it
+/// draws marks and compares both maps with all the others. Not part of the test run; its tables are
+/// in docs/map_rates.md. Same options, same table.
 ///
 ///   road --scan scan.json --draws 200           // chaintrue import optical wrote scan.json
 ///   road --zeros --sets 8                       // zeros that move: on the way, and between two sessions
@@ -41,8 +41,8 @@ struct Arguments {
   int drawn_marks = 60;
 };
 
-/// Zeros that move by so much on the way; then a first session, plain, and it with a second whose left zero
-/// is another, as with causes.
+/// Zeros that move by this much during a session; then a first session, plain, and it with a second
+/// whose left zero is another, as with causes.
 void print_zeros(const Arguments& arguments) {
   using generator::Cause;
   using generator::Where;
@@ -85,7 +85,7 @@ void print_zeros(const Arguments& arguments) {
   fmt::print("{}", sealed::stated_table(rows));
 }
 
-/// How often what happens during a session is found in the readings of the list of start.
+/// How often changes during a session are found in readings of the list of start.
 void print_start(const Arguments& arguments) {
   using generator::Cause;
   fmt::print("| hidden | strength | sessions | named alone | among those named | nothing named |\n"

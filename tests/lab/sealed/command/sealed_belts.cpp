@@ -59,8 +59,8 @@ void run(const Kind& kind, const Sets& sets) {
   std::fflush(stdout);
 }
 
-/// Stretch, anchors that give and a belt's scale in turn: the same machine measured with one pull and
-/// with two.
+/// Stretch, yielding anchors and a belt's scale in turn: the same machine measured with one pull
+/// and with two.
 void run_two_pulls(const char* what, double least, double most, const Sets& sets) {
   constexpr std::array kEffects = {"belt_stretch", "anchor_flex", "belt_scale"};
   const auto with_pulls = [&](const std::vector<double>& pulls) {

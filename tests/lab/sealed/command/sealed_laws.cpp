@@ -22,7 +22,7 @@ void print_row(const std::string& hidden, const char* what, const char* goal, co
   fmt::print("| {} | {} | {} | {} |\n", hidden, what, goal, text(share));
 }
 
-/// Of laws that were claimed and given back as an effect.
+/// For laws that were claimed and then declared as an effect.
 void print_use(const std::string& hidden, const std::vector<LawsTrial>& all) {
   using Says = LawInUse::Says;
   Share confirmed, denied, wrongly;

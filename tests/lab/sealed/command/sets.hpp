@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the commands of the laboratory share: sets of a run of seeds, on several threads, and files of
-/// outcomes that are continued, joined and compared.
+/// Shared by the commands of the laboratory: sets of a run of seeds, on several threads, and files
+/// of outcomes that are continued, joined and compared.
 ///
 /// \code
 ///   CLI::App app("How often a reported law is right");
@@ -66,7 +66,7 @@ struct Sets {
   }
 };
 
-/// \returns the exit code: that of `body`, or kBadInput with the words of what it throws.
+/// \returns the exit code of `body`, or kBadInput with the message of an exception.
 template <class Body>
 int run_command(CLI::App& app, int argc, char** argv, const Body& body) {
   CLI11_PARSE(app, argc, argv);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How often the 95 % intervals of the anchors of four belts hold the true ones, with a cause at work at
-/// its usual size.
+/// Coverage of the 95 % intervals of four belts' anchors, with a cause at its usual size.
 ///
 /// A frame of 2.95 by 2.07 m, places in a grid over its middle, one sigma of a belt's reading 0.5 mm.
-/// Of the cause the belt, the sign and the size within its usual range are drawn, and of what sets in
-/// the visit.
+/// The cause's belt, sign and size within its usual range are drawn, and the visit if it sets in.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
     if (other == *hidden) return true;
     const double collinearity = diagnosis::collinearity_of(g.col(diagnosis::best_regressor(a, *hidden)),
                                                            g.col(diagnosis::best_regressor(a, other)));
-    // 1.645 sqrt(2 / (1 - collinearity)) tells 95 of 100 apart; a class is never told apart.
+    // 1.645 sqrt(2 (1 - collinearity)) separates 95 of 100; members of a class are never separated.
     const double apart = std::max(1.0 - collinearity, 1.0 - diagnosis::kOneClass);
     return 1.645 * std::sqrt(2.0 / apart) <= secret.strength;
   });

@@ -28,7 +28,7 @@ struct BeltsTrial {
   std::string verdict;          ///< as in files; empty if it failed
   std::vector<NamedCause> causes;
 };
-/// What the owner would have of it.
+/// The owner's view of it.
 [[nodiscard]] grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw);
 [[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed);
 

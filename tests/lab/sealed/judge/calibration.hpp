@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Stated probabilities against how often what was claimed is so.
+/// Stated probabilities against the frequency of true claims.
 ///
 ///   error = sum_b |sum_(i in b) p_i - right_b| / n        b: ten bins of p, each a tenth wide
 ///

@@ -128,7 +128,7 @@ FirmwareAnchors firmware_anchors(const std::vector<Spans>& spans) {
   double longest = 0.0;
   for (const Spans& own : spans) longest = std::max(longest, *std::max_element(own.begin(), own.end()));
   std::optional<std::pair<double, State>> best;
-  // The firmware starts from the frame that its owner typed in; nobody says it here.
+  // The firmware starts from the frame that its owner typed in, which is unknown here.
   for (const double width : {0.7, 1.0, 1.3, 1.6}) {
     for (const double height : {0.5, 0.7, 0.9, 1.2}) {
       auto found = descended(width * longest, height * longest, spans);

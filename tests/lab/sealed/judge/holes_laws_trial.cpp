@@ -197,7 +197,7 @@ class HolesDraw {
     }
   }
 
-  /// In units of noise, what the settings leave of what a machine adds.
+  /// In units of noise, a machine's change after projection on the settings.
   Eigen::VectorXd left_of(const HiddenMachine& machine, const HiddenLaw* law = nullptr) const {
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(by_setting_.rows());
     rows.head(plain_.size()) = whitening_.matrixL().solve(distances(machine, law) - plain_);

@@ -25,7 +25,7 @@ namespace chaintrue::sealed {
 /// fixtures/holes/nine_holes.json.
 [[nodiscard]] const grid::MeasuredHoles& nine_holes();
 
-/// What was measured, and the machine that cut it.
+/// The measurements, and the machine that cut the holes.
 struct CutHoles {
   grid::MeasuredHoles set;
   generator::HiddenMachine machine;

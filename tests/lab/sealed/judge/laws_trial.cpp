@@ -91,7 +91,7 @@ std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
                       in_sigmas(p[1].value - law.place, p[1].sigma));
     case LawFamily::slope_from_x:
     case LawFamily::slope_from_y:
-      // A slope the other way differs by what is linear, which the settings and others take.
+      // A slope the other way differs by a linear term, which the settings and others absorb.
       if (found.shape != LawShape::kink || found.towards != law.sign) return std::nullopt;
       return std::max(in_sigmas(p[0].value - law.size_mm * span / 1000.0, p[0].sigma),
                       in_sigmas(p[1].value - law.place, p[1].sigma));
@@ -150,7 +150,7 @@ std::optional<double> error_ratio(const generator::SealedSet& set, const model::
   return of_own->true_rms_mm / of_plain->true_rms_mm;
 }
 
-/// Of a session, a machine and a seed that have no part in the first.
+/// From a session, a machine and a seed independent of the first.
 std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& trial) {
   constexpr std::uint64_t kOtherNoise = 70000;
   constexpr std::uint64_t kOtherFamily = 9;
@@ -171,7 +171,7 @@ std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& tr
 
 namespace {
 
-/// The names with what a claimed law adds to and takes from them.
+/// The names after a claimed law adds or withdraws some.
 std::vector<NamedCause> given_law(const grid::diagnosis::Diagnosis& found, std::vector<NamedCause> named) {
   if (!found.unexplained) return named;
   for (const auto& own : found.unexplained->causes_given_law) {

@@ -24,7 +24,7 @@ struct LawsKind {
 };
 [[nodiscard]] const std::vector<LawsKind>& laws_kinds();
 
-/// What a claimed law, written as an effect of the user's own, is worth afterwards.
+/// The later use of a claimed law, written as a declared effect.
 struct LawInUse {
   using Says = grid::diagnosis::DeclaredAnswer::Says;
   /// Of a second session of the same machine at marks of its own, and of the session of another machine with
@@ -50,7 +50,7 @@ struct LawsTrial {
   /// Largest distance of a place, period or size from the truth, in sigmas, of a law that leads with the
   /// right shape; empty otherwise.
   std::optional<double> worst_sigmas;
-  /// What the causes named are worth; given_law: those named once a claimed law is known.
+  /// Correctness of the named causes; given_law: those named given a claimed law.
   struct Names {
     bool right = false;  ///< that which is hidden is among them
     bool wrong = false;  ///< one of 90 % and more that is not hidden is
@@ -58,7 +58,7 @@ struct LawsTrial {
   Names names, names_given_law;
   double seconds = 0.0;
   std::string sentence;
-  std::optional<LawInUse> in_use;  ///< of a claimed law that a file can say
+  std::optional<LawInUse> in_use;  ///< of a claimed law that a file can express
 };
 
 /// Sets trial.seconds to the processor time of a call.
@@ -70,7 +70,7 @@ auto timed(LawsTrial& trial, Call call) {
   trial.seconds = processor_seconds() - start;
   return result;
 }
-/// What a diagnosis says of laws.
+/// A diagnosis' laws.
 void take_laws(const grid::diagnosis::Diagnosis& found, LawsTrial& trial);
 /// Variable and place of entry.
 [[nodiscard]] bool is_right(const generator::HiddenLaw& law, const grid::diagnosis::Law& found);

@@ -15,7 +15,7 @@ namespace {
 using generator::Hidden;
 using generator::Visit;
 
-/// What a map is held against: effects that do not hang on the visit.
+/// The reference for a map: effects that do not depend on the visit.
 std::vector<Hidden> of_the_bed(std::vector<Hidden> effects) {
   std::erase_if(effects, [](const Hidden& h) {
     return h.cause == generator::Cause::drift || h.cause == generator::Cause::tooth_skip ||
@@ -34,7 +34,7 @@ struct Missed {
   double tool_sigma_mm;
 };
 
-/// Takes from the tool's errors the shift and the turn that leave least of them.
+/// Removes the best-fit shift and turn from the tool's errors.
 void lay_sheet(std::vector<Missed>& all) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();

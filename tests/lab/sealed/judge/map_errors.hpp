@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How wrong the tool is by a map over the area that the marks span, against the hidden machine
-/// itself, and what the map states of that. A map answers without drift, skips and hysteresis, so
-/// the hidden machine is asked without them.
+/// The tool's error by a map over the area of the marks, against the hidden machine, and the map's
+/// stated error. A map answers without drift, skips and hysteresis, so the hidden machine is asked
+/// without them.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ struct MapErrors {
                                           double zero_mm,
                                           std::uint64_t seed);
 
-/// Of holes without an edge of the sheet: with the sheet laid as well as it can be, since no distance
-/// between holes knows where it lies.
+/// For holes without edges: with the best placement of the sheet, since distances between holes do
+/// not depend on it.
 [[nodiscard]] std::optional<MapErrors> map_errors_of_free_sheet(
     const generator::HiddenMachine& machine, const grid::CompensationMap& map);
 

@@ -42,7 +42,7 @@ model::PlotterFirmware firmware_of(PlotterKind kind) {
   return kind == PlotterKind::mural ? model::PlotterFirmware::mural : model::PlotterFirmware::fluidnc;
 }
 
-/// The plotter as it is: its settings, and the causes that its gondola and its spools have.
+/// The true plotter: its settings, and the causes in its gondola and spools.
 struct TruePlotter {
   HiddenPlotter hung;
   double zero_mm[2] = {};
@@ -112,7 +112,8 @@ double cord_out(const TruePlotter& p, int side, double counted_mm) {
   return cord;
 }
 
-/// Where a pen hangs on cords of links: Newton on lengths_of_links from where straight cords meet.
+/// The position of a pen on cords of links: Newton on lengths_of_links from where straight cords
+/// meet.
 Eigen::Vector2d pen_of_links(const HiddenPlotter& hung, double left_mm, double right_mm) {
   // The links' error falls with the square of their number: a thousandth of the millimetres that the
   // cords are longer by than straight ones, far below a ruler's.
@@ -172,7 +173,8 @@ bool acts_on_links(const HiddenCause& cause) {
   return cause.effect == "cord_weight" || cause.effect == "cord_stretch";
 }
 
-/// How much of a change of the measures settings of the stated sigmas leave, in units of noise.
+/// The part of a change of the measures that settings with the stated sigmas do not absorb, in
+/// units of noise.
 double strength_of(const TestDrawing& drawing, const Eigen::VectorXd& change) {
   const auto readings = grid::drawn_measures_of(drawing).value();
   const auto mechanism = model::make_plotter_mechanism(drawing.machine);
@@ -231,7 +233,8 @@ PlotterSet plotter_set(PlotterKind kind,
   Eigen::VectorXd values = without;
   TruePlotter plotter = sound;
   if (acts_on_links(cause)) {
-    // What such a cause does grows with its size: scaled to a strength that is drawn, in place of draws.
+    // The effect of such a cause is proportional to its size: scaled to a drawn strength instead of
+    // repeated draws.
     const double wanted = sizes.log_uniform(least_strength, most_strength);
     double size = 1.0;
     for (int scaling = 0; scaling < kScalings; ++scaling) {

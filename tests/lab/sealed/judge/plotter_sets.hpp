@@ -2,14 +2,14 @@
 /// \file
 /// Test drawings of V-plotters with a hidden cause, hung by the second implementation
 /// (generator/hidden/plotter.hpp: bodies by the lowest pose of stiff cords, a light pen by cords of many
-/// links), and what the diagnosis makes of them.
+/// links), and their diagnosis.
 ///
 /// The controller counts K for a cross; the cord that is out is the L with
 ///
 ///   (L + added(L)) (1 + scale / 1000) + zero = K                                           (1)
 ///
-/// where what a cause adds is written here anew. Settings are off by a draw of their uncertainty.
-/// Causes that stretch or weigh down the cords are of the light pen alone.
+/// where the effect of a cause is implemented a second time. Errors of the settings are drawn from
+/// their uncertainty. Causes that stretch or weigh down the cords are of the light pen alone.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +37,7 @@ struct HiddenCause {
 
 struct PlotterSet {
   HiddenCause cause;
-  /// Length of the cause's signature in units of noise, the settings' share taken out.
+  /// Length of the cause's signature in units of noise, after projection on the settings.
   double strength = 0.0;
   grid::TestDrawing drawing;
   /// Where the hidden plotter's pen is when its controller has counted these, in the frame of its pins.

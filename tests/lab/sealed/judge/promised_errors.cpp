@@ -39,7 +39,7 @@ using model::ControllerSettings;
 constexpr double kBedWidthMm = 2438.4;
 constexpr double kBedHeightMm = 1219.2;
 
-/// What an owner would have typed in of the machine as he knows it; the sag for its weights.
+/// An owner's settings for the machine as known; the sag for its weights.
 ControllerSettings settings_of(const TrueMachine& stated) {
   ControllerSettings s;
   s.bed_width_mm = kBedWidthMm;
@@ -229,7 +229,7 @@ Eigen::Vector2d rest_for(const generator::BeltFrame& frame, const FrameAnchors& 
   return {rest.x_mm, rest.y_mm};
 }
 
-/// Over the hull of the places; the sheet, and the belts' millimetre, as well as they can be.
+/// Over the hull of the places; with the best placement of the sheet and scale of the belts.
 grid::ErrorSummary true_error_of_belts(const generator::BeltFrame& frame,
                                        const FrameAnchors& anchors,
                                        const grid::BeltsFit& fit) {
@@ -260,7 +260,7 @@ std::optional<PromisedRow> promised_by_belts(const PromisedSession& session, std
   generator::BeltRecipe recipe;
   recipe.nothing = true;
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
-  // As well as a tape along the frame says it.
+  // To the accuracy of a tape along the frame.
   constexpr double kStatedSigmaMm = 6.0;
   generator::Dice dice(seed, "stated anchors");
   FrameAnchors stated = draw.frame.anchors;

@@ -50,8 +50,8 @@ struct PromisedRow {
 /// Nothing where there is no map. \throws std::runtime_error where the hidden machine cannot be measured.
 [[nodiscard]] std::optional<PromisedRow> promised_row(const PromisedSession& session, std::uint64_t seed);
 
-/// Per machine, per way and pooled: rms of what is stated and of what is true, and in how many sessions
-/// the largest error exceeds what is stated of it.
+/// Per machine, per way and pooled: rms of what is stated and of what is true, and the number of
+/// sessions in which the largest error exceeds its stated bound.
 [[nodiscard]] std::string promised_table(const std::vector<PromisedRow>& rows);
 
 }  // namespace chaintrue::sealed

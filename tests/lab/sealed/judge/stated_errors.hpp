@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What maps state of their error against what it is: hidden machines, each with one effect of the
-/// catalogue at its usual size or with none, measured in the ways and layouts of docs. Chain lengths
-/// are read at 28, 60 or 117 marks with six second visits; distances are taped between nine holes,
-/// where the effect is one that holes can have.
+/// Stated errors of maps against the true ones: hidden machines, each with one effect of the
+/// catalogue at its usual size or with none, measured in the ways and layouts of docs. Chain
+/// lengths are read at 28, 60 or 117 marks with six second visits; distances are taped between nine
+/// holes, where the effect is one that holes can have.
 ///
 /// \code
 ///   for (const std::string& kind : stated_kinds()) rows.push_back(stated_row(kind, 0));
@@ -43,8 +43,8 @@ struct StatedRow {
 [[nodiscard]] std::string line_of(const StatedRow& row);
 [[nodiscard]] std::optional<StatedRow> row_of(std::string_view line);
 
-/// Per kind (those of stated_kinds() first), per way and pooled: rms of what is true over rms of what is stated, and how many of the
-/// 95 % intervals hold.
+/// Per kind (those of stated_kinds() first), per way and pooled: rms of the true over rms of the
+/// stated errors, and the coverage of the 95 % intervals.
 [[nodiscard]] std::string stated_table(const std::vector<StatedRow>& rows);
 
 }  // namespace chaintrue::sealed

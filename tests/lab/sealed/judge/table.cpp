@@ -49,7 +49,7 @@ double quantile(std::vector<double> values, double q) {
 
 bool detected(const Trial& t) { return t.family_wise_p < 0.01; }
 
-/// What the table of rates does not count.
+/// Figures that are not in the table of rates.
 void about_names(const std::vector<Trial>& trials, Rows& rows) {
   Share separable;
   double members = 0.0;
@@ -65,7 +65,7 @@ void about_names(const std::vector<Trial>& trials, Rows& rows) {
   if (sets > 0) rows.add("mean size of the named set", fmt::format("{:.2f}", members / sets));
 }
 
-/// What another threshold on a name's probability would give and take.
+/// The gain and loss with another threshold on a name's probability.
 void about_thresholds(const std::vector<Trial>& trials, Rows& rows) {
   for (const double least : {0.5, 0.9, 0.95, 0.99, 0.999}) {
     const auto names = [&](bool right) {

@@ -66,7 +66,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   how.stability = options.stability;
   how.improvement = options.improvement;
   how.next_measurements = options.follow_up;
-  how.accept_class = true;  // as the oracle is given the cause, its class is accepted
+  how.accept_class = true;  // the oracle is given the cause, so its class is accepted
 
   const double start = thread_seconds();
   const auto found = grid::diagnosis::diagnose(grid, how);
