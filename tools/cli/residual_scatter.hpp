@@ -25,7 +25,7 @@ struct ResidualScatter {
   std::string x_title{};
   std::vector<ResidualDot> dots{};
   std::vector<std::pair<double, double>> curve{};  ///< x and mm
-  std::vector<double> y_also_mm{};               ///< in the window besides the good dots, 0 and the curve
+  std::vector<double> y_also_mm{};               ///< in the window, like good dots, 0 and the curve
   double least_span_mm = 0.2;                    ///< of the window
   std::string first_label{};
   std::string second_label{};  ///< empty: one colour
