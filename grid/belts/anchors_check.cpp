@@ -16,10 +16,10 @@ namespace {
 
 std::string words_of_belts(const CheckHypothesis& h) {
   if (h.what == model::Change::zero && h.side.empty())
-    return fmt::format("all four belts count {:+.1f} mm from where they did", h.size());
+    return fmt::format("the zero of all four belts has shifted by {:+.1f} mm", h.size());
   const auto belt = model::words(model::belt_of(h.side).value());
   if (h.what == model::Change::zero)
-    return fmt::format("the {} belt counts {:+.1f} mm from where it did", belt, h.size());
+    return fmt::format("the zero of the {} belt has shifted by {:+.1f} mm", belt, h.size());
   return fmt::format(
       "the {} anchor has moved by some {:.1f} mm against the others", belt, h.size());
 }
@@ -27,8 +27,8 @@ std::string words_of_belts(const CheckHypothesis& h) {
 CheckWords words_of_anchors() {
   return {"the anchors",
           "places",
-          "The anchors still hold",
-          "The anchors hold once the belts are drawn in and let out anew",
+          "The anchors are still valid",
+          "The anchors are valid after retracting and extending the belts again",
           "Find the anchors again",
           words_of_belts};
 }
@@ -40,8 +40,8 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
   if (fit.checks < 1 || !(fit.residual_sigma_mm > 0.0)) {
     return failed(
         Reason::no_noise,
-        "these anchors were not fitted to belts, so that nothing says how well new readings should "
-        "agree: fit belts, and check against those anchors");
+        "these anchors were not fitted to belts, so the accuracy of new readings is unknown: fit "
+        "belts, and check against those anchors");
   }
   std::vector<model::AppliedEffect> effects;
   for (const CauseInAnchorFit& cause : fit.causes)
@@ -63,8 +63,8 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
   if (!check || !(rms(residuals_mm) < kAnotherFrameMm)) {
     return failed(
         Reason::nowhere,
-        "the new lengths end nowhere together about these anchors: are they of this frame, and do "
-        "their \"lengths\" count what the file says?");
+        "the new lengths do not meet about these anchors: are they of this frame, and is "
+        "\"lengths\" right in their file?");
   }
   return check;
 }

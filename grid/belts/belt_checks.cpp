@@ -228,7 +228,7 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
       if (question.empty()) continue;
       result.push_back({k,
                         belt,
-                        fmt::format("{} is {} off what the other belts tell: {}",
+                        fmt::format("{} is {} off the prediction by the other belts: {}",
                                     name(belt),
                                     input_checks::length_in_words(
                                         std::abs(reading->length_mm - read_mm)),

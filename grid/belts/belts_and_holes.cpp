@@ -173,8 +173,8 @@ std::optional<BeltsFitFailure> refused(const MeasuredBelts& measured,
     throw precondition("holes of a machine of which no anchor is known");
   if (count > kMostTapedByBelts) {
     return BeltsFitFailure{Reason::too_many_distances,
-                           fmt::format("{} distances are more than a fit with belts takes ({}): "
-                                       "leave some out, evenly over the sheet",
+                           fmt::format("{} distances are too many for a fit with belts (at most "
+                                       "{}): leave some out, evenly over the sheet",
                                        count,
                                        kMostTapedByBelts)};
   }

@@ -28,7 +28,7 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
   const std::string pulls = repeated_pulls_in_words(belts);
   return failed(
       BeltsFitFailure::Reason::not_determined,
-      fmt::format("the places do not tell where the anchors are: they lie on a line, or all in one "
+      fmt::format("the places do not determine the anchors: they lie on a line, or all in one "
                   "spot; measure at places spread over the sheet's width and height{}{}",
                   pulls.empty() ? "" : ". ",
                   pulls));
@@ -51,7 +51,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   using Reason = BeltsFitFailure::Reason;
   if (belts.points.size() < kFewestBeltPoints) {
     return failed(Reason::too_few_points,
-                  fmt::format("{} places are too few: {} leave {} checks of five anchor "
+                  fmt::format("{} places are too few: {} give {} checks for five anchor "
                               "coordinates; measure at more places",
                               belts.points.size(),
                               kFewestBeltPoints,
@@ -64,12 +64,12 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
       });
   if (has_holes && !belts.machine.anchors_known) {
     return failed(Reason::hole_without_anchors,
-                  "a distance ends at a hole, and where the machine cut that follows from the "
-                  "anchors that it had at the time: state x_mm and y_mm of the anchors in force");
+                  "a distance ends at a hole, whose position depends on the anchors in force when "
+                  "it was cut: state x_mm and y_mm of these anchors");
   }
   const auto frame = belts::fit_anchors_robustly(belts);
   constexpr const char* kNoFrame =
-      "no four anchors make sense of these lengths: are they of one frame, in mm, each under its "
+      "no four anchors fit these lengths: are they of one frame, in mm, each under its "
       "own "
       "belt?";
   if (!frame)
@@ -77,8 +77,8 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   const belts::FitDiagnostics view(belts, *frame);
   if (frame->residual_sigma_mm > kNoFrameMm) {
     return failed(Reason::no_frame,
-                  fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
-                              "anchors: are they of one frame, in mm, each under its own belt?",
+                  fmt::format("the lengths contradict each other by {:.0f} mm for any anchors: "
+                              "are they of one frame, in mm, each under its own belt?",
                               frame->residual_sigma_mm));
   }
   const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();

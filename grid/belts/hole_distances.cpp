@@ -90,7 +90,7 @@ tl::expected<observation::Linearisation, observation::Unreachable> HoleDistances
 
 std::string HoleDistances::untestable(const model::effects::Effect& /*effect*/,
                                       model::effects::EffectSide /*side*/) const {
-  return "a tape between holes shows anchors, the scale and how the tool hangs";
+  return "a tape between holes shows only anchors, the scale and the tool's displacement";
 }
 
 std::string HoleDistances::name_of(std::size_t unit) const {

@@ -64,7 +64,8 @@ std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
   const std::vector<RepeatedPull> found = repeated_pulls(belts);
   if (found.empty()) return "";
   std::string text =
-      "Places that were read twice, the held belts as they were, tell what the pulled ones stretch "
+      "Places that were read twice, with the held belts unchanged, show how much the pulled ones "
+      "stretch "
       "by "
       "between the two pulls:";
   for (const RepeatedPull& pull : found) {

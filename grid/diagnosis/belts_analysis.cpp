@@ -182,7 +182,7 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   const auto alone = belts::fit_anchors_robustly(a.belts);
   if (!alone) {
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
-                                           "no four anchors make sense of these lengths"});
+                                           "no four anchors fit these lengths"});
   }
   a.alone = a.frame = *alone;
   a.sigma_mm = kUsualSpreadMm;

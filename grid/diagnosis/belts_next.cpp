@@ -158,7 +158,7 @@ void add_revisits(const BeltsAnalysis& a,
     if (!gathering.add(at, point.pulled, point.pull)) continue;
     all.push_back(candidate_of(
         MeasurementKind::revisit,
-        fmt::format("point {} once more", index_in_file(indices, k) + 1),
+        fmt::format("point {} again", index_in_file(indices, k) + 1),
         point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
                                                  std::round(at.y_mm - centre.y_mm) + 0.0}),
         point.pulled.value_or(std::vector<Belt>{})));

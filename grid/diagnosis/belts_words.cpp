@@ -26,7 +26,7 @@ std::string end_of(const BeltEnd& end, const PointIndices& indices) {
 
 std::string improvement_words(const BeltsFindings& found) {
   std::string text =
-      fmt::format(" What one belt's reading is off by falls from {:.2f} to {:.2f} mm",
+      fmt::format(" The error of one belt's reading falls from {:.2f} to {:.2f} mm",
                   found.spread_before_mm,
                   found.residual_sigma_mm);
   if (found.prediction && found.prediction_before) {
@@ -56,10 +56,10 @@ std::string short_of_a_name(const Diagnosis& d) {
   }
   if (most < kToThinkOf) return "";
   return parts.size() == 1
-             ? fmt::format(" Short of a name, one cause is to be thought of: {}.", parts.front())
+             ? fmt::format(" No cause is certain, but one is possible: {}.", parts.front())
              : fmt::format(
-                   " Short of a name, one of {} causes is to be thought of, which these lengths "
-                   "do not tell apart: {}.",
+                   " No cause is certain, but one of {} is possible, which these lengths do not "
+                   "distinguish: {}.",
                    parts.size(),
                    joined(parts, "or"));
 }
@@ -78,15 +78,15 @@ std::string sentence(const Diagnosis& d) {
                (d.unexplained->causes_given_law.empty() ? short_of_a_name(d) : "");
       }
       return fmt::format(
-                 "What is left of the lengths changes smoothly from place to place, {:.2f} mm a "
+                 "The residuals of the lengths change smoothly from place to place, {:.2f} mm a "
                  "belt over "
-                 "some {:.0f} mm of the sheet, and no listed cause makes it.",
+                 "some {:.0f} mm of the sheet, and no listed cause explains them.",
                  d.unexplained->rms_mm,
                  d.unexplained->length_mm) +
              short_of_a_name(d);
     default:
       return fmt::format(
-                 "Nothing is found beyond the anchors: what is left of the lengths at {} places, "
+                 "Nothing is found beyond the anchors: the residual of the lengths at {} places, "
                  "{:.2f} "
                  "mm "
                  "a belt, has no listed cause.",
@@ -108,8 +108,9 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
     if (std::abs(offset + reach) < kEqualWithin * reach &&
         belts.machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
-          "The lengths leave arm and extension out ({:.0f} mm by the settings, all are {:.0f} mm too "
-          "short): say \"lengths\": \"belt\", or import with --lengths belt, and diagnose again.",
+          "The lengths exclude arm and extension ({:.0f} mm by the settings, all are {:.0f} mm "
+          "too short): set \"lengths\": \"belt\", or import with --lengths belt, and diagnose "
+          "again.",
           reach,
           -offset);
     }
@@ -143,28 +144,28 @@ void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
         percent(reached));
     if (reached < kLikelierThanNot) {
       text +=
-          " What is left is too near to the noise for so few: measure at more places, out to the "
+          " The rest is too close to the noise for so few: measure at more places, out to the "
           "corners of the frame.";
     }
   }
   const bool all_does = next.all_once_more && *next.all_once_more >= kWorthMeasuring;
   if (!tells(next) && !all_does && !next.second_pass && !next.measurements.empty()) {
     text =
-        "No few places part what is left, which is too near to the noise: measure at more places, "
-        "out to the corners of the frame.";
+        "A few places do not separate the remaining causes, which are too close to the noise: "
+        "measure at more places, out to the corners of the frame.";
   }
   if (next.second_pass) {
     text += (text.empty() ? "" : " ") + in_words(*next.second_pass);
   } else if (all_does && *next.all_once_more > reached + kWorthASession) {
     text += fmt::format(
-        "{}every place measured once more, the last one first, raises the chance of {} to {}.",
-        text.empty() ? "No few places part what is left: " : " More: ",
+        "{}measuring every place again, the last one first, raises the chance of {} to {}.",
+        text.empty() ? "A few places do not separate the remaining causes: " : " More: ",
         aim,
         percent(*next.all_once_more));
   }
   if (text.empty()) {
-    text = fmt::format("No further lengths part what is left{}: look at the parts themselves.",
-                       d.causes.empty() ? "" : ", for what these causes do is as good as the same");
+    text = fmt::format("No further lengths separate the remaining causes{}: inspect the parts.",
+                       d.causes.empty() ? "" : ", because their effects are nearly the same");
   }
   d.what_to_do.push_back(std::move(text));
 }
@@ -182,20 +183,21 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
   }
   if (const Law* law = claimed_law(d)) {
     d.what_to_do.push_back(
-        fmt::format("Look at the {} belt and all that it runs over for what has this place or "
-                    "period; then let the machine measure other places, which confirm or deny it.",
+        fmt::format("Inspect the {} belt and everything that it runs over for something with this "
+                    "place or period. Then let the machine measure other places, which confirm or "
+                    "deny it.",
                     model::words(belt_of(law->enters).value())));
   }
   say_what_to_measure(next, d);
   if (!d.belts->scale && !belts.distances.empty()) {
     d.what_to_do.emplace_back(
-        "Tape the distances again: once the causes are counted they fit no frame, so nothing is known of "
+        "Tape the distances again: with the causes they fit no frame, so nothing is known about "
         "the scale.");
   } else if (!d.belts->scale) {
     const bool proposed = !d.next_measurements.empty() &&
                           d.next_measurements.back().kind == MeasurementKind::distance;
     d.what_to_do.push_back(fmt::format(
-        "Tape {}, and give it as distances: no belt knows how large the frame is.",
+        "Tape {}, and give it as distances: belts do not show the size of the frame.",
         proposed ? d.next_measurements.back().words
                  : "one long distance, between two anchors or two holes that the machine cut"));
   }
@@ -212,8 +214,8 @@ std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, co
     text = "\"Find Anchors fit: rms\" of these readings would say ";
   }
   return text + fmt::format(
-                    "{}{:.2f} mm by its count. It divides by all {:.0f} readings, of which only {} "
-                    "are free to disagree: one belt's reading is off by {:.2f} mm{}.",
+                    "{}{:.2f} mm by its formula. It divides by all {:.0f} readings, but there are "
+                    "only {} degrees of freedom: the error of one belt's reading is {:.2f} mm{}.",
                     belts.firmware_fit ? "anchors alone make " : "",
                     alone.rms_mm,
                     readings,
@@ -230,10 +232,10 @@ std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, co
 
 std::string in_words(const SecondPass& pass) {
   return fmt::format(
-      "A second pass: let the machine find its anchors once more with the belts pulled {:g} times as "
+      "A second pass: let the machine find its anchors again with the belts pulled {:g} times as "
       "hard (Maslow_Calibration_Current_Threshold times {:g}), and give both logs as one session: "
-      "chaintrue import maslow4 first.log second.log --pulls 1,{:g}. What gives with the pull then "
-      "parts from what does not: the chance of a single name is {}.",
+      "chaintrue import maslow4 first.log second.log --pulls 1,{:g}. That separates causes that "
+      "yield with the pull from others: the chance of a single name is {}.",
       pass.times,
       pass.times,
       pass.times,

@@ -10,17 +10,18 @@ namespace {
 std::string offered_words(const OfferedCause& offered, const std::string& cause) {
   switch (offered.reason) {
     case OfferedCause::Reason::not_sure:
-      return fmt::format("Possible cause: {}. It is not sure enough for the map: chaintrue diagnose says what "
-                         "to measure next.",
+      return fmt::format("Possible cause: {}. It is not certain enough for the map: chaintrue "
+                         "diagnose proposes what to measure next.",
                          cause);
     case OfferedCause::Reason::may_be_paper:
       return fmt::format(
-          "Probable cause: {}. It may be the tape that set out the marks instead, and marks cannot tell "
-          "which. Measure a hundred links, or the tape, and give the reading; or say --accept-class if "
-          "you know that it is the chain.",
+          "Probable cause: {}. It may be the tape that set out the marks instead, and marks "
+          "cannot tell which. Measure a hundred links, or the tape, and give the reading. If you "
+          "know that it is the chain, use --accept-class.",
           cause);
     case OfferedCause::Reason::is_paper:
-      return fmt::format("Probable cause: {}. The marks themselves are off: correct them, or set them out anew.",
+      return fmt::format("Probable cause: {}. The marks themselves are wrong: correct them, or "
+                         "set them out again.",
                          cause);
     case OfferedCause::Reason::gains_nothing:
       break;
@@ -53,8 +54,8 @@ std::vector<std::string> in_words(const CausesFit& fit) {
     std::vector<std::string> parts;
     for (const Cause& cause : fit.built_on) parts.push_back(sized(cause));
     sentences.push_back(
-        fmt::format("Found, and used in the map: {}. In parts of the bed that it was not made from, the map "
-                    "is right within {:.2f} mm; without {} it would be {:.2f} mm.",
+        fmt::format("Found, and used in the map: {}. Tested on parts of the bed left out of the "
+                    "fit, the map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
                     joined(parts, "and"),
                     fit.held_out->with_causes_mm,
                     fit.built_on.size() == 1 ? "this cause" : "these causes",
@@ -66,9 +67,10 @@ std::vector<std::string> in_words(const CausesFit& fit) {
     sentences.push_back(offered_words(offered, sized(offered.cause)));
   if (fit.left_open_mm > 0.0) {
     sentences.push_back(
-        fmt::format("{}: so the tool may be {:.2f} mm rms off, which the expected error counts.",
+        fmt::format("{}. This contributes {:.2f} mm rms to the expected error.",
                     fit.offered.empty() ? "The sizes and places of the causes are not known exactly"
-                                        : "What was found but is not in the map may still act",
+                                        : "Causes that were found but are not in the map may "
+                                          "still act",
                     fit.left_open_mm));
   }
   return sentences;

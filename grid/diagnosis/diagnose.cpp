@@ -78,7 +78,7 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
     const std::string words = estimation::words_of(zeros);
     if (!words.empty())
       d.notes.push_back(fmt::format(
-          "{}: the chains' zeros are other than in {}: {}.", names[k], names.front(), words));
+          "{}: the chains' zeros differ from those in {}: {}.", names[k], names.front(), words));
   }
 }
 
@@ -93,7 +93,7 @@ void state_input(const Measured& measured, Diagnosis& d) {
   const MeasuredHoles& set = *holes.front();
   if (set.machine && set.machine->controller.kind == model::ControllerKind::ideal) {
     d.notes.emplace_back(
-        "The controller is given as ideal: it goes by the machine file. These holes were cut with "
+        "The controller is given as ideal: it uses the machine file. These holes were cut with "
         "the file as it is now: fit them with that, and use the extended machine for what is cut "
         "with it.");
   }

@@ -155,15 +155,15 @@ std::string entrance_of(const Law& law) {
 }
 
 std::string refusal_of(const Law& law) {
-  if (belt_of(law.enters)) return "a cause of one's own acts on chains, and this law on a belt";
+  if (belt_of(law.enters)) return "a declared cause acts on chains, but this law acts on a belt";
   if (is_of_other_chain(law)) {
     const bool moves = law.enters == Enters::x || law.enters == Enters::y;
-    return fmt::format("a chain's formula knows that chain alone, and this law {}",
+    return fmt::format("a chain's formula uses only that chain, but this law {}",
                        moves ? "moves the tool" : "acts elsewhere");
   }
   if (law.enters == Enters::outwards || law.enters == Enters::mixed || law.enters == Enters::opposite) {
-    return "what moves the tool outwards moves it along x by one distance and along y by another, which no "
-           "formula of a chain can say";
+    return "a law that moves the tool outwards moves it along x by one distance and along y by "
+           "another, which no formula of a chain can express";
   }
   return "";
 }
@@ -173,7 +173,7 @@ std::string refusal_of(const Law& law) {
 tl::expected<Declaration, std::string> declaration_of(const Law& law, const model::Bed& bed) {
   if (const std::string why = refusal_of(law); !why.empty()) {
     return tl::unexpected(
-        fmt::format("No file is made of the law found ({}): {}.", in_words(law), why));
+        fmt::format("The law found ({}) cannot be written to a file: {}.", in_words(law), why));
   }
   Declaration own;
   own.id = fmt::format("{}_of_{}", name(law.shape), name(law.of));
@@ -188,7 +188,7 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const mode
   own.cause = fmt::format("a cause without a name, {}", form_in_words(law));
   own.signature = in_words(law);
   own.remedy = "find what has this place or period, and give it a name here";
-  own.not_modelled = "whatever of it is not of this form";
+  own.not_modelled = "deviations from this form";
   own.typical = fmt::format("{:.2g} mm", std::abs(law.parameters.front().value));
   own.source = fmt::format("a diagnosis: probability {}", percent(law.probability));
   return own;
@@ -198,13 +198,13 @@ tl::expected<Declaration, std::string> declaration_of(const std::vector<Law>& la
                                                       const model::Bed& bed) {
   if (laws.empty()) {
     return tl::unexpected(
-        std::string("No file of a law is made: no law is likelier than none with these readings."));
+        std::string("No law is written: with these readings no law is likelier than none."));
   }
   const Law& first = laws.front();
   if (first.probability < kLawClaimed) {
     return tl::unexpected(
-        fmt::format("No file of a law is made: the likeliest, {}, has a probability of {}, and {} is "
-                    "asked for. Measure more points.",
+        fmt::format("No law is written: the likeliest, {}, has a probability of {}, and {} is "
+                    "needed. Measure more points.",
                     in_words(first),
                     percent(first.probability),
                     percent(kLawClaimed)));

@@ -142,7 +142,7 @@ std::string in_words(const Law& law) {
                          entrance);
     case LawShape::exponential:
       return fmt::format(
-          "{} mm where {} is {}, a third of it {} further in, {}",
+          "{} mm at {} = {}, falling to a third within {}, {}",
           size_words,
           variable,
           law.towards > 0 ? "largest" : "least",
@@ -184,10 +184,10 @@ std::string given_law_words(const Diagnosis& d) {
   // Of causes that act together each is more likely than not; of an open set only one acts.
   if (!named.empty()) {
     text += fmt::format(
-        " With this law known, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));
+        " Given this law, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));
   }
   if (!gone.empty())
-    text += fmt::format(" What they would name without this law is less likely with it: {}.",
+    text += fmt::format(" Named only without this law: {}.",
                         fmt::join(gone, "; "));
   return text;
 }
@@ -238,7 +238,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
       hints.push_back(fmt::format("Its place is near the {} motor.", name));
   }
   if (unit_of(law.of) == "n")
-    hints.emplace_back("It follows a chain's pull: something gives under load.");
+    hints.emplace_back("It follows a chain's pull: something yields under load.");
   return hints;
 }
 

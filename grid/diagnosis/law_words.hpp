@@ -26,7 +26,7 @@ namespace chaintrue::grid::diagnosis {
 /// "moves the tool by 0.41 mm" or, for distances and belts, "changes a distance by": on average.
 [[nodiscard]] std::string average_in_words(const Law& law, Observations of);
 
-/// " With this law known, they also name a stretched left chain (...), 96 %." and what they would
+/// " Given this law, they also name a stretched left chain (...), 96 %." and what they would
 /// name without it; empty if the law changes no name.
 [[nodiscard]] std::string given_law_words(const Diagnosis& d);
 

@@ -25,8 +25,8 @@ std::optional<DiagnosisFailure> suspected_tape_zero(const MeasuredHoles& set) {
       DiagnosisFailure::Reason::contradictory_settings,
       fmt::format(
           "all distances are about {:.0f} mm {} than commanded, long ones and short ones by the "
-          "same: it looks as if the tape's hook offset, given as {:g} mm, is {:.0f} mm. Write it "
-          "down (\"tape\": {{\"hook_offset_mm\": {:.0f}}}) before causes are looked for",
+          "same: it looks as if the tape's hook offset, given as {:g} mm, is {:.0f} mm. Enter it "
+          "(\"tape\": {{\"hook_offset_mm\": {:.0f}}}) before causes are looked for",
           std::abs(*tape_zero_mm),
           *tape_zero_mm > 0.0 ? "longer" : "shorter",
           set.tape.tape_zero_offset_mm,

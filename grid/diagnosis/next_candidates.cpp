@@ -89,11 +89,11 @@ class PointCandidates {
     const observation::Place& first = own_.places().front();
     add(first.mark,
         MeasurementKind::revisit,
-        fmt::format("point {}, the first of the session, once more", first.index + 1));
+        fmt::format("point {}, the first of the session, again", first.index + 1));
     const observation::Place& middle = own_.places()[own_.places().size() / 2];
     add(middle.mark,
         MeasurementKind::revisit,
-        fmt::format("point {} once more, coming from the other side", middle.index + 1));
+        fmt::format("point {} again, coming from the other side", middle.index + 1));
   }
 
   const ObservationSet& session_;

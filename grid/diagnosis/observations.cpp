@@ -60,7 +60,7 @@ std::optional<std::string> contradiction(const Machine& machine,
     const double sigma = std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
     if (std::abs(reading.value - stated) > kContradiction * sigma) {
       return fmt::format(
-          "your reading of {} is {:.6g}, but the machine file says {:.6g}: {:.0f} sigma apart. "
+          "your reading of {} is {:.6g}, but the machine file has {:.6g}: {:.0f} sigma apart. "
           "Measure it again and correct whichever is wrong",
           name(reading.what),
           reading.value,
@@ -133,8 +133,8 @@ std::string too_few_distances(const MeasuredHoles& set) {
   const std::size_t missing = kFewestDistances - set.distances.size();
   const std::vector<std::string> pairs = unmeasured(set, missing);
   std::string text = fmt::format(
-      "{} distances are too few to name a cause: they give four of the settings, and at least {} "
-      "are needed; nine holes and twenty distances are a good start",
+      "{} distances are too few to name a cause: at least {} are needed. Nine holes and twenty "
+      "distances are a good start",
       set.distances.size(),
       kFewestDistances);
   if (!pairs.empty()) text += fmt::format(". Measure also {}", fmt::join(pairs, ", "));
@@ -166,8 +166,8 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   }
   if (!noise) {
     return failure(Reason::no_noise,
-                   "how well the points were measured is not given, and too few were measured "
-                   "twice to show it. Give it (\"noise\" in the grid file, or --noise-length-mm, "
+                   "the accuracy of the points is not stated, and too few were measured twice to "
+                   "show it. State it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
   // Orders of different sessions are unrelated.
@@ -228,9 +228,9 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   if (!measured.machine()) {
     return failure(Reason::no_machine,
                    measured.grids().empty()
-                       ? "the holes name no machine, whose controller turns commands into chain "
-                         "lengths: give --machine M.json"
-                       : "a diagnosis needs your machine's measures: give --machine M.json");
+                       ? "the holes name no machine, so the chain lengths for their commands are "
+                         "unknown: give --machine M.json"
+                       : "a diagnosis needs your machine's dimensions: give --machine M.json");
   }
   Machine stated = *measured.machine();
   std::vector<ExtraReading> readings;

@@ -92,7 +92,8 @@ OtherAnswer answer_without(const PartFinding& part) {
       lost = &own;
   }
   const Hypothesis& best = part.likeliest;
-  if (best.effect == "nothing") return {"no cause is likelier than not", {}, best.probability, best.probability};
+  if (best.effect == "nothing") return {"no cause is more likely than "
+                                        "not", {}, best.probability, best.probability};
   if (!is_named(part, best) || lost == nullptr)
     return {fmt::format("it is {}", cause_words(best)), {}, best.probability, best.probability};
   return {fmt::format("{} is not likely", cause_words(*lost)), {}, lost->probability, lost->probability};
@@ -138,7 +139,7 @@ std::vector<std::string> words_of_sessions(const Diagnosis& d) {
     const Hypothesis& named = d.sessions.front().named[k];
     const std::string cause = cause_words(named);
     if (with.size() == d.sessions.size()) {
-      result.push_back(fmt::format("Each session shows {} by itself.", cause));
+      result.push_back(fmt::format("Each session alone shows {}.", cause));
     } else if (!with.empty() && !without.empty()) {
       result.push_back(fmt::format("The sessions contradict each other: {} is in {}, not in {}.",
                                    cause,

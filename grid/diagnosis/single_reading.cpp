@@ -45,7 +45,7 @@ std::string refusal_words(const ObservationSet& session,
                                  : "The" + name_of(session, reading.unit).substr(3);
   return fmt::format(
       "{} alone would name a cause ({}{}, {:.0f} %); without it there is none. A lasting cause "
-      "shows in more than one {}, so the {} is left out: measure it again{}.",
+      "shows in more than one {}, so the {} was rejected: measure it again{}.",
       what,
       cause.effect->cause,
       side_words(cause),

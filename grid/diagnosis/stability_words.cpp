@@ -121,8 +121,7 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
           : fmt::format("Of {}, each left out in turn, {} would change the answer.", which, changes);
   if (weakest->probability > kBeyondDoubt) return text;
   return text + fmt::format(
-                    " It is least sure without {}: then {}, "
-                    "with all {} {}.",
+                    " It is least certain without {}: then {}, with all {} {}.",
                     named_places(diagnosis, kind, {&*weakest}),
                     percent(weakest->probability),
                     diagnosis.observations == Observations::points ? "points" : "readings",

@@ -24,11 +24,9 @@ struct Vocabulary {
 };
 
 constexpr std::string_view kRivalOfMarks =
-    "An unlisted cause that looks the same would get the same name. The most similar listed one";
+    "An unlisted cause with the same effect would get the same name. The most similar listed one";
 constexpr std::string_view kRivalOfBelts =
-    "A cause that the catalogue lacks, and that looks the same, would carry the same name. The "
-    "nearest one "
-    "that it has";
+    "An unlisted cause with the same effect would get the same name. The most similar listed one";
 
 /// Indexed by Observations.
 constexpr Vocabulary kVocabularies[] = {{"points",
@@ -80,7 +78,7 @@ const Vocabulary& vocabulary_of(const Diagnosis& d) {
 std::string alongside_words(const Diagnosis& d) {
   const std::string_view besides = vocabulary_of(d).besides;
   if (const Law* law = claimed_law(d)) {
-    return fmt::format(" {}, what no listed cause makes: {}, {}.",
+    return fmt::format(" {}, something that no listed cause explains: {}, {}.",
                        besides,
                        in_words(*law),
                        percent(law->probability)) +
@@ -100,7 +98,7 @@ std::string alongside_words(const Diagnosis& d) {
         probability);
   }
   return fmt::format(
-      " {}, a pattern of {:.2f} mm{}, which no listed cause makes: {}.",
+      " {}, a pattern of {:.2f} mm{}, which no listed cause explains: {}.",
       besides,
       left.rms_mm,
       left.follows.empty()
@@ -146,10 +144,11 @@ std::string causes_in_words(const Diagnosis& d) {
                        percent(cause.probability));
     for (const SameCause& other : cause.same_as) {
       text += fmt::format(
-          " {} tell it from this: {}.", words.undecided, sized(other.cause, other.parameters));
+          " {} distinguish it from this: "
+          "{}.", words.undecided, sized(other.cause, other.parameters));
     }
   } else if (d.verdict == Verdict::named_set) {
-    text = fmt::format("One of {} causes, which these {} do not tell apart: {}.",
+    text = fmt::format("One of {} causes, which these {} do not distinguish: {}.",
                        parts.size(),
                        words.readings,
                        joined(parts, "or"));
@@ -194,7 +193,8 @@ std::string not_proved_in_words(const Diagnosis& d) {
   const Vocabulary& words = vocabulary_of(d);
   if (!d.causes.empty()) {
     const std::optional<CauseId>& rival = d.causes.front().rival;
-    return fmt::format("{} show what fits, not what is: look at the part before changing it.{}",
+    return fmt::format("{} show which explanation fits, not that it is true. Inspect the part "
+                       "before changing it.{}",
                        words.capital,
                        rival ? fmt::format(" {}: {}.", words.rival, sized(*rival, {})) : "");
   }
@@ -203,8 +203,8 @@ std::string not_proved_in_words(const Diagnosis& d) {
            "shown.";
   }
   return claimed_law(d) != nullptr
-             ? "A law says what the error is a function of, not what makes it; other causes may "
-               "act as well."
+             ? "A law states what the error depends on, not its cause; other causes may act as "
+               "well."
              : "No cause in the catalogue explains it, but one may still act as well.";
 }
 

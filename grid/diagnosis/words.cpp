@@ -19,16 +19,16 @@ std::string improvement_words(const Diagnosis& d) {
   if (!d.improvement) return "";
   if (d.improvement->extended.rms_mm >= d.improvement->calibrated.rms_mm) {
     return fmt::format(
-        " It does not improve {}: readings left out in turn are predicted to {:.2f} mm with it and "
-        "without, and the readings themselves are good to {:.2f} mm. So the machine is left as it "
+        " It does not improve {}: left-out readings are predicted to {:.2f} mm with it and "
+        "without, and the scatter of the readings is {:.2f} mm. So the machine is left as it "
         "is.",
         speaks_of_distances(d) ? "distances" : "the tool",
         d.improvement->calibrated.rms_mm,
         d.improvement->noise_floor_mm);
   }
   return fmt::format(
-      " With it, the {} error falls from {:.2f} to {:.2f} mm where it was not used; the readings "
-      "themselves are good to {:.2f} mm.",
+      " Correcting for it reduces the {} error at left-out readings from {:.2f} to {:.2f} mm; the "
+      "scatter of the readings is {:.2f} mm.",
       speaks_of_distances(d) ? "distances'" : "tool's",
       d.improvement->calibrated.rms_mm,
       d.improvement->extended.rms_mm,
@@ -48,8 +48,8 @@ std::string unknown_words(const Diagnosis& d) {
                 "The {} show a pattern that repeats over the bed and that no cause in the "
                 "catalogue explains",
                 name(d.observations))
-          : "The holes lie off where their chain lengths put them, neighbours by about the same "
-            "and by more than the readings can err, and no known cause explains it";
+          : "The holes are off the positions given by their chain lengths, neighbours by about "
+            "the same and by more than the scatter of the readings, and no known cause explains it";
   if (!d.left_over.follows.empty()) {
     text += fmt::format("; it follows {} best ({:.0f} % of it)",
                         coordinate_words(d.left_over.follows),
@@ -90,8 +90,8 @@ std::string bad_words(const Diagnosis& d) {
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
   if (const std::vector<std::string> off = settings_off(d); !off.empty()) {
     return fmt::format(
-        "{} off, and nothing else is wrong: {}. With the numbers found, what is left of the {} {} is "
-        "as large as the readings can err.",
+        "{} off, and nothing else is wrong: {}. With the numbers found, the residual of the {} {} "
+        "is as large as the scatter of the readings.",
         off.size() == 1 ? "A setting is" : "Settings are",
         joined(off, "and"),
         units,
@@ -105,7 +105,7 @@ std::string nothing_words(const Diagnosis& d, std::size_t units) {
       name(d.observations));
   if (d.family_wise_p < 0.05) {
     text += fmt::format(
-        " The strongest effect would look as strong by chance in {:.0f} of 100 "
+        " Chance alone makes the strongest effect look as strong in {:.0f} of 100 "
         "sessions.",
         100.0 * d.family_wise_p);
   }
@@ -123,13 +123,13 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
     case Verdict::noise_larger_than_stated:
       if (d.drawing) {
         return fmt::format(
-            "The measures scatter {:.1f} times as much as a ruler does, and without a pattern: look "
-            "at the ruler, at the paper and at play in the gondola, and draw the page once more.",
+            "The measures scatter {:.1f} times as much as a ruler, without a pattern: check the "
+            "ruler, the paper and play in the gondola, and draw the page again.",
             d.noise_factor);
       }
       return fmt::format(
-          "The {} scatter {:.1f} times as much as you said, and without a pattern: look at the "
-          "tape, at the {} and at play in the sled.",
+          "The {} scatter {:.1f} times as much as stated, without a pattern: check the tape, the "
+          "{} and play in the sled.",
           name(d.observations),
           d.noise_factor,
           speaks_of_distances(d) ? "drill" : "marking");
@@ -158,7 +158,7 @@ void say_what_to_type(Diagnosis& d) {
   d.what_to_do.emplace_back(
       d.causes.empty()
           ? "Type the numbers in: chaintrue fit finds them, and export plotter prints the lines."
-          : "Then draw the page once more: chaintrue fit finds the settings that are off, and export "
+          : "Then draw the page again: chaintrue fit finds the settings that are off, and export "
             "plotter prints the lines to type in.");
 }
 
@@ -194,7 +194,7 @@ void say_what_to_do(Diagnosis& d) {
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off || d.what_to_do.size() >= 3) continue;
     d.what_to_do.push_back(
-        fmt::format("Check {}: the machine file says {:.2f}, and {:.2f} fits the {}.",
+        fmt::format("Check {}: the machine file has {:.2f}, but {:.2f} fits the {}.",
                     model::name(s.setting),
                     s.stated,
                     s.calibrated,
@@ -206,21 +206,21 @@ void say_what_to_do(Diagnosis& d) {
             ? "Write the law to a file (chaintrue diagnose --law), measure other points, and diagnose these "
               "with it (--effects): they confirm or deny it."
             : "Write the law to a file (chaintrue diagnose --law) and diagnose these readings again with it "
-              "(--effects): the machine file then holds what they name together with it.");
+              "(--effects): the machine file then has the causes found together with it.");
   } else if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
-        "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
-        "it.");
+        "Use the measured map (chaintrue fit): it corrects a repeating pattern, whatever its "
+        "cause.");
     // More marks on the same sheet cannot tell whose error it is.
     d.what_to_do.emplace_back(
-        "Turn the sheet by half, or set it out with another tape, and measure again: an error that "
-        "turns with it is the sheet's or the tape's; one that stays is the machine's; one that is "
-        "gone was that day's.");
+        "Turn the sheet by half a turn, or set it out with another tape, and measure again: an "
+        "error that turns with it is the sheet's or the tape's; one that stays is the machine's; "
+        "one that is gone was that day's.");
   }
   say_what_to_type(d);
   if (d.what_to_do.empty()) {
     d.what_to_do.push_back(fmt::format(
-        "Type in the calibrated settings; these {} can give no more.", name(d.observations)));
+        "Type in the calibrated settings; these {} show no more.", name(d.observations)));
   }
 }
 
@@ -228,12 +228,14 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
   std::string text = not_proved_in_words(d) + influence_in_words(d);
   if (speaks_of_distances(d)) {
     text +=
-        " Distances do not show in which order the holes were cut, nor where the machine stands as "
-        "a whole: drift, skipped teeth and play do not show, nor how high the motors are.";
+        " Distances do not show the order of the holes or the position of the machine as a whole, "
+        "so drift, skipped teeth, play and the height of the motors cannot be found.";
   } else if (d.drawing) {
-    text += " A drawing does not show in which order it was drawn: drift and skipped teeth do not show.";
+    text += " A drawing does not show the order of its lines, so drift and skipped teeth cannot "
+            "be found.";
   } else if (!session.ordered()) {
-    text += " The order of visits is not known: drift, skipped teeth and play do not show.";
+    text += " The order of the visits is not known, so drift, skipped teeth and play cannot be "
+            "found.";
   }
   return text;
 }
@@ -244,20 +246,21 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   const ObservationSet& session = a.session;
   if (!a.converged) {
     d.notes.emplace_back(
-        "Calibrating had not come to rest after its last pass: the settings are less sure than their "
-        "sigmas say. Look for a reading that is far off, or a wrong setting.");
+        "The calibration had not converged after its last pass: the settings are less certain "
+        "than their sigmas. Look for a reading that is far off, or a wrong setting.");
   }
   if (session.noise_from_repeats && d.improvement) {
     d.notes.push_back(
-        fmt::format("Your readings look good to about {:.2f} mm, by the marks that were measured twice.",
+        fmt::format("Your readings scatter by about {:.2f} mm, judging by the marks that were "
+                    "measured twice.",
                     d.improvement->noise_floor_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));
   for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   if (speaks_of_distances(d) && d.left_over.p_value < kFalseAlarm) {
     d.notes.emplace_back(
-        "What is left is about the same among neighbours. Distances cannot say what it depends on, "
-        "since each joins two places: marks can, with the chains read there.");
+        "The residuals of neighbours are similar. Distances do not show what they depend on, "
+        "because each joins two places; marks with chain readings do.");
   }
   d.sentence = a.system.regressors.empty()
                    ? fmt::format("These {} can test no cause: there are too few of them, or they err "

@@ -265,7 +265,7 @@ std::string reading_words(ReadingOf what, std::string_view side) {
   if (what == ReadingOf::chain_mass) return "the weight of a metre of chain";
   if (what == ReadingOf::tape_error) {
     return fmt::format(
-        "how much a metre of the tape or the printed sheet says too much{}: hold a good tape "
+        "the error of the tape or the printed sheet per metre{}: hold a good tape "
         "against "
         "two metres of it",
         side == "x" || side == "y" ? fmt::format(" along {}", side) : "");

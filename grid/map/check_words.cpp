@@ -40,7 +40,8 @@ std::string sentence_of(const Check& check, const CheckWords& words) {
   const CheckHypothesis& first = check.hypotheses.front();
   const double percent = 100.0 * check.probability[static_cast<std::size_t>(check.verdict)];
   if (first.what == model::Change::bad_point) {
-    return fmt::format("Measure {} again ({:.0f} %): it alone is wrong, and says nothing of {}.",
+    return fmt::format("Measure {} again ({:.0f} %): it alone is wrong, so it does not show "
+                       "whether {} is valid.",
                        first.name,
                        percent,
                        words.subject);
@@ -63,7 +64,7 @@ std::string not_separable_of(const Check& check, const CheckWords& words) {
       others.push_back(fmt::format("{} ({:.0f} %)", clause_of(h, words), 100.0 * h.probability));
   }
   std::string text =
-      fmt::format("These {} cannot tell apart: {}.", words.readings, fmt::join(others, "; "));
+      fmt::format("These {} do not distinguish: {}.", words.readings, fmt::join(others, "; "));
   if (!check.decided) {
     text += fmt::format(" Measure more {}, far from each other, before you rely on either.",
                         words.readings);
@@ -85,7 +86,8 @@ std::string clause_of(const QuantityFound& one, const model::Mechanism& mechanis
   for (const std::size_t length : one.of.lengths) names.push_back(mechanism.lengths()[length]);
   if (one.of.kind == Quantity::Kind::elongation)
     return fmt::format("{} has grown by {:.3f} %", fmt::join(names, ", "), 100.0 * one.value);
-  return fmt::format("{} reads {:+.2f} mm from where it did", fmt::join(names, ", "), one.value);
+  return fmt::format("the reading of {} has shifted by {:+.2f} "
+                     "mm", fmt::join(names, ", "), one.value);
 }
 
 }  // namespace
@@ -152,7 +154,7 @@ CheckWords words_of(const model::Mechanism& mechanism) {
           "readings",
           "The calibration is still valid",
           "The calibration is valid after re-zeroing",
-          "The calibration is to be measured again",
+          "The calibration must be measured again",
           [&mechanism](const CheckHypothesis& h) {
             std::vector<std::string> clauses;
             for (const QuantityFound& one : h.found) clauses.push_back(clause_of(one, mechanism));

@@ -18,7 +18,7 @@ struct CheckWords {
   std::string readings;  ///< "points"
   std::string valid;     ///< "The map is still valid"
   std::string rezero;    ///< "The map is valid after re-zeroing"
-  std::string again;     ///< "The map is to be measured again"
+  std::string again;     ///< "The map must be measured again"
   /// A change of the mechanism's as a clause: "the zero of the left chain has shifted by +1.00 mm".
   std::function<std::string(const CheckHypothesis&)> change;
   /// Follows `rezero`; empty: none.

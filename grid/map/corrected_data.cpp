@@ -94,7 +94,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
     const model::MarkFrame marks(paper);
     for (MeasuredPoint& point : corrected.grid.points) point.mark = marks.place(point.mark);
     corrected.notes.push_back(
-        fmt::format("The marks were put where they truly are ({}).", names_of(paper)));
+        fmt::format("The marks were moved to their true positions ({}).", names_of(paper)));
   }
   if (!visit.effects.empty()) {
     const bool has_order =
@@ -110,8 +110,8 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
                       names_of(visit)));
     } else {
       corrected.notes.push_back(
-          fmt::format("{} could not be removed from the readings: the points do not give the order "
-                      "of the visits.",
+          fmt::format("{} could not be removed from the readings: the order of the visits is not "
+                      "recorded.",
                       names_of(visit)));
     }
   }

@@ -86,8 +86,8 @@ class DistancesPart final : public FitPart {
   void note_noise(double factor, std::vector<std::string>& notes) const {
     if (factor <= kNoiseDisagreement) return;
     notes.push_back(
-        fmt::format("The distances scatter {:.1f} times as much as you said ({:g} mm of tape, {:g} "
-                    "mm of hole): the results are that much less certain.",
+        fmt::format("The distances scatter {:.1f} times as much as stated ({:g} mm for the tape, "
+                    "{:g} mm for a hole), so the results are that much less certain.",
                     factor,
                     set().tape.sigma_mm,
                     set().hole_sigma_mm));
@@ -103,8 +103,8 @@ class DistancesPart final : public FitPart {
     }
     if (free.empty()) return;
     notes.push_back(
-        fmt::format("No edges were measured that fix where the sheet lay ({}). The map assumes that the "
-                    "holes as a whole lie where they were commanded.",
+        fmt::format("No measured edges fix where the sheet lay ({}). The map assumes that the "
+                    "holes, on average, are where they were commanded.",
                     free));
   }
 

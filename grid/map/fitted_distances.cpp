@@ -42,7 +42,7 @@ void note_rejected(const MeasuredHoles& set,
     const HoleDistance& reading = set.distances[k];
     notes.push_back(
         fmt::format("{} ({:g} mm on the tape) was left out: it is {:.1f} mm {} than the others "
-                    "make it, {:.1f} times what tape and holes allow. Measure it again.",
+                    "predict, {:.1f} times the usual error of tape and holes. Measure it again.",
                     words_of(set, reading),
                     reading.distance_mm,
                     std::abs(distance.left_out_mm),
@@ -54,8 +54,8 @@ void note_rejected(const MeasuredHoles& set,
   for (const auto& [hole, count] : at_hole) {
     if (count < 2) continue;
     notes.push_back(
-        fmt::format("{} of the distances that were left out end at hole {}: perhaps it is the hole "
-                    "that is off its place, not the tape.",
+        fmt::format("{} of the distances that were left out end at hole {}: perhaps the hole is "
+                    "misplaced, not the tape.",
                     count,
                     set.holes[hole].name));
   }
@@ -63,7 +63,7 @@ void note_rejected(const MeasuredHoles& set,
 
 std::string tape_zero_sentence(const FoundTapeZero& zero) {
   return fmt::format(
-      "Every tape distance reads {:.1f} +- {:.1f} mm too {}, which is taken off: {}",
+      "Every tape distance reads {:.1f} +- {:.1f} mm too {}. This is corrected: {}",
       std::abs(zero.mm),
       zero.sigma_mm,
       zero.mm > 0.0 ? "long" : "short",

@@ -133,7 +133,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
         FitFailure::Reason::rank_deficient,
         alone ? parts[k]->few_good(bad, all)
               : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
-                            "all of one machine, with the same chains hung on the same teeth?",
+                            "all from one machine, with the same chains on the same teeth?",
                             files[k].name,
                             bad,
                             all,
@@ -181,9 +181,8 @@ void note_zeros(const std::vector<MeasuredFile>& files,
     const std::string words = estimation::words_of(*own(k));
     if (words.empty()) continue;
     notes.push_back(
-        fmt::format("{}: the chains' zeros are other than in {}: {}. The map holds for the zeros "
-                    "of {}; where the "
-                    "machine has the other ones now, name that file first.",
+        fmt::format("{}: the chains' zeros differ from those in {}: {}. The map is for the zeros "
+                    "of {}. If the machine has the other ones now, name that file first.",
                     files[k].name,
                     files[of_map].name,
                     words,
@@ -201,9 +200,9 @@ std::vector<std::string> notes_of(const Parts& parts,
   for (const auto& part : parts) append(part->corrections);
   if (parts.size() > 1) {
     notes.push_back(
-        fmt::format("Fitted together: {}. The map's frame is that of {}; the noise is what each "
-                    "file gives, times {:.2f} as found, which the fewest degrees of freedom in any "
-                    "of them, {:g}, hold near 1.",
+        fmt::format("Fitted together: {}. The map's frame is that of {}. The noise is {:.2f} "
+                    "times what the files state; the fewest degrees of freedom in any of them, "
+                    "{:g}, keep this factor near 1.",
                     fmt::join(draft.sources, "; "),
                     files.front().name,
                     fitting.estimate.noise_factor,
@@ -218,12 +217,12 @@ std::vector<std::string> notes_of(const Parts& parts,
         fitting.estimate.has_surface
             ? "The distances show more than settings can explain: the map bends smoothly there."
             : "Settings and chain scales explain the distances: the map is the calibrated machine. "
-              "What no setting explains is not in its expected error.");
+              "Its expected error does not include what no setting explains.");
   }
   if (!fitting.estimate.converged) {
     notes.push_back(fmt::format(
-        "The fit had not quite come to rest after its last pass: some {} hover between good and "
-        "bad. Measure the ones with the largest errors again.",
+        "The fit had not fully converged after its last pass: some {} are on the limit between "
+        "good and bad. Measure the ones with the largest errors again.",
         parts.size() > 1 ? "readings" : parts.front()->observation->kind().units));
   }
   append(draft.last_notes);
@@ -258,10 +257,10 @@ CompensationMap with_held_out_error(CompensationMap map, const std::vector<Fitte
   const double larger_mm = std::sqrt(left_out_mm2);
   return with_larger_error(map, larger_mm / expected_mm)
       .with_notes_first(
-          {fmt::format("The fit itself expects the tool within {:.2f} mm rms, but points in parts "
-                       "of the bed that were left out come out {:.2f} mm off, more than the "
-                       "readings can err: the larger number is given. Something acts that this map "
-                       "does not know; chaintrue diagnose looks for it.",
+          {fmt::format("The fit expects an error of {:.2f} mm rms, but points in left-out parts "
+                       "of the bed are off by {:.2f} mm, more than the scatter of the readings. "
+                       "The larger number is given. The map lacks some cause; chaintrue diagnose "
+                       "looks for it.",
                        expected_mm,
                        larger_mm)});
 }

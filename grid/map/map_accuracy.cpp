@@ -110,13 +110,13 @@ MirrorTest test_mirror(const CompensationMap& map) {
   const auto than = [](double value) { return value >= 0.0 ? "longer" : "shorter"; };
   if (test.holds) {
     test.sentence = fmt::format(
-        "Within the noise the right chain is the left one mirrored: the largest difference at {} "
+        "Within the noise the right chain mirrors the left one: the largest difference at {} "
         "points is {:.2f} mm.",
         test.points,
         std::abs(test.worst_signed_mm));
   } else {
     test.sentence = fmt::format(
-        "The right chain is not the left one mirrored: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than "
+        "The right chain does not mirror the left one: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than "
         "the left chain at the "
         "mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One surface for both "
         "chains would cut that "

@@ -55,13 +55,14 @@ CheckWords words_of_map(bool sets_chains) {
           "points",
           "The map is still valid",
           "The map is valid after re-zeroing",
-          "The map is to be measured again",
+          "The map must be measured again",
           words_of_chains,
           [sets_chains](const Check& check) {
             return fmt::format("{}New zeros: left {:.2f} mm, right {:.2f} mm.",
-                               sets_chains ? "Set the chain lengths anew, with both sprockets' teeth at 12 o'clock "
-                                             "(Actions, Set Chain Length), and check again: no number in the "
-                                             "settings does it. "
+                               sets_chains ? "Set the chain lengths again, with both sprockets' "
+                                             "teeth at 12 o'clock (Actions, Set Chain Length), "
+                                             "and check again. No number in the settings corrects "
+                                             "this. "
                                            : "",
                                check.new_zero_mm[0],
                                check.new_zero_mm[1]);

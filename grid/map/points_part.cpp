@@ -60,14 +60,14 @@ void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& latti
 
 void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual& lattice) {
   notes.emplace_back(
-      "The readings have no noise and stand on full rows and columns: the map passes through every "
+      "The readings have no noise and are on full rows and columns: the map passes through every "
       "one of them.");
   for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
     for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
       notes.push_back(
           fmt::format("No reading at ({:.0f}, {:.0f}) was used: the map there comes from the row "
-                      "or column through it, good to about {:.2g} mm.",
+                      "or column through it, accurate to about {:.2g} mm.",
                       lattice.x_nodes_mm[as_size(ix)],
                       lattice.y_nodes_mm[as_size(iy)],
                       lattice.doubt_mm(ix, iy)));
@@ -242,7 +242,7 @@ class PointsPart final : public FitPart {
     const MapNoise& noise = draft.map.noise;
     if (noise.source == NoiseSource::stated && noise.factor_found > kNoiseDisagreement) {
       draft.notes.push_back(
-          fmt::format("The readings scatter {:.1f} times as much as you said: check how the marks "
+          fmt::format("The readings scatter {:.1f} times as much as stated: check how the marks "
                       "and the lengths were measured.",
                       noise.factor_found));
     }
@@ -253,8 +253,8 @@ class PointsPart final : public FitPart {
                             const std::string& name,
                             std::vector<std::string>& notes) {
     notes.push_back(
-        fmt::format("{} {} at ({:.0f}, {:.0f}) is off by {:.1f} mm, {:.0f} times what the readings "
-                    "are good to, and was left out. Measure it again.",
+        fmt::format("{} {} at ({:.0f}, {:.0f}) is off by {:.1f} mm, {:.0f} times the scatter of "
+                    "the readings, and was left out. Measure it again.",
                     name.empty() ? "Point" : name + ": point",
                     number,
                     point.mark.x_mm,

@@ -151,7 +151,7 @@ void round_to_type(const std::vector<FreeSetting>& free,
 
 tl::unexpected<SettingsFailure> no_machine() {
   return failed(SettingsFailure::Reason::no_machine,
-                "this map was made without a machine, so there are no settings to mend: fit the "
+                "this map was made without a machine, so it has no settings to improve: fit the "
                 "points again with --machine, and without --surface direct");
 }
 
@@ -248,7 +248,7 @@ tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
   const auto before = errors_with(truth.machine, in_force, places);
   if (!maslow || !before || places.empty()) {
     return failed(SettingsFailure::Reason::another_controller,
-                  "the map's machine has no controller of a Maslow, whose settings could be fitted: "
+                  "the map's machine has no Maslow controller, so there are no settings to fit: "
                   "compensate the G-code with the map");
   }
   SettingsToType result;

@@ -84,14 +84,14 @@ Eigen::Vector<double, 2 * kOfChain> start_of(const model::Machine& machine, Anch
 std::string_view sentence_of(StraightReason reason) {
   switch (reason) {
     case StraightReason::no_machine:
-      return "this map was made without a machine, so that nothing is known of its anchors: fit the "
-             "points again with --machine, and without --surface direct";
+      return "this map was made without a machine, so its anchors are unknown: fit the points "
+             "again with --machine, and without --surface direct";
     case StraightReason::no_origin:
       return "the map has no answer at 0, 0, where such a controller is switched on";
     case StraightReason::not_converged:
       break;
   }
-  return "no anchors of straight lines come near this map";
+  return "no anchors with straight lines approximate this map";
 }
 
 tl::expected<StraightSettings, StraightFailure> straight_settings(const CompensationMap& map,

@@ -134,7 +134,7 @@ tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& vi
 std::string DrawnMeasures::untestable(const model::effects::Effect& effect,
                                       model::effects::EffectSide /*side*/) const {
   if (effect.needs != model::effects::DataNeed::order) return "";
-  return fmt::format("a drawing does not say in which order its lines were drawn, which {} needs",
+  return fmt::format("a drawing does not show the order of its lines, which {} needs",
                      effect.id);
 }
 

@@ -78,7 +78,7 @@ tl::expected<std::vector<LengthPoint>, NoLengths> length_points(const MeasuredGr
     if (point.lengths) {
       result.lengths = *point.lengths;
     } else {
-      if (!controller) return no_lengths(i, "no machine is given whose controller would say them");
+      if (!controller) return no_lengths(i, "no machine with a controller is given");
       if (!point.commanded) return no_lengths(i, "the command is missing");
       const auto paid_out = controller->lengths(*point.commanded);
       if (!paid_out)

@@ -17,7 +17,7 @@ struct PlacedEnd {
 using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
 constexpr model::MechanismReason kNoHole{
-    "no_hole", "the lengths that were paid out for a hole end nowhere together"};
+    "no_hole", "the lengths that were paid out for a hole do not meet"};
 
 MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
   const auto at =

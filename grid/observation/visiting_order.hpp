@@ -36,7 +36,7 @@ struct VisitingOrder {
 [[nodiscard]] tl::expected<std::vector<int>, std::string> visit_numbers(
     const std::vector<MeasuredPoint>& points, const VisitingOrder& order);
 
-/// "row by row, each the other way than the one before, from the bottom right".
+/// "row by row, in alternating directions, from the bottom right".
 [[nodiscard]] std::string in_words(const VisitingOrder& order);
 
 }  // namespace chaintrue::grid

@@ -149,7 +149,7 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
 
 PlanFailure no_machine() {
   return {PlanFailure::Reason::no_machine,
-          "a direct map has no machine: its bed and what a zero shifts are unknown"};
+          "a direct map has no machine: its bed and the effect of a zero are unknown"};
 }
 
 model::PerSide<double> roots(const model::PerSide<double>& squares) {

@@ -59,7 +59,7 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
   if (found->converged) return found.value();
   return failed(
       DrawingReason::not_converged,
-      "the settings did not settle: no settings near those in the file make this drawing. "
+      "the fit did not converge: no settings near those in the file give this drawing. "
       "Look whether the machine's kind, its pins' spacing and the crosses are those of the "
       "drawing");
 }
@@ -181,8 +181,8 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(
         DrawingReason::no_settings_fit,
         fmt::format(
-            "no settings make this drawing: {} of {} measures do not fit the rest, which "
-            "scatter {:.1f} times as much as a ruler does. Measure the worst again, then draw "
+            "no settings give this drawing: {} of {} measures do not fit the rest, which scatter "
+            "{:.1f} times as much as a ruler. Measure the worst again, then draw "
             "the page a second time: a machine that slips draws another one",
             bad,
             rejected.size(),
@@ -199,7 +199,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   const auto after = next_drawing(drawing, fit);
   if (!after) {
     return failed(DrawingReason::not_converged,
-                  "with the settings that were found the page cannot be drawn again");
+                  "the page cannot be drawn with the fitted settings");
   }
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);

@@ -70,7 +70,8 @@ std::vector<Transformation> drawing_transformations(
     scale(ProblemKind::other_unit, sentence("the lengths and the bows"), all, mm);
   }
   scale(ProblemKind::minus_signs,
-        "the bows look turned round: a bow counts as the sheet says, and has a minus to the other side",
+        "the signs of the bows look reversed: count them as on the sheet, with a minus on the "
+        "other side",
         bows,
         -1.0);
   const double share = median_share(drawing, as_set);
@@ -164,7 +165,7 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
       plain,
       tried,
       kOddDrawing,
-      fmt::format("half of the measures are over {} off what the settings draw",
+      fmt::format("half of the measures are over {} off the prediction by the settings",
                   input_checks::length_in_words(plain.median_mm)));
   if (!found) return std::nullopt;
   return DrawingFailure{reason_of(found->kind), found->sentence()};
@@ -185,7 +186,7 @@ std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
         continue;
       return DrawingFailure{
           DrawingFailure::Reason::rows_exchanged,
-          fmt::format("{} ({:.1f} mm) and {} ({:.1f} mm) fit once they are exchanged: they were "
+          fmt::format("{} ({:.1f} mm) and {} ({:.1f} mm) fit if they are exchanged: they were "
                       "typed into each other's row. Look at the sheet and correct them",
                       words_of(drawing, i),
                       a.value_mm,

@@ -207,7 +207,7 @@ TEST(Sessions, SayWhatIsCommonAndWhatIsOneSessions) {
   };
   d.sessions = {of("C.json", 0.99, 0.97), of("D.json", 0.95, 0.02)};
   const auto words = parts_in_words(d);
-  EXPECT_THAT(words, Contains(HasSubstr("Each session shows axes_skew by itself.")));
+  EXPECT_THAT(words, Contains(HasSubstr("Each session alone shows axes_skew.")));
   EXPECT_THAT(words,
               Contains(HasSubstr("contradict each other: direction_hysteresis is in C.json (97 %), "
                                  "not in D.json (2 %)")));

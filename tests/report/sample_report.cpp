@@ -100,7 +100,7 @@ Document sample_document(const MapPictures& map) {
                {{"sheet, turned", 0.0, 1.204, "mrad"}}},
               ""}}});
   document.remarks = {"What else was found",
-                      {Paragraph{"The right chain is not the left one mirrored: at mirrored points "
+                      {Paragraph{"The right chain does not mirror the left one: at mirrored points "
                                  "they differ by 4.2 mm (rms)."}}};
   document.has_glossary = true;
   document.provenance = "chaintrue, from grid.json.";

@@ -29,6 +29,6 @@ export function effectOf({name, where, formula, size, place}) {
   return {
     file_type: "chaintrue_effect", format_version: "1.0", id: nameOf(name), acts_on: "chain", sides: WHERE[where].sides, parameters,
     adds_mm: WHERE[where].of(formula.trim()), cause: name.trim() || "a cause of your own", remedy: "look for what does this",
-    not_modelled: "whatever of it is not of this form",
+    not_modelled: "deviations from this form",
   };
 }
