@@ -65,8 +65,8 @@ void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems&
     if (has_repeats) {
       problems.warn(
           places.point(i, ""),
-          fmt::format("the same four lengths as {} to the last digit; taken for a repeat, as "
-                      "others here are. If it was copied, leave one of the two out",
+          fmt::format("the same four lengths as {} to the last digit; treated as a repeat, like "
+                      "others here. If it was copied, leave one of the two out",
                       same));
       continue;
     }
@@ -102,8 +102,8 @@ void check_pulls(const MeasuredBelts& belts, const BeltPlaces& places, Problems&
     if (own.has_value() == first.has_value() && (!own || own->unit == first->unit)) continue;
     problems.add(places.point(i, "pull"),
                  own ? words_of(*own) : "no pull",
-                 fmt::format("a pull as point 1 has it ({}): all points say how hard belts were "
-                             "pulled, in one unit (pull_n, pull_ma or pull), or none does",
+                 fmt::format("a pull like that of point 1 ({}): all points state the pull, in one "
+                             "unit (pull_n, pull_ma or pull), or none does",
                              first ? words_of(*first) : "none"),
                  ProblemKind::contradiction);
     return;
@@ -126,8 +126,8 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
       places.points,
       found,
       fmt::format(
-          "each belt's lengths under its own name: changed back they agree to {:.1f} mm, as "
-          "they stand they {}",
+          "each belt's lengths under its own name: exchanged they agree to {:.1f} mm, as they are "
+          "they {}",
           swap->swapped_mm,
           swap->as_stated_mm < kMirroredMm
               ? std::string("make a mirror image of the frame")
@@ -147,9 +147,9 @@ void check_settings(const MeasuredBelts& belts,
       fmt::format("{}/anchors", places.machine),
       fmt::format("{} of {:.0f} mm", other->coordinate, other->stated_mm),
       fmt::format(
-          "anchors of the frame that was measured, whose {} is {:.0f} mm by the lengths{}; these "
-          "are settings of another frame, or belts at other anchors than they say. Give the "
-          "settings of this machine, or none (leave x_mm and y_mm out, or --settings)",
+          "anchors of the measured frame, whose {} is {:.0f} mm by the lengths{}; these are "
+          "settings of another frame, or belts are at the wrong anchors. Give the settings of "
+          "this machine, or none (leave x_mm and y_mm out, or --settings)",
           other->coordinate,
           other->fitted_mm,
           other->upper_mm > 0.0
@@ -170,7 +170,7 @@ void check_readings(const MeasuredBelts& belts,
   for (const DistanceQuestion& asked : suspected_distances(belts, frame)) {
     problems.add(fmt::format("/distances/{}/distance_mm", asked.distance),
                  fmt::format("{:.10g}", belts.distances[asked.distance].distance_mm),
-                 fmt::format("about {:.0f}, as the lengths of the belts have it; {}",
+                 fmt::format("about {:.0f}, by the lengths of the belts; {}",
                              asked.by_belts_mm,
                              asked.question),
                  ProblemKind::contradiction);
@@ -184,9 +184,9 @@ void check_nowhere(const MeasuredBelts& belts,
   for (const NowherePoint& nowhere : points_nowhere(belts, frame)) {
     problems.add(places.point(nowhere.point, ""),
                  lengths_in_words(belts.points[nowhere.point]),
-                 fmt::format("four lengths that end at one place; with the anchors that the other "
-                             "points make, the best place is off by {:.0f} mm: is a digit lost, or "
-                             "is it of another frame? Correct it or leave the point out",
+                 fmt::format("four lengths that meet at one place; with the anchors from the "
+                             "other points, the best place is off by {:.0f} mm: is a digit lost, "
+                             "or is it from another frame? Correct it or leave the point out",
                              nowhere.residual_mm),
                  ProblemKind::contradiction);
   }
@@ -292,8 +292,8 @@ bool check_belts_together(const MeasuredBelts& belts,
     problems.add(
         places.points,
         found + " on a line",
-        "places spread over the sheet's width and height: on a line, or in one spot, they do "
-        "not tell where the anchors are",
+        "places spread over the sheet's width and height: on a line, or in one spot, they do not "
+        "determine the anchors",
         ProblemKind::on_a_line);
   } else {
     problems.add(places.points,

@@ -38,8 +38,8 @@ void move_ends(const std::vector<std::optional<std::size_t>>& kept,
         problems.add(
             fmt::format("/distances/{}", i),
             words_of(*end),
-            "a point that counts: it is left out by --without; leave the distance out of the "
-            "file, or the point in",
+            "a point that is used: --without leaves it out; leave the distance out of the file, "
+            "or keep the point",
             ProblemKind::contradiction);
         return;
       }

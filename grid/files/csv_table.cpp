@@ -121,7 +121,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
     return std::find(found.begin(), found.end(), name) != found.end();
   };
   if (is_there("x_mm") && is_there("y_mm") && found.size() <= 3) {
-    remarks += "; these are places alone, and what was measured there is missing";
+    remarks += "; these are only places, and the measurements are missing";
   } else if (std::any_of(found.begin(), found.end(), [](const std::string& name) {
                return name.find("distance") != std::string::npos ||
                       name.find("length") != std::string::npos ||

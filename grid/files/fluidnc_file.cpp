@@ -51,7 +51,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   problems.throw_if_any();
   problems.warn(
       "",
-      fmt::format("FluidNC does not say what hangs on the anchors; assumed are a sled of "
+      fmt::format("FluidNC has no settings for what hangs on the anchors. Assumed: a sled of "
                   "{} kg, a ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} "
                   "kg/m, a frame that leans {} degrees: put your own into the machine file",
                   machine.sled.mass_kg,

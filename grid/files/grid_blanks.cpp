@@ -48,7 +48,7 @@ void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Pr
   problems.warn(
       places.all,
       fmt::format("{} of {} points are copies of others, to the last digit of both lengths, "
-                  "and count once ({}): a place that is measured again reads otherwise",
+                  "and count once ({}): a repeated measurement would differ",
                   points.size() - kept.size(),
                   points.size(),
                   example));

@@ -179,26 +179,26 @@ void state_pitch(const SettingValues& numbers,
 /// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
 void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
   const auto assume = [&problems](std::string what) {
-    problems.warn("", fmt::format("the settings do not say {}", std::move(what)));
+    problems.warn("", fmt::format("not in the settings: {}", std::move(what)));
   };
   if (const auto weight_n = numbers.at("sledweight")) {
     machine.sled.mass_kg = *weight_n / kGroundcontrolGravity_m_per_s2;
   } else {
     assume(
-        fmt::format("what the sled weighs; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
+        fmt::format("the sled's weight; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
   }
   if (const auto compliance = numbers.at("chainelongationfactor")) {
     machine.chain.compliance_per_n = *compliance;
   } else {
     // The default elongation of MaslowCNC/Firmware (setting $45).
     machine.chain.compliance_per_n = 5.1685e-6;
-    assume(fmt::format("how far the chain stretches; assumed {} per N (/chain/compliance_per_n)",
+    assume(fmt::format("the chain's stretch; assumed {} per N (/chain/compliance_per_n)",
                        machine.chain.compliance_per_n));
   }
-  assume(fmt::format("what the chain weighs; assumed {} kg/m (/chain/mass_kg_per_m)",
+  assume(fmt::format("the chain's weight; assumed {} kg/m (/chain/mass_kg_per_m)",
                      machine.chain.mass_kg_per_m));
   assume(
-      fmt::format("how far the frame leans; assumed {} degrees from the vertical "
+      fmt::format("the frame's lean; assumed {} degrees from the vertical "
                   "(/frame/tilt_from_vertical_deg)",
                   machine.frame.tilt_from_vertical_deg));
   assume(
@@ -240,7 +240,7 @@ class OldReleases {
   void say() const {
     if (assumed_.empty()) return;
     problems_.warn("",
-                   fmt::format("as in releases of GroundControl that have no such setting, taken are {}",
+                   fmt::format("assumed as in releases of GroundControl without this setting: {}",
                                fmt::join(assumed_, ", ")));
   }
 
@@ -274,9 +274,9 @@ void check_sag(SettingReader& settings, const Machine& machine, Problems& proble
       model::closed_form_sag_correction(hangs.chain_weight_n_per_mm, hangs.sled_weight_n);
   if (set == 0.0 || (set < kFarFrom * own && kFarFrom * set > own)) return;
   problems.warn(settings.look("chainsagcorrection")->place,
-                fmt::format("chainsagcorrection {:g}: the weights of chain and sled make {:.1f}. A "
-                            "calibration that put other errors into it makes such a number; it is kept "
-                            "as what the controller goes by",
+                fmt::format("chainsagcorrection {:g}: the weights of chain and sled make {:.1f}. "
+                            "A calibration that compensates other errors gives such a number; it "
+                            "is kept as the controller's setting",
                             set,
                             own));
 }

@@ -140,8 +140,8 @@ void check_triangles(const MeasuredHoles& set,
       problems.add(
           places.distance(sides[0], "distance_mm"),
           fmt::format("{:g}", set.distances[sides[0]].distance_mm),
-          fmt::format("at most {:.1f} mm: {} cannot be longer than the way over {} ({:g}) and {} "
-                      "({:g}); one of the three was misread{}",
+          fmt::format("at most {:.1f} mm: {} cannot be longer than {} ({:g}) plus {} ({:g}); one "
+                      "of the three was misread{}",
                       set.distances[sides[0]].distance_mm - excess,
                       words_of(set, set.distances[sides[0]]),
                       words_of(set, set.distances[sides[1]]),
@@ -234,8 +234,8 @@ void check_tape_zero(const MeasuredHoles& set,
       fmt::format("give {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {
     problems.warn(places.distances,
-                  fmt::format("{}, the short ones like the long ones. Was the hook's offset taken "
-                              "off twice? If so, {}.",
+                  fmt::format("{}, short ones like long ones. Was the hook's offset subtracted "
+                              "twice? If so, {}.",
                               found,
                               state));
     return;

@@ -55,7 +55,7 @@ std::string where(const RunStopped& stopped) {
                         stopped.last_announced > stopped.last_measured
                             ? fmt::format(" of 0 to {}", stopped.last_announced)
                             : "");
-  return fmt::format("This run did not come to its end: {} {}",
+  return fmt::format("This run did not finish: {} {}",
                      stopped.said.empty() ? "the log ends" : "it stopped",
                      reached);
 }
@@ -84,16 +84,17 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   }
   if (apart > 1) {
     return fmt::format(
-        "{}, and {} belts disagree with themselves: a sled that still swings, a frame that gives, "
+        "{}, and {} belts have inconsistent readings. Possible causes: a sled that still swings, "
+        "a frame that yields, "
         "or "
-        "a pull that is too weak make that. Fasten the frame, and raise "
+        "a pull that is too weak. Fasten the frame, and raise "
         "Maslow_Calibration_Current_Threshold by a little.",
         text,
         apart);
   }
   return fmt::format(
-      "{}, the others agree: a slack belt, or one that catches at the arm or on the spool, makes "
-      "that. Free it, see that it is taut at this place, and measure again.",
+      "{}, the others agree. Probable cause: a slack belt, or one that catches at the arm or on "
+      "the spool. Free it, see that it is taut at this place, and measure again.",
       text);
 }
 
@@ -121,9 +122,9 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
   const double excess_mm = found->median_mm[worst];
   const int turns = whole_turns(excess_mm, belts.machine.belt_turn_mm, kWholeTurnOfCommandsMm);
   return fmt::format(
-      " The {} belt reads {:.0f} mm {} than the settings have it where the machine was sent, the "
+      " The {} belt reads {:.0f} mm {} than the settings predict for the commanded place, the "
       "others "
-      "agree: {} makes that. Retract it, extend it anew and measure again.",
+      "agree. Probable cause: {}. Retract it, extend it again and measure again.",
       model::words(worst),
       std::abs(excess_mm),
       excess_mm > 0.0 ? "longer" : "shorter",
@@ -140,34 +141,36 @@ std::string_view by_kind(StopKind kind) {
              "encoder that loses turns make that. Watch the four belts at that place: each must be "
              "taut and its spool must stand still while it is read.";
     case StopKind::imbalance:
-      return " The machine gives up where one belt's misfit is twice another's; of six places good "
-             "readings do that by chance. Nothing need be wrong with the belts: start it again, or "
+      return " The machine gives up if one belt's misfit is twice another's; with six places good "
+             "readings do that by chance. The belts may be fine: start it again, or "
              "go "
-             "by the readings that are there.";
+             "with the readings so far.";
     case StopKind::not_converged:
-      return " The machine's own solver stalled, which says little of the readings: a frame far "
-             "from the size that was set makes that, belts at the wrong anchors do, and so does chance. "
+      return " The machine's solver stalled, which shows little about the readings. Possible "
+             "causes: a frame far from the set size, belts at the wrong anchors, or chance. "
              "Tape "
              "the frame, put its size into the settings and start again.";
     case StopKind::low_fitness:
-      return " In the machine's view the readings contradict each other: belts at the wrong "
+      return " By the machine's criterion the readings contradict each other. Probable cause: "
+             "belts at the wrong "
              "anchors, "
              "a slack belt at some place, an encoder that lost turns, or arms that are swapped "
              "make "
              "that. See that each belt goes to its own anchor (tl, tr, bl, br), and that all are "
              "taut.";
     case StopKind::centre_off:
-      return " The first place is not where the settings have it: settings of another frame, belts "
+      return " The first place is not where the settings put it. Possible causes: settings of "
+             "another frame, belts "
              "at "
-             "the wrong anchors, or belts that were not drawn in before they were let out make "
+             "the wrong anchors, or belts that were not retracted before they were extended. "
              "that. "
              "Retract all, extend all, tape the frame and state its size.";
     case StopKind::went_back:
-      return " The machine went back to \"Belts Extended\" without a word: somebody stopped it, "
+      return " The machine went back to \"Belts Extended\" without a message: it was stopped, "
              "its "
              "power failed for a moment, or it lost the connection. Start again.";
     case StopKind::other_error:
-      return " See what the machine says there, and start again.";
+      return " Read the machine's message there, and start again.";
     case StopKind::log_ends:
       return " Either the run was stopped there or the text was cut when it was copied: paste it "
              "once "
@@ -212,7 +215,8 @@ bool is_setting_refused(std::string_view line) {
 
 std::string words_of(const SettingsRefused& refused) {
   return fmt::format(
-      "the controller refused its settings ({}): what was typed in, or found, is not in force. Firmware "
+      "the controller refused its settings ({}), so those typed in or found are not in force. "
+      "Firmware "
       "before July 2025 takes lines such as $/Maslow_trX=, later firmware "
       "$/kinematics/MaslowKinematics/trX=. Look at the maslow.yaml that is on the machine, send the "
       "lines in its layout (export maslow4 writes them so once import maslow4 was given it as "
@@ -230,9 +234,9 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {
     text += fmt::format(
-        " {} places were read before: chaintrue diagnose weighs the causes by these.", count);
+        " {} places were read before: chaintrue diagnose can use these.", count);
   } else {
-    text += fmt::format(" {} were read before, and a fit takes {}.",
+    text += fmt::format(" {} were read before; a fit needs {}.",
                         count == 0   ? "No places"
                         : count == 1 ? "One place"
                                      : fmt::format("{} places", count),

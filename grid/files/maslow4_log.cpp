@@ -331,8 +331,8 @@ Maslow4Import parse_maslow4(const std::string& text,
   if (is_last && !log.list_has_end) {
     problems.warn(
         "",
-        "the log ends in the middle of a list: the readings before are taken; paste it once "
-        "more from its beginning to its end if it goes on");
+        "the log ends in the middle of a list: the readings before are used. If the list "
+        "continues, paste it again from its beginning to its end");
   }
   if (log.first_passed_over) {
     problems.warn(fmt::format("line {}", *log.first_passed_over),

@@ -96,7 +96,7 @@ void rebuild_from_singles(ScannedRun& run, Problems& problems) {
   if (rebuilt.empty()) return;
   problems.warn(
       line_words(run.first_line),
-      fmt::format("{} of the run's places {} made of single readings, since no list of the "
+      fmt::format("{} of the run's places {} taken from single readings, because no list in the "
                   "log has {}: waypoint{} {}",
                   rebuilt.size(),
                   rebuilt.size() == 1 ? "is" : "are",
@@ -154,8 +154,8 @@ void report_unreadable(const ScannedRun& run,
   if (run.list_is_short && !run.commanded.empty()) {
     problems.warn(
         line_words(run.points[within.first].line),
-        "the list has fewer readings than places were measured, so that nobody knows which "
-        "are lost: where the machine was sent is left out");
+        "the list has fewer readings than measured places, so it is unknown which are lost: the "
+        "commanded places are left out");
   }
 }
 
@@ -194,12 +194,12 @@ void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pr
     is_out[own.point] = true;
     left_out.push_back({problems.file(),
                         line_words(lines[own.point]),
-                        fmt::format("this reading is left out: its four lengths ({}) end nowhere "
-                                    "together, the best place is off by {:.0f} mm",
+                        fmt::format("this reading is left out: its four lengths ({}) do not meet, "
+                                    "the best place is off by {:.0f} mm",
                                     lengths_in_words(belts.points[own.point]),
                                     own.residual_mm)});
   }
-  warn_of(left_out, "further readings end nowhere and are left out", problems);
+  warn_of(left_out, "further readings that do not meet are left out", problems);
   erase_points(is_out, belts, lines);
 }
 
@@ -232,8 +232,7 @@ void part_frames(const model::BeltMachine& machine,
     run.fit.reset();
     problems.warn(
         line_words(other.first_line),
-        "from here on the readings are of another frame than those before: they are taken "
-        "as two runs");
+        "from here on the readings are from another frame: they are treated as two runs");
     parted.push_back(std::move(run));
     parted.push_back(std::move(other));
   }

@@ -63,8 +63,8 @@ void check_frame(const MeasuredBelts& session, const std::string& name) {
   if (!second) return;
   throw InputError({{name,
                      "",
-                     "readings of other anchors than those of the run before",
-                     "runs of one frame: anchors that stand elsewhere are another session"}});
+                     "readings of anchors other than the previous run's",
+                     "runs of one frame: moved anchors need a new session"}});
 }
 
 }  // namespace

@@ -47,16 +47,16 @@ void add_scale(const BeltMachine& machine,
                std::string_view why_unknown,
                Maslow4Settings& settings) {
   if (!found) {
-    settings.remarks.push_back(fmt::format("Maslow_Scale_X and Maslow_Scale_Y stay as they are: {}, so "
-                                           "nothing is known of the scale.",
+    settings.remarks.push_back(fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: {}, "
+                                           "so the scale is unknown.",
                                            why_unknown));
     return;
   }
   const double scale = scale_of(*found);
   if (is_in_force(machine, *found)) {
     settings.remarks.push_back(
-        fmt::format("Maslow_Scale_X and Maslow_Scale_Y stay as they are: the tape asks for {:.5f}, "
-                    "give or take {:.5f}, and that is in force.",
+        fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: the tape gives {:.5f} +- "
+                    "{:.5f}, which is in force.",
                     scale,
                     found->sigma));
     return;
@@ -82,7 +82,7 @@ void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& 
     add_line(settings, machine, *belt, 'Z', machine.anchors[*belt].z_mm + cause.parameters.front().value);
     return;
   }
-  settings.remarks.push_back(fmt::format("No number to paste takes this out: {}. {}.",
+  settings.remarks.push_back(fmt::format("No setting corrects this: {}. {}.",
                                          cause.cause.effect->cause,
                                          cause.cause.effect->remedy));
 }
@@ -110,10 +110,11 @@ Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
     for (const Cause& cause : found.causes) add_cause(cause, machine, settings);
   } else if (found.verdict == Verdict::named_set) {
     settings.remarks.emplace_back(
-        "Which of several causes acts is not decided; the anchors are those with the likeliest. "
-        "Decide it first: the diagnosis says what would.");
+        "Several causes are possible; the anchors are those with the likeliest. Decide first "
+        "which one acts: the diagnosis proposes measurements.");
   }
-  add_scale(machine, found.belts->scale, "no distance was taped, or none goes with the causes", settings);
+  add_scale(machine, found.belts->scale, "no distance was taped, or none fits with the "
+                                         "causes", settings);
   return settings;
 }
 

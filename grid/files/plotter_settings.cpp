@@ -62,8 +62,8 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
   const double bottom = std::max(-0.85 * w, -height_mm.value_or(w));
   machine.area = {-0.3 * w, 0.3 * w, -0.25 * w, bottom};
   problems.warn("",
-                fmt::format("the settings do not say where the paper hangs; assumed is a drawing "
-                            "area of {:.0f} x {:.0f} mm, its top {:.0f} mm below the pins: put "
+                fmt::format("the settings do not give the paper's position. Assumed: a drawing "
+                            "area of {:.0f} x {:.0f} mm, its top {:.0f} mm below the pins. Put "
                             "your own into /set/machine/area",
                             0.6 * w,
                             -0.25 * w - bottom,
@@ -72,8 +72,8 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
 
 void warn_of_gondola(const PlotterMachine& machine, Problems& problems) {
   problems.warn("",
-                fmt::format("the settings do not say what hangs on the cords; assumed are cords "
-                            "that both end at the pen and {} kg: put your own into "
+                fmt::format("the settings do not describe the gondola. Assumed: cords that both "
+                            "end at the pen, and {} kg. Put your own into "
                             "/set/machine/gondola",
                             machine.gondola.mass_kg));
 }
@@ -162,8 +162,8 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
   area.home_y = settings.find("MANUAL_Y_HOME_POS", kOnTheWall);
   if (is_assumed) {
     problems.warn("",
-                  fmt::format("the settings do not say all of X_MIN_POS, X_MAX_POS, Y_MIN_POS and "
-                              "Y_MAX_POS; assumed is the bed about its middle: {:g} to {:g} and {:g} to "
+                  fmt::format("the settings lack some of X_MIN_POS, X_MAX_POS, Y_MIN_POS and "
+                              "Y_MAX_POS. Assumed: the bed about its middle: {:g} to {:g} and {:g} to "
                               "{:g}",
                               area.left,
                               area.right,
@@ -313,8 +313,8 @@ model::BedPoint polargraph_home(SettingReader& settings,
   }
   constexpr double kUsualDownMm = 120.0;
   problems.warn("",
-                fmt::format("a boot log does not say where home is; assumed is the middle, {:g} mm below "
-                            "the motors: put your own into /set/home",
+                fmt::format("a boot log does not contain home. Assumed: the middle, {:g} mm below "
+                            "the motors. Put your own into /set/home",
                             kUsualDownMm));
   return {0.5 * width, kUsualDownMm};
 }
@@ -405,7 +405,8 @@ SetPlotter of_mural(const std::string& text, Problems& problems) {
   take_calibration(settings, set.machine, problems);
   settings.refuse_others();
   problems.warn("",
-                fmt::format("assumed is a mural as its firmware has it: {}{} mm between its pulleys",
+                fmt::format("assumed: a mural with its firmware's defaults: {}{} mm between its "
+                            "pulleys",
                             mass ? "" : fmt::format("{} kg, ", set.machine.gondola.mass_kg),
                             set.machine.gondola.spacing_mm));
   return set;
