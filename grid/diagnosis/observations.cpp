@@ -166,8 +166,8 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   }
   if (!noise) {
     return failure(Reason::no_noise,
-                   "the accuracy of the points is not stated, and too few were measured twice to "
-                   "show it. State it (\"noise\" in the grid file, or --noise-length-mm, "
+                   "the accuracy of the points is not given, and too few were measured twice to "
+                   "show it. Give it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
   // Orders of different sessions are unrelated.

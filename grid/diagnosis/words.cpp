@@ -128,7 +128,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
             d.noise_factor);
       }
       return fmt::format(
-          "The {} scatter {:.1f} times as much as stated, without a pattern: check the tape, the "
+          "The {} scatter {:.1f} times as much as you gave, without a pattern: check the tape, the "
           "{} and play in the sled.",
           name(d.observations),
           d.noise_factor,

@@ -86,7 +86,7 @@ class DistancesPart final : public FitPart {
   void note_noise(double factor, std::vector<std::string>& notes) const {
     if (factor <= kNoiseDisagreement) return;
     notes.push_back(
-        fmt::format("The distances scatter {:.1f} times as much as stated ({:g} mm for the tape, "
+        fmt::format("The distances scatter {:.1f} times as much as you gave ({:g} mm for the tape, "
                     "{:g} mm for a hole), so the results are that much less certain.",
                     factor,
                     set().tape.sigma_mm,

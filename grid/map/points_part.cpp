@@ -242,7 +242,7 @@ class PointsPart final : public FitPart {
     const MapNoise& noise = draft.map.noise;
     if (noise.source == NoiseSource::stated && noise.factor_found > kNoiseDisagreement) {
       draft.notes.push_back(
-          fmt::format("The readings scatter {:.1f} times as much as stated: check how the marks "
+          fmt::format("The readings scatter {:.1f} times as much as you gave: check how the marks "
                       "and the lengths were measured.",
                       noise.factor_found));
     }
