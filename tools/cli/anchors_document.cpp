@@ -47,7 +47,8 @@ void put_the_verdict(const FittedBelts& fitted,
   if (!fit.places.empty()) {
     page.figures.push_back({fmt::format("{:.2f} mm", fit.residual_sigma_mm), "one belt is off by"});
     page.advice.push_back(
-        {"Ask why what is left is left: chaintrue diagnose of the same belts.", Detail::page});
+        {"Find the cause of the remaining error: run chaintrue diagnose on the same "
+         "belts.", Detail::page});
   }
   page.tone = fit.bad.empty() && fit.bad_points.empty() ? Tone::good : Tone::caution;
   page.lights = {{fit.scale ? Tone::good : Tone::caution,
@@ -55,7 +56,7 @@ void put_the_verdict(const FittedBelts& fitted,
                   fit.scale ? "yes, by the tape" : "not without a tape"}};
   if (fit.scale) {
     page.figures.push_back({fmt::format("{:.5f} +- {:.5f}", fit.scale->factor, fit.scale->sigma),
-                            "scale: true over what belts say"});
+                            "scale: true length over the belts' length"});
   }
 }
 
@@ -76,7 +77,7 @@ report::Document anchors_document(const FittedBelts& fitted,
         frame_chart(findings_of(fit), "Anchors as fitted", &BeltPlacePicture::before_mm);
     chart.caption = kFrameCaption;
     document.sections.push_back(
-        {"The frame, and what its belts disagree about", {std::move(chart)}});
+        {"The frame, and the residuals of its belts", {std::move(chart)}});
   }
   document.sections.push_back(fitted_anchors_section(fit));
   document.sections.push_back(tests_section(fitted));

@@ -63,7 +63,7 @@ void say_what_else_acts(const BeltsFit& fit, Section& section) {
   }
   if (causes.empty()) return;
   say(section,
-      fmt::format("Counted in these anchors: {}. chaintrue diagnose says what to look at.",
+      fmt::format("Included in these anchors: {}. chaintrue diagnose shows what to inspect.",
                   grid::diagnosis::joined(causes, "and")));
 }
 
@@ -72,31 +72,33 @@ void say_what_acts(const BeltsFit& fit, Section& section) {
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
       say(section,
-          fmt::format("Anchors give by {:.2f} +- {:.2f} mm at the motors' pull, and these anchors go with that.",
+          fmt::format("Anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; these anchors "
+                      "allow for it.",
                       cause.parameters.at("give_mm"),
                       cause.sigma));
     }
     if (cause.effect != model::belts::belt_stretch.id) continue;
     say(section,
-        fmt::format("At the motors' pull belts are {} longer than they count, and these anchors go with that.",
+        fmt::format("At the motors' pull belts are {} longer than they count; these anchors allow "
+                    "for it.",
                     share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
   say_what_else_acts(fit, section);
   say(section,
-      "How sure each anchor is takes in what else may be wrong at its usual size, such as a belt "
-      "that counts from elsewhere.",
+      "The sigmas of the anchors allow for other causes at their usual size, such as a belt with "
+      "a wrong zero.",
       Detail::verbose);
 }
 
 void say_what_was_left_out(const BeltsFit& fit, Section& section) {
   if (fit.one_left_out.readings == 0) return;
   std::string text = fmt::format(
-      "Lower belts as the upper two predict them, at places left out one by one: {:.2f} mm rms, "
+      "Lower belts predicted by the upper two, at places left out one by one: {:.2f} mm rms, "
       "{:.2f} mm at worst",
       fit.one_left_out.rms_mm,
       fit.one_left_out.largest_mm);
   if (fit.half_left_out) {
-    text += fmt::format("; either half by the other: {:.2f} and {:.2f} mm",
+    text += fmt::format("; each half of the places by the other: {:.2f} and {:.2f} mm",
                         fit.half_left_out->rms_mm,
                         fit.half_left_out->largest_mm);
   }
@@ -116,7 +118,8 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
     // To within a twentieth of a turn: a bad reading is that by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     say(section,
-        fmt::format("Left out: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
+        fmt::format("Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all "
+                    "others{}.",
                     model::words(bad.belt),
                     number_of(fitted, bad.point),
                     std::abs(bad.residual_mm),
@@ -151,7 +154,7 @@ std::string what_tells_the_scale(const FittedBelts& fitted) {
 void say_the_scale(const FittedBelts& fitted, Section& section) {
   const BeltsFit& fit = fitted.fit;
   if (!fit.scale) {
-    say(section, "Scale: not known, for belts cannot tell it. " + what_tells_the_scale(fitted));
+    say(section, "Scale: not known, because belts do not show it. " + what_tells_the_scale(fitted));
     say(section,
         fmt::format(
             "Until then anchors and parts are as true as a turn of the encoder is {:g} mm of "
@@ -161,7 +164,7 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
     return;
   }
   say(section,
-      fmt::format("Scale: by the tape everything is {:.5f} +- {:.5f} times what the belts make it, "
+      fmt::format("Scale: by the tape everything is {:.5f} +- {:.5f} times the belts' lengths, "
                   "{:.1f} mm in a metre.",
                   fit.scale->factor,
                   fit.scale->sigma,
@@ -185,15 +188,16 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
                   holes.distances.size(),
                   about_mm(holes.left_out_rms_mm)));
   say(section,
-      fmt::format("Each distance comes back from all others to {:.2f} mm rms; tape and holes err "
-                  "{:.2g} times what you said of them.",
+      fmt::format("Each distance is predicted by all others to {:.2f} mm rms; tape and holes have "
+                  "{:.2g} times the error that you gave.",
                   holes.left_out_rms_mm,
                   holes.noise_factor),
       Detail::verbose);
   for (const auto& distance : holes.distances) {
     if (!distance.rejected) continue;
     say(section,
-        fmt::format("Left out: the distance {}, taped {:.1f} mm {} than all others make it; tape "
+        fmt::format("Left out: the distance {}, taped {:.1f} mm {} than predicted by all others; "
+                    "tape "
                     "it again.",
                     distance.words,
                     std::abs(distance.left_out_mm),
@@ -201,7 +205,7 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   }
   if (!holes.displacement) {
     return say(section,
-               "No bend of the tool's place over the sheet is left that the holes could show.");
+               "The holes show no further displacement of the tool over the sheet.");
   }
   double largest = 0.0;
   const auto& at = holes.displacement->at_mm;
@@ -209,8 +213,8 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
     largest = std::max(largest, std::hypot(at[i], at[i + 1]));
   say(section,
       fmt::format(
-          "The tool lies up to {:.1f} mm off where its upper two belts put it, changing over some "
-          "{:.0f} mm of the sheet: gcode compensate takes that out, no number to paste does.",
+          "The tool is up to {:.1f} mm from where its upper two belts put it, changing over some "
+          "{:.0f} mm of the sheet. gcode compensate corrects that; no setting does.",
           largest,
           holes.displacement->reach_mm));
 }
@@ -241,11 +245,11 @@ std::string not_to_paste(const BeltsFit& fit, const std::optional<grid::BeltsErr
 std::string headline_of(const BeltsFit& fit, const std::optional<grid::BeltsError>& error) {
   if (const std::string why = not_to_paste(fit, error); !why.empty()) return why;
   if (!error)
-    return fmt::format("These anchors are good to about {} mm.", about_mm(least_known_mm(fit)));
+    return fmt::format("These anchors are accurate to about {} mm.", about_mm(least_known_mm(fit)));
   return misses_sentence(error->today ? std::optional(error->today->rms_mm) : std::nullopt,
                          error->expected.rms_mm,
                          {"these anchors", "new anchors"}) +
-         (fit.scale ? "" : " The scale, which only a tape can tell, comes on top.");
+         (fit.scale ? "" : " The error of the scale, which only a tape shows, comes on top.");
 }
 
 std::vector<report::Figure> figures_of(const grid::BeltsError& error) {
@@ -269,23 +273,23 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<grid::B
   say_what_acts(fit, section);
   if (fit.places.empty()) return section;
   say(section,
-      fmt::format("{} places, {} readings: one belt's reading is off by {:.2f} mm (one sigma, from "
-                  "{} checks that are left over).",
+      fmt::format("{} places, {} readings: the error of one belt's reading is {:.2f} mm (one "
+                  "sigma, {} degrees of freedom).",
                   fit.places.size(),
                   readings,
                   fit.residual_sigma_mm,
                   fit.checks),
       Detail::verbose);
   say(section,
-      fmt::format("In the words of the machine (Find Anchors fit: rms) that is {:.2f} mm: it "
-                  "divides by all {} readings, though places and anchors have used up {} of them.",
+      fmt::format("By the machine's formula (Find Anchors fit: rms) that is {:.2f} mm: it divides "
+                  "by all {} readings, although places and anchors use {} degrees of freedom.",
                   fit.rms_mm,
                   readings,
                   readings - static_cast<std::size_t>(fit.checks)),
       Detail::verbose);
   if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
     say(section,
-        fmt::format("Its own message said rms {:.2f} mm and max {:.2f} mm.",
+        fmt::format("Its message gave rms {:.2f} mm and max {:.2f} mm.",
                     fitted.belts->firmware_fit->rms_mm,
                     fitted.belts->firmware_fit->max_mm),
         Detail::verbose);
@@ -374,7 +378,7 @@ Section taped_section(const grid::HolesWithBelts& holes) {
                           {.heading = "alone", .is_number = true, .has_sign = true, .width = 11},
                           {.heading = "sigma", .is_number = true, .width = 8},
                           {.gap = 1}},
-              .caption = "Alone: taped less what all others make of it. * left out.",
+              .caption = "Alone: taped minus predicted by all others. * left out.",
               .is_headed = true,
               .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {

@@ -236,7 +236,7 @@ std::string section_of(const View& view, const Atlas& atlas, bool of_settings) {
   }
   if (figures.empty()) return "";
   return fmt::format("<h2>{}</h2>\n<div class=\"pictures\">\n{}</div>\n",
-                     of_settings ? "Settings that are not true" : "Causes in the machine",
+                     of_settings ? "Wrong settings" : "Causes in the machine",
                      figures);
 }
 
@@ -255,8 +255,8 @@ std::string atlas_page(const Atlas& atlas, const std::string& machine) {
              escaped(machine),
              kStyle,
              atlas.calibrates_first
-                 ? "<p>With a cause in the machine the frame is calibrated first: what is drawn is "
-                   "what the anchors that it found leave.</p>\n"
+                 ? "<p>With a cause in the machine the frame is calibrated first: the drawing "
+                   "shows the remaining error with the anchors found.</p>\n"
                  : "") +
          section_of(view, atlas, true) + section_of(view, atlas, false) +
          fmt::format("<script>{}</script>\n</body></html>\n", kScript);

@@ -89,9 +89,10 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
                                 const std::optional<grid::BeltsError>& error,
                                 double wish_mm) {
   const std::string wish = fmt::format("You wish for {:g} mm: ", wish_mm);
-  if (!error) return wish + "these readings cannot say whether that is reached.";
+  if (!error) return wish + "these readings do not show whether that is reached.";
   if (error->expected.rms_mm <= wish_mm)
-    return wish + (found.fit.scale ? "reached." : "reached. How large everything comes out only a taped distance can say.");
+    return wish + (found.fit.scale ? "reached." : "reached. Only a taped distance shows the "
+                                                  "scale.");
   const auto compensated = expected_when_compensated(found);
   if (compensated && *compensated <= wish_mm)
     return wish +
@@ -103,7 +104,7 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
   const double noise_mm = found.fit.residual_sigma_mm;
   const auto once = expected_of_places(measured_again(belts, found.fit, 1), cut, noise_mm);
   if (!once || 2 * places > kMostTried)
-    return wish + "not reached. How many more places would reach it was not worked out: there are "
+    return wish + "not reached. The number of places needed was not computed, because there are "
                   "too many already.";
   std::size_t tried = 0;
   for (std::size_t times = 2; times <= kMostTimes && times * places <= kMostTried;
@@ -118,8 +119,8 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
   }
   return wish +
          fmt::format(
-             "not reached, and not by {} places measured as well as these. Look for what else is "
-             "wrong: chaintrue diagnose of the same belts.",
+             "not reached, and not by {} places measured as well as these. Look for other causes: "
+             "run chaintrue diagnose on the same belts.",
              tried);
 }
 

@@ -94,7 +94,7 @@ report::Chart chart_of(const Diagnosis& found,
   chart.caption = fmt::format(
       "Where this alone puts the tool, from where it was sent: {:.1f} mm at most. Computed "
       "for "
-      "the size that was found, without new settings.",
+      "the size found, without new settings.",
       largest_mm);
   return chart;
 }

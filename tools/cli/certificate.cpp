@@ -40,7 +40,7 @@ report::Section measured_section(const grid::CompensationMap& map) {
         fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
                     used.left_out_good.rms_mm,
                     used.left_out_good.maximum_mm));
-    row("readings taken as good to",
+    row("error of the readings",
         fmt::format("{:g} mm of tape, {:g} mm of hole; found {:.1f} times as much",
                     used.tape_sigma_mm,
                     contents.noise.position_mm,
@@ -51,12 +51,12 @@ report::Section measured_section(const grid::CompensationMap& map) {
         fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
                     contents.accuracy.leave_one_out.tool.rms_mm,
                     contents.accuracy.leave_one_out.tool.maximum_mm));
-    row("readings taken as good to",
+    row("error of the readings",
         fmt::format("{:.2f} mm in a length, {:.2f} mm in a position ({})",
                     contents.noise.length_mm,
                     contents.noise.position_mm,
                     contents.noise.source == grid::NoiseSource::stated
-                        ? std::string("as you said")
+                        ? std::string("as given")
                         : fmt::format("from {}", name(contents.noise.source))));
   }
   report::Section section{"What was measured", {}};
@@ -70,7 +70,7 @@ report::Section named_section(const grid::CompensationMap& map) {
   report::Section section{"The machine's settings", {}};
   if (rows.empty()) {
     section.blocks.push_back(
-        report::Paragraph{"None: the map joins the readings themselves, without a machine."});
+        report::Paragraph{"None: the map interpolates the readings, without a machine."});
   } else {
     section.blocks.push_back(settings_table(rows));
   }
@@ -85,7 +85,7 @@ report::Section remaining_section(const MapContents& contents) {
   }
   if (contents.notes.size() > kMostNotes) {
     section.blocks.push_back(report::Paragraph{fmt::format(
-        "{} more remarks stand in the full report.", contents.notes.size() - kMostNotes)});
+        "{} more remarks are in the full report.", contents.notes.size() - kMostNotes)});
   }
   section.blocks.push_back(report::Paragraph{
       "After the chains were taken off, or a month of work, measure three to five points and ask "
@@ -102,7 +102,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
   page.title = "Certificate: " + (contents.name.empty() ? std::string("map") : contents.name);
   page.subtitle = map.machine() != nullptr ? map.machine()->name : "no machine model";
   page.verdict = {fmt::format(
-      "Expect the tool within {:.2f} mm of where it should be, 95 times in 100, over the measured "
+      "The tool is within {:.2f} mm of where it should be, 95 times in 100, over the measured "
       "part of the bed.",
       k95PerCent * expected.rms_mm)};
   page.tone = tone_of(contents);
@@ -111,7 +111,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
       {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the measured part, rms"},
       {fmt::format("0 to {:.2f} mm", k95PerCent * expected.rms_mm), "95 % interval"},
       {fmt::format("{:.2f} mm", expected.maximum_mm),
-       fmt::format("at worst, 95 times in 100; the map knows least near ({:.0f}, {:.0f})",
+       fmt::format("at worst, 95 times in 100; largest near ({:.0f}, {:.0f})",
                    contents.accuracy.expected_worst_at.x_mm,
                    contents.accuracy.expected_worst_at.y_mm)}};
   page.not_proved = {

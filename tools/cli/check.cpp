@@ -80,8 +80,8 @@ void say_other_settings(const grid::CompensationMap& map, const grid::Measured& 
                                                  files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
     fmt::print(stderr,
-               "In {} the machine has other settings than the map ({}): these are used. Say with "
-               "--settings what the controller held.\n",
+               "In {} the machine's settings differ from the map's ({}): these are used. State "
+               "the controller's settings with --settings.\n",
                file.name.empty() ? "the new points" : file.name,
                files::in_words(changes));
   }
@@ -118,8 +118,8 @@ CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
   const grid::files::FittedAnchors loaded = load_anchors(anchors);
   require_kind(belts,
                {FileKind::belts},
-               "anchors are checked by what the machine has measured since; holes and belts "
-               "together are fitted (chaintrue fit BELTS --with HOLES)");
+               "anchors are checked by new belt lengths only; fit holes and belts together "
+               "(chaintrue fit BELTS --with HOLES)");
   const grid::files::ReadBelts read = load_belts(belts, "a check");
   return grid::check_anchors(loaded.fit, read.belts);
 }

@@ -21,11 +21,11 @@ report::Document document_of(const grid::Check& check, Table table) {
   report::Document document;
   document.title = "Check";
   document.verdict = {check.sentence};
-  document.remarks = {"What the readings cannot tell", {Paragraph{check.not_separable}}};
+  document.remarks = {"What the readings do not show", {Paragraph{check.not_separable}}};
   document.sections = {
       {"How sure",
-       {Paragraph{fmt::format("Still valid {:.1f} %, valid after re-zeroing {:.1f} %, to be "
-                              "measured again {:.1f} %.",
+       {Paragraph{fmt::format("Still valid {:.1f} %, valid after re-zeroing {:.1f} %, no longer "
+                              "valid {:.1f} %.",
                               100.0 * check.probability[0],
                               100.0 * check.probability[1],
                               100.0 * check.probability[2])}},
@@ -48,7 +48,7 @@ report::Document map_check_document(const grid::Check& check) {
 }
 
 report::Document anchors_check_document(const grid::Check& check) {
-  Table table = table_of("One belt is off by", false);
+  Table table = table_of("Error of one belt", false);
   for (const grid::CheckUnit& place : check.units) {
     table.rows.push_back(
         {{place.name, place.rms_mm(check.residuals), place.sigma_mm(check.residuals)}});

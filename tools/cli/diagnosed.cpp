@@ -34,7 +34,7 @@ void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) 
       })) {
     problems.add("--assume-order",
                  command.assume_order,
-                 "to be left out, since these points say in which order they were visited",
+                 "to be left out, because these points have the order of their visits",
                  grid::ProblemKind::contradiction);
     problems.throw_if_any();
   }
@@ -89,8 +89,8 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   for (const auto* own : measured.grids()) {
     if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
     found.notes.push_back(
-        fmt::format("You said that the readings are good to {} mm, finer than the simulation can "
-                    "compute over a bed; {} mm was used instead.",
+        fmt::format("Your error of the readings, {} mm, is below the accuracy of the "
+                    "simulation over a bed; {} mm was used instead.",
                     own->noise->length_mm,
                     kFinestMm));
   }

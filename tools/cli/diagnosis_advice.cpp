@@ -49,8 +49,8 @@ std::string noise_in_words(const Diagnosis& found) {
         found.stated_tape->hole_sigma_mm,
         found.stated_tape->dof));
   }
-  if (stated.empty()) return "You did not say how good the readings are; ";
-  return fmt::format("You said: readings good to {}", fmt::join(stated, ""));
+  if (stated.empty()) return "The error of the readings is not given; ";
+  return fmt::format("Error of the readings, as you gave it: {}", fmt::join(stated, ""));
 }
 
 std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outlier& bad) {
@@ -132,11 +132,11 @@ Section remarks_section(const Diagnosis& found) {
   if (found.belts) return section;
   section.blocks.emplace_back(
       Paragraph{noise_in_words(found) +
-                    fmt::format("what was found is {:.2f} times that.", found.noise_factor),
+                    fmt::format("the noise found is {:.2f} times that.", found.noise_factor),
                 Detail::page});
   for (const auto& correction : found.data_corrections) {
     section.blocks.emplace_back(
-        Paragraph{fmt::format("Taken out of the data, not put into the machine: {}.",
+        Paragraph{fmt::format("Corrected in the data, not in the machine: {}.",
                               cause_title(correction)),
                   Detail::page});
   }

@@ -37,7 +37,8 @@ Chart probability_chart(const Diagnosis& found) {
   Chart chart{.specification = "probability_bars",
               .title = "How probable each explanation is",
               .caption =
-                  "Each for itself: causes can act together, so these need not add up to 100 %. "
+                  "Each probability stands alone: causes can act together, so these need not add "
+                  "up to 100 %. "
                   "Below 0.2 % is left out. Blue: what the verdict names."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
   for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {

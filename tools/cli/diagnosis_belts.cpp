@@ -20,7 +20,7 @@ Section frame_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
   Chart before = frame_chart(belts, "Anchors alone", &BeltPlacePicture::before_mm);
   before.caption = kFrameCaption;
-  Section section{"The frame, and what its belts disagree about", {}};
+  Section section{"The frame, and the residuals of its belts", {}};
   if (found.causes.empty()) {
     section.blocks.emplace_back(std::move(before));
     return section;
@@ -28,7 +28,7 @@ Section frame_section(const Diagnosis& found) {
   Chart after = frame_chart(belts,
                             found.causes.size() > 1 ? "With the causes" : "With the cause",
                             &BeltPlacePicture::after_mm);
-  after.caption = "The same scale. Strokes that point all ways are noise.";
+  after.caption = "The same scale. Strokes in random directions are noise.";
   section.blocks.emplace_back(std::move(before));
   section.blocks.emplace_back(std::move(after));
   return section;
@@ -59,7 +59,7 @@ Section belts_improvement_section(const Diagnosis& found) {
   const auto row = [&table](const char* what, double before, double after) {
     table.rows.push_back({{what, before, after}});
   };
-  row("one belt's reading is off by", belts.spread_before_mm, belts.residual_sigma_mm);
+  row("error of one belt's reading", belts.spread_before_mm, belts.residual_sigma_mm);
   row("rms over all readings", belts.rms_before_mm, belts.rms_mm);
   if (belts.prediction && belts.prediction_before) {
     row("lower belts predicted at places left out",
@@ -71,9 +71,9 @@ Section belts_improvement_section(const Diagnosis& found) {
       "The tool's error is against the causes named, the frame's place and turn left free. What the readings leave "
       "uncertain counts in both columns";
   text += belts.tool.scale_mm_per_m
-              ? fmt::format("; what the tape leaves of the scale is {:.2f} mm in a metre.",
+              ? fmt::format("; with the tape the scale is uncertain by {:.2f} mm per metre.",
                             *belts.tool.scale_mm_per_m)
-              : ". It is in the belts' own millimetres: how long these are no belt knows.";
+              : ". It is in the belts' own millimetres, whose true length belts do not show.";
   return {"What naming it gains", {std::move(table), report::Paragraph{std::move(text)}}};
 }
 
@@ -86,7 +86,7 @@ report::Light scale_light(const Diagnosis& found) {
 
 std::vector<report::Figure> figures_of_belts(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
-  return {{fmt::format("{:.2f} mm", belts.spread_before_mm), "one belt is off by, anchors alone"},
+  return {{fmt::format("{:.2f} mm", belts.spread_before_mm), "error of one belt, anchors alone"},
           {fmt::format("{:.2f} mm", belts.residual_sigma_mm), "with what is named"}};
 }
 

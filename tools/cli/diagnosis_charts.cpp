@@ -167,8 +167,8 @@ std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
        "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
        "Ringed: bad points.",
        "After: with what was named, same scale",
-       "Arrows no longer than their grey ellipse, in all directions, are noise; neighbours that "
-       "point the same way are an error not explained."});
+       "Arrows within their grey ellipse, in random directions, are noise; neighbours that point "
+       "the same way are an unexplained error."});
 }
 
 std::vector<Chart> strip_charts(const Diagnosis& found) {

@@ -81,7 +81,7 @@ Table removals_table(const Diagnosis& found) {
 
 Section stability_section(const Diagnosis& found) {
   Section section{.title =
-                      fmt::format("Does the name hang on a few {}?", name(found.observations))};
+                      fmt::format("Does the name depend on a few {}?", name(found.observations))};
   section.blocks.emplace_back(removals_table(found));
   const auto& removals = found.stability->removals;
   section.is_folded = std::all_of(

@@ -47,7 +47,7 @@ constexpr VerdictLights kVerdicts[] = {
     {Verdict::noise_larger_than_stated,
      Tone::caution,
      Tone::caution,
-     "readings, worse than you said",
+     "readings, worse than you gave",
      Tone::caution,
      "no cause"},
     {Verdict::outliers, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
@@ -75,7 +75,7 @@ Light data_light(const Diagnosis& found) {
   if (found.verdict == Verdict::named_set) {
     return {Tone::caution,
             "Enough data?",
-            fmt::format("not to tell {} causes apart", found.causes.size())};
+            fmt::format("not to distinguish {} causes", found.causes.size())};
   }
   if (!found.not_testable.empty()) {
     return {Tone::caution,

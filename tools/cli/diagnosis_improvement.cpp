@@ -134,7 +134,7 @@ Section improvement_section(const Diagnosis& found) {
 Section transfer_section(const Diagnosis& found) {
   const auto& other = *found.transferred;
   Table table = error_table(transfer_rows(found), other.noise_floor_mm, "points");
-  table.caption = "Not fitted to these points, except for the place of a sheet laid by hand.";
+  table.caption = "Not fitted to these points, except for the placement of a hand-laid sheet.";
   return {fmt::format(
               "Error of the tool on \"{}\", {} points not used here, mm", other.to, other.points),
           {std::move(table)}};

@@ -80,8 +80,8 @@ report::Chart law_chart(const Law& law, bool is_likeliest) {
       .caption = fmt::format("{}: {}. {}",
                              capitalised(in_words(law)),
                              grid::diagnosis::percent(law.probability),
-                             is_likeliest ? "The dots are what the readings leave once all else that "
-                                            "is known of is taken out; the right curve goes through them."
+                             is_likeliest ? "The dots are the readings minus everything else that "
+                                            "is known; the right curve goes through them."
                                           : "The same readings, if it were this."),
       .x_title = axis_title(law),
       .first_label = "readings and curve",
@@ -118,7 +118,8 @@ std::vector<report::ChartRow> law_rest_charts(const Diagnosis& found) {
       bed_of(found),
       before,
       after,
-      {found.causes.empty() ? "Without it: the machine calibrated" : "Without it: what the causes leave",
+      {found.causes.empty() ? "Without it: the machine calibrated" :
+          "Without it: the residual with the causes",
        "From where the tool should be to where it was. Grey: one sigma of the noise at that mark.",
        "With it, same scale",
        "Neighbours that still point the same way are an error that it does not explain either."});

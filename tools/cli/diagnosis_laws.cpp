@@ -20,7 +20,7 @@ using report::Item;
 std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
   std::vector<Item> details;
   if (law.probability < grid::diagnosis::kLawLikely) return details;
-  details.push_back({fmt::format("on average it {}: {} of what the {} leave",
+  details.push_back({fmt::format("on average it {}: {} of the residual of the {}",
                                  average_in_words(law, found.observations),
                                  grid::diagnosis::percent(law.share),
                                  found.belts ? "anchors" : "settings")});
@@ -56,7 +56,7 @@ report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
         fmt::format("{}: {}", capitalised(in_words(law)), grid::diagnosis::percent(law.probability))});
     item.items = details_of(law, found);
   }
-  report::Section section{"What the rest looks like", {std::move(list)}};
+  report::Section section{"What the rest may depend on", {std::move(list)}};
   if (!laws.front().points.empty()) {
     section.blocks.emplace_back(law_charts(found));
     if (!found.points.empty())
@@ -64,10 +64,10 @@ report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
   }
   const bool is_claimed = laws.front().probability >= grid::diagnosis::kLawClaimed;
   section.blocks.emplace_back(report::Paragraph{
-      is_claimed && found.belts ? "No listed cause makes this."
-      : is_claimed ? "No listed cause makes this. --law writes it as a cause of your own, to be named, "
+      is_claimed && found.belts ? "No listed cause explains this."
+      : is_claimed ? "No listed cause explains this. --law writes it as a cause of your own, to be named, "
                    "edited and given back with --effects."
-                 : fmt::format("These {} cannot tell which of these it is, if it is any.",
+                 : fmt::format("These {} do not show which of these it is, if any.",
                                name(found.observations))});
   return section;
 }
@@ -77,7 +77,8 @@ report::Section declared_section(const grid::diagnosis::Diagnosis& found) {
   report::Table table{{{.width = 34}, {}, {.gap = 2}}, {}, ""};
   for (const auto& [cause, says, probability] : found.declared) {
     const char* words = says == Says::confirmed ? "confirmed: it acts here"
-                        : says == Says::denied  ? "denied: as it stands in the file it would have shown"
+                        : says == Says::denied  ? "denied: with the values in the file it would "
+                                                  "have shown"
                         : says == Says::open    ? "left open: measure more points"
                                                 : "not testable with these readings";
     table.rows.push_back({{cause_title(cause),

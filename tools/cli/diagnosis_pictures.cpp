@@ -21,8 +21,8 @@ Section arrows_section(const Diagnosis& found) {
 Section signature_section(const Diagnosis& found) {
   Section section{"Why this cause", {}};
   section.blocks.emplace_back(Paragraph{
-      "What was measured, next to what the cause would do, once the settings have taken up what "
-      "they can. The cause is right if both pictures agree and only noise is left."});
+      "What was measured, next to the effect of the cause, both after refitting the settings. The "
+      "cause is right if both pictures agree and only noise remains."});
   for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
   return section;

@@ -141,7 +141,7 @@ report::ChartRow angle_charts(const Diagnosis& found) {
         found,
         {.title = fmt::format("Against the {} chain's angle", chain_name(chain)),
          .caption = chain == Side::left
-                        ? "A bend at some angle is a chain that touches something below it."
+                        ? "A bend at some angle is a chain that touches something below that angle."
                         : "",
          .x_title = "degrees below the horizontal at the sprocket",
          .x =

@@ -34,7 +34,7 @@ std::string what_words(const BudgetLine& line) {
     case BudgetLine::What::cause:
       return cause_title(*line.cause);
     case BudgetLine::What::unexplained:
-      return "a pattern that no listed cause makes";
+      return "a pattern that no listed cause explains";
     case BudgetLine::What::noise:
       return "left over in these readings";
     case BudgetLine::What::inseparable:
@@ -60,7 +60,7 @@ std::string changes_words(const BudgetLine& line) {
 std::string budget_words(const Diagnosis& found) {
   const bool of_distances = is_of_distances(found);
   const std::string today =
-      found.tool_today ? fmt::format("Over the measured part it is {} mm off. ",
+      found.tool_today ? fmt::format("Over the measured part the error is {} mm. ",
                                      about_mm(found.tool_today->rms_mm))
                        : "";
   return fmt::format(
@@ -70,7 +70,7 @@ std::string budget_words(const Diagnosis& found) {
       name(found.observations),
       of_distances ? "distances erred by" : "tool erred by",
       found.budget->uncalibrated_mm,
-      of_distances ? "" : " The part of 100 mm: how far it comes out wrong in the worst corner.");
+      of_distances ? "" : " A part of 100 mm: its error in the worst corner.");
 }
 
 }  // namespace

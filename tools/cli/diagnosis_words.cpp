@@ -27,7 +27,7 @@ struct Words {
 constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
                                  {"unknown", "an unknown pattern"},
                                  {"law", "a law that no listed cause has"},
-                                 {"noise", "readings worse than you said"},
+                                 {"noise", "readings worse than you gave"},
                                  {"bad_points", "bad points alone"}};
 
 /// A reading covers this many of the file's quantity, in this unit.
@@ -177,12 +177,12 @@ bool is_surprising(const grid::diagnosis::LeftOver& left_over) {
 std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   if (!is_surprising(left_over)) {
     return fmt::format(
-        "What is left over looks like noise: noise alone leaves as much in {} of cases.",
+        "The residual looks like noise: noise alone gives as much in {} of cases.",
         share_percent(left_over.p_value));
   }
   std::string text = fmt::format(
-      "More is left over than noise explains: {:.1f} times the noise, and noise alone leaves as "
-      "much in {} of cases.",
+      "The residual exceeds noise: it is {:.1f} times the noise, and noise alone gives as much in "
+      "{} of cases.",
       left_over.signal_to_noise,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {

@@ -159,8 +159,8 @@ std::string draw_effect(const model::Machine& machine, const EffectPicture& pict
          text_at(kMargin, 22.0, title) +
          text_at(kMargin,
                  42.0,
-                 "Where the tool goes, from where it was sent: with the machine file as it is "
-                 "(orange), once motors and zeros are calibrated (blue)") +
+                 "The tool's error: with the machine file as it is (orange), and after "
+                 "calibrating motors and zeros (blue)") +
          body + "</svg>\n";
 }
 

@@ -192,7 +192,7 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
                nearest);
   }
   fmt::print(
-      "  usually it is {}; {:.0f} % of what it does is left by the calibration of {} points\n",
+      "  usually it is {}; {:.0f} % of its effect remains after calibration with {} points\n",
       short_number(size.nominal),
       100.0 * picture.strengths.front().strength.share_left,
       picture.strengths.front().columns * picture.strengths.front().rows);
@@ -282,7 +282,7 @@ std::optional<std::string> unreachable(const model::Machine& machine,
             "{:.0f}) mm",
             visit.position.x_mm,
             visit.position.y_mm,
-            reading ? "the chains do not tell its place" : reading.error().sentence(),
+            reading ? "the chains do not determine its place" : reading.error().sentence(),
             machine.motors.left.x_mm,
             machine.motors.left.y_mm,
             machine.motors.right.x_mm,
@@ -321,7 +321,7 @@ int show_picture(const Effect& effect,
       "\nOn \"{}\" with {}{}", machine.name, effect.id, side_name.empty() ? "" : " " + side_name);
   for (const auto& [key, value] : picture.applied.parameters)
     fmt::print(", {} = {}", key, short_number(value));
-  fmt::print("\nthe tool misses by so many mm (marks visited row by row):\n");
+  fmt::print("\nerror of the tool in mm (marks visited row by row):\n");
   print_bed(picture, &synthetic::ShiftedMark::as_stated_mm);
   fmt::print("and, once motors and zeros are calibrated on these marks, still by\n");
   print_bed(picture, &synthetic::ShiftedMark::calibrated_mm);

@@ -89,12 +89,13 @@ int write_atlas(const std::string& machine,
   end_progress();
   write_output(output, atlas_page(named.atlas, named.machine));
   fmt::print(stderr,
-             "{}: {} of what may be wrong; find the one that looks like your sheet\n",
+             "{}: {} of possible causes; find the one that looks like your sheet\n",
              output,
              named.atlas.pictures.size() == 1 ? "a picture"
                                               : fmt::format("{} pictures", named.atlas.pictures.size()));
   for (const std::string& missing : named.atlas.not_drawn)
-    fmt::print(stderr, "No picture of {}: this machine does not bear it at its usual size.\n", missing);
+    fmt::print(stderr, "No picture of {}: at its usual size this machine cannot work with "
+                       "it.\n", missing);
   return kDone;
 }
 

@@ -94,7 +94,7 @@ std::string words_of(const grid::Lacking& lacking, const model::Machine& machine
         lacking.costs_mm);
   }
   const model::effects::Effect* effect = model::effects::find_effect(machine, lacking.what);
-  return fmt::format("No firmware has a number for this: {}. It costs {:.2f} mm of that{}.\n",
+  return fmt::format("No firmware has a setting for this: {}. It causes {:.2f} mm of that{}.\n",
                      effect != nullptr ? effect->cause : std::string_view(lacking.what),
                      lacking.costs_mm,
                      effect != nullptr ? fmt::format("; {}", effect->remedy) : "");
@@ -126,7 +126,7 @@ std::string today_in_words(const grid::CompensationMap& map, const grid::Setting
       today.rms_mm,
       today.maximum_mm,
       has_placed_sheet(map.contents())
-          ? fmt::format(" ({:.2f} and {:.2f} mm, had the sheet lain where it should)",
+          ? fmt::format(" ({:.2f} and {:.2f} mm with the sheet in its right place)",
                         typed.as_it_is.rms_mm,
                         typed.as_it_is.maximum_mm)
           : "");
@@ -260,8 +260,8 @@ bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects,
   if (weak.empty()) return false;
   fmt::print(
       stderr,
-      "{}: this machine rests on {}; to type numbers in, a cause must be at least {} sure. Measure "
-      "what the diagnosis asks for next and diagnose again; --force goes on all the same.\n",
+      "{}: this machine rests on {}; to type numbers in, a cause must be at least {} certain. "
+      "Measure what the diagnosis proposes next and diagnose again; --force continues anyway.\n",
       name,
       grid::diagnosis::joined(weak, "and"),
       grid::diagnosis::percent(grid::diagnosis::kSureOfCause));
@@ -343,7 +343,7 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
           {{file.name,
             "/observations",
             "a diagnosis of four belts",
-            "one of a machine on chains; of belts export maslow4 has the lines"}});
+            "one of a machine on chains; for belts use export maslow4"}});
     }
     std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
     taken.insert(taken.end(), found.data_corrections.begin(), found.data_corrections.end());
@@ -394,7 +394,7 @@ std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file,
     const std::string why = not_to_paste(
         found.fit, grid::error_of_belts(found.fit, found.holes ? &*found.holes : nullptr));
     if (forced || why.empty()) return files::write_maslow4_settings(found.fit);
-    fmt::print(stderr, "{} --force goes on all the same.\n", why);
+    fmt::print(stderr, "{} --force continues anyway.\n", why);
     return std::nullopt;
   }
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
@@ -404,7 +404,7 @@ std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file,
         {{file.name,
           "/observations",
           "a diagnosis of a machine on chains",
-          "one of four belts; of chains export groundcontrol has the numbers"}});
+          "one of four belts; for chains use export groundcontrol"}});
   }
   return files::write_maslow4_settings(found);
 }

@@ -53,7 +53,7 @@ void read_belts_file(const InputFile& file,
 void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& all) {
   require_kind(file,
                {FileKind::belts, FileKind::holes, FileKind::belt_holes},
-               "with four belts nothing else was measured of one machine");
+               "only one file of belts is measured on one machine");
   files::ReadHoles read = files::parse_holes(file.text, file.name, holes_options(tape));
   print_warnings(read.warnings);
   if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)

@@ -69,7 +69,7 @@ std::string sentence_of_settings(const DrawingFit& fit) {
                          own.sigma,
                          plotter_setting_words(k).unit);
   }
-  if (named.empty()) return "No setting is off by more than chance would make it.";
+  if (named.empty()) return "No setting is off by more than chance.";
   return fmt::format("Off by more than chance: {}.", named);
 }
 
@@ -119,7 +119,7 @@ report::Document drawing_document(const TestDrawing& drawing, const DrawingFit& 
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     if (!fit.measures[i].rejected) continue;
     document.remarks.blocks.emplace_back(report::Paragraph{
-        fmt::format("{} was left out: {:.1f} mm was read, and the rest says {:.1f} mm. Measure it "
+        fmt::format("{} was left out: {:.1f} mm was read, but the rest gives {:.1f} mm. Measure it "
                     "again.",
                     grid::words_of(drawing, i),
                     fit.measures[i].measured_mm,

@@ -87,7 +87,7 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
       {{"command line",
         "--every-mm",
         fmt::format("{}", options.every_mm),
-        fmt::format("at least {:.2g} mm: {:.1f} m of path would make {:.1e} rows, about {:.0f} GB",
+        fmt::format("at least {:.2g} mm: {:.1f} m of path would give {:.1e} rows, about {:.0f} GB",
                     survey->path_mm / kMostRows,
                     survey->path_mm / 1000.0,
                     rows,

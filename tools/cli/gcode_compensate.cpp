@@ -65,7 +65,7 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
   return fmt::format(
       "The file is safe to run: on a simulated {} controller the tool stays within {:.3f} mm of "
       "the path "
-      "(tolerance {:g} mm), at the intended feeds, with every word at its place.",
+      "(tolerance {:g} mm), at the intended feeds, with every word in its place.",
       controller,
       proof.largest_mm,
       options.tolerance_mm);
@@ -115,7 +115,8 @@ void say_what_it_is_for(const GcodeMachine& machine, const GcodeOptions& options
   const model::BedPoint home = options.home_mm();
   if (home.x_mm == 0.0 && home.y_mm == 0.0) {
     fmt::print(stderr,
-               "It is for home at 0, 0. If you have moved home (Define Home), say where it is with --home "
+               "It is for home at 0, 0. If you have moved home (Define Home), give its place with "
+               "--home "
                "X,Y.\n");
   } else {
     fmt::print(stderr,
@@ -261,7 +262,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   if (!holds) {
     fmt::print(
         stderr,
-        "{}: run on a simulated {} controller, the compensated program does not hold {} mm: {}\n"
+        "{}: run on a simulated {} controller, the compensated program is not within {} mm: {}\n"
         "the program is not written; try another --tolerance-mm, or --no-verify for a look "
         "at that line\n",
         grid::files::name_in_messages(options.program),

@@ -42,7 +42,7 @@ std::string in_words(const PromisedError& error) {
   std::string words;
   if (const auto measured = error.measured_mm()) {
     const ErrorAlong& along = error.map->measured;
-    words += fmt::format("Expect cuts within about {} mm ({} at worst; the map knows least of line {}).\n",
+    words += fmt::format("Expect cuts within about {} mm ({} at worst, in line {}).\n",
                          about_mm(*measured),
                          about_mm(along.largest_mm + error.path_mm),
                          along.weakest_line);
@@ -50,8 +50,8 @@ std::string in_words(const PromisedError& error) {
   if (const auto outside = error.outside_mm()) {
     const ErrorAlong& along = error.map->outside;
     words += fmt::format(
-        "{:.1f} m of cuts lie outside what was measured: expect those within about {} mm ({} at "
-        "worst; the map knows least of line {}).\n",
+        "{:.1f} m of cuts lie outside the measured part: expect those within about {} mm ({} at "
+        "worst, in line {}).\n",
         along.length_mm / 1000.0,
         about_mm(*outside),
         about_mm(along.largest_mm + error.path_mm),
@@ -59,8 +59,8 @@ std::string in_words(const PromisedError& error) {
   }
   if (error.is_without_scale && !words.empty()) {
     words +=
-        "That is in the belts' own millimetres. What these are too long or too short by comes on top, "
-        "in proportion to the part: 1 mm in a metre for each tenth of a per cent.\n";
+        "That is in the belts' own millimetres. Their error of scale comes on top, in proportion "
+        "to the part: 1 mm in a metre for each tenth of a per cent.\n";
   }
   return words;
 }

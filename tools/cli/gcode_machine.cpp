@@ -182,8 +182,8 @@ GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTa
     throw InputError({{"--controller",
                        "",
                        options.controller,
-                       fmt::format("\"{}\", or to be left out: the plotter's file says what its "
-                                   "controller is",
+                       fmt::format("\"{}\", or to be left out: the plotter's file names its "
+                                   "controller",
                                    firmware->name)}});
   }
   return {
@@ -208,8 +208,8 @@ model::Machine believed_machine(const GcodeOptions& options, const grid::Compens
   throw InputError({{options.map,
                      "",
                      "",
-                     fmt::format("a map that knows its machine; this one does not, so say with {} "
-                                 "what the controller believes",
+                     fmt::format("a map with a machine; this one has none, so give the "
+                                 "controller's settings with {}",
                                  options.machine_option)}});
 }
 
@@ -217,7 +217,7 @@ model::Machine believed_machine(const GcodeOptions& options, const grid::Compens
 void say_other_controller(const grid::CompensationMap& map, model::ControllerKind kind) {
   if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
   fmt::print(stderr,
-             "The map was measured with the controller {}; --controller {} takes its place.\n",
+             "The map was measured with the controller {}; --controller {} replaces it.\n",
              name_of(map.machine()->controller.kind),
              name_of(kind));
 }
@@ -271,8 +271,9 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
     taken_as_true.scale = grid::BeltScale{};
     target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
     fmt::print(stderr,
-               "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
-               "of belt. One long taped distance, or holes, tells it.\n",
+               "The scale is not known: a turn of the encoder is assumed to be {:g} mm of belt, "
+               "so parts can be no more accurate than that. One long taped distance, or holes, "
+               "determines it.\n",
                found.fit.machine.belt_turn_mm);
   }
   target.lengths = std::move(map);

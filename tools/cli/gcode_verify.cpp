@@ -139,7 +139,7 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources,
     const std::string beginning = file.sha256.substr(0, gcode::kHashDigits);
     if (std::find(hashes.begin(), hashes.end(), beginning) != hashes.end()) continue;
     fmt::print(stderr,
-               "{} was not made from {} as it is now: compensate again.\n",
+               "{} was made from another version of {}: compensate again.\n",
                grid::files::name_without_folders(name),
                file.name);
   }

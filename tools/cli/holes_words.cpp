@@ -88,8 +88,8 @@ std::string workshop_list(const grid::HolesPlan& plan) {
                    hole.commanded.y_mm + 0.0);
   }
   text +=
-      "# Write what the tape says into distance_mm, nothing if you did not measure; about what to "
-      "expect is next to it.\n";
+      "# Write the tape's reading into distance_mm, nothing if you did not measure; the expected "
+      "value is next to it.\n";
   text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
     fmt::format_to(std::back_inserter(text),
@@ -103,17 +103,18 @@ std::string workshop_list(const grid::HolesPlan& plan) {
 
 std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequest& request) {
   std::string text = fmt::format(
-      "{} holes, {}. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is expected to "
-      "miss by {:.2f} mm, rms over the bed, {}; with nothing measured by {:.2f} mm{}.\n\nWhat the "
+      "{} holes, {}. With errors of {:g} mm for the tape and {:g} mm for a hole (one sigma) the "
+      "expected error of the tool is {:.2f} mm rms over the bed, {}; without measurement {:.2f} "
+      "mm{}.\n\nWhat the "
       "set shows                    before     after\n",
       plan.set.holes.size(),
       distances_in_number(plan.set),
       request.tape_sigma_mm,
       request.hole_sigma_mm,
       plan.expected_rms_mm,
-      request.edges ? "the sheet's place counted in" : "the sheet laid as well as it can be",
+      request.edges ? "including the sheet's placement" : "for the best placement of the sheet",
       plan.expected_before_mm,
-      request.edges ? " with the sheet laid as well as it can be" : "");
+      request.edges ? " for the best placement of the sheet" : "");
   std::vector<std::string> unreported;
   constexpr double kHardlyBetter = 0.7;
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
@@ -126,7 +127,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
     if (known.after > kHardlyBetter * known.before) unreported.push_back(known.name);
   }
   fmt::format_to(std::back_inserter(text),
-                 "It tells little of: {}.{}\n",
+                 "It does not determine: {}.{}\n",
                  listed(unreported),
                  request.edges ? "" : " For the sheet's place measure to its edges: --edges.");
   std::vector<std::string> clear;

@@ -133,7 +133,7 @@ void add_groundcontrol(Verb import) {
                 "Ignore the chain tolerances as measurements of the pitch: their origin is "
                 "unknown, or they were tuned to hide another error");
   verb.footer(
-      "What the settings do not say is assumed, and said so here and in the file.\n\n"
+      "Missing values are assumed, and listed here and in the file.\n\n"
       "Example:\n"
       "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
       "    -o machine.json");

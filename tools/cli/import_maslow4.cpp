@@ -84,7 +84,7 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
                run.heading);
   }
   if (!was_chosen) {
-    fmt::print(stderr, "Taken is the last one; --runs takes others.\n");
+    fmt::print(stderr, "The last one is used; --runs selects others.\n");
   }
 }
 
@@ -116,8 +116,8 @@ int import_maslow4(const Maslow4Command& command) {
   if (!read.belts.machine.anchors_known) {
     fmt::print(
         stderr,
-        "Where the anchors are taken to be is not known; --settings maslow.yaml says it, and "
-        "the arm and the heights.\n");
+        "The anchors in force are not known; --settings maslow.yaml gives them, with the arm and "
+        "the heights.\n");
   }
   if (read.stopped) fmt::print(stderr, "{}\n", *read.stopped);
   if (read.is_enough) say_next({"fit", command.output, "-o", "anchors.json"});
@@ -163,7 +163,7 @@ void add_import_maslow4(Verb import) {
              "The belts file; - is standard output")
       .shows_default();
   verb.footer(
-      "What the log does not say is assumed, and said so here and in the file.\n\n"
+      "Missing values are assumed, and listed here and in the file.\n\n"
       "Examples:\n"
       "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt \\\n"
       "    --settings fixtures/machines/maslow.yaml -o belts.json\n"

@@ -50,7 +50,7 @@ void add_import_plotter(Verb import) {
              "The plotter file; - is standard output")
       .shows_default();
   verb.footer(
-      "What the settings do not say is assumed, and said so here and in the file.\n\n"
+      "Missing values are assumed, and listed here and in the file.\n\n"
       "Example:\n"
       "  build/chaintrue import plotter fixtures/plotter/mural.txt -o plotter.json");
   verb.runs(command, import_plotter);

@@ -68,8 +68,8 @@ void say_what_changed(const InputFile& result) {
   for (const std::string& name : files::changed_since(*made_by, files::sources_read())) {
     end_progress();
     fmt::print(stderr,
-               "{} is not as it was when {} was made from it: make {} again if what you measured "
-               "has changed.\n",
+               "{} has changed since {} was made from it: make {} again if the measurements have "
+               "changed.\n",
                name,
                result.name,
                result.name);

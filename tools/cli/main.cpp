@@ -80,7 +80,7 @@ int with_exit_code(const std::function<int()>& work) {
     fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
     return kInternal;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "chaintrue: not enough memory for this much\n");
+    fmt::print(stderr, "chaintrue: not enough memory\n");
     return kNotSupportedOrOutside;
   } catch (const std::exception& error) {
     fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());

@@ -31,7 +31,8 @@ void put_advice(const MapContents& contents,
     const MapPoint& point = contents.points[i];
     if (!point.bad) continue;
     say(fmt::format(
-        "Measure point {} at ({:.0f}, {:.0f}) again: it is {:.1f} mm off what its neighbours say.",
+        "Measure point {} at ({:.0f}, {:.0f}) again: it is {:.1f} mm off the prediction by its "
+        "neighbours.",
         i + 1,
         point.mark.x_mm,
         point.mark.y_mm,
@@ -39,7 +40,7 @@ void put_advice(const MapContents& contents,
   }
   for (const grid::SettingResult& result : contents.settings) {
     if (!result.off) continue;
-    say(fmt::format("Check \"{}\" with a tape: your file says {:.1f} {}, the points say {:.1f}.",
+    say(fmt::format("Check \"{}\" with a tape: your file has {:.1f} {}, the points give {:.1f}.",
                     setting_in_words(result.setting),
                     in_unit(result.setting, result.stated),
                     unit_of(result.setting),
@@ -84,7 +85,7 @@ Section remarks_section(const grid::CompensationMap& map, std::optional<double> 
                             accuracy.expected_tool.maximum_mm));
   }
   if (map.machine() != nullptr && !contents.distances && contents.noise.source != grid::NoiseSource::stated) {
-    say(fmt::format("Your readings look good to about {:.2f} mm{}.",
+    say(fmt::format("Your readings scatter by about {:.2f} mm{}.",
                     grid::noise_at_tool_mm(map),
                     contents.noise.source == grid::NoiseSource::repeats
                         ? ", by the marks that were measured twice"
@@ -175,7 +176,7 @@ report::Document map_document(const grid::CompensationMap& map,
   put_advice(contents, map.machine(), source, document);
   document.not_proved = {
       "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
-      "is moved. They do not say why it missed.",
+      "is moved. They do not show the cause of the error.",
       Detail::page};
   put_figures(map, document);
   document.remarks = remarks_section(map, wish_mm);

@@ -104,13 +104,13 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
     add(ErrorStep::Kind::before,
         "sheet found",
         summary_of(contents, &MapPoint::sheet_placed_mm),
-        "the same, with the sheet laid as well as it can be");
+        "the same, for the best placement of the sheet");
   }
   if (has_machine) {
     add(ErrorStep::Kind::after,
         "map, its own points",
         summary_of(contents, &MapPoint::mapped_mm),
-        "what the fit leaves; do not count on it");
+        "residual of the fit; not a measure of accuracy");
   }
   if (contents.distances) {
     add(ErrorStep::Kind::after,

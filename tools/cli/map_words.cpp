@@ -60,9 +60,9 @@ std::string not_to_cut_with(const grid::CompensationMap& map) {
   const double left_out_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
   if (!(left_out_mm > kMostToCutWithMm)) return {};
   return fmt::format(
-      "Do not cut with this map: at a mark that it did not use it is off by {} mm, and "
-      "{:g} mm are too much. Look at the marks with the largest errors, at the "
-      "machine's measures and at the settings that it runs with, and measure again.",
+      "Do not cut with this map: tested on marks left out of the fit it is off by {} mm rms, more "
+      "than {:g} mm. Check the marks with the largest errors, the machine's dimensions and the "
+      "settings in force, and measure again.",
       about_mm(left_out_mm),
       kMostToCutWithMm);
 }
@@ -70,7 +70,7 @@ std::string not_to_cut_with(const grid::CompensationMap& map) {
 bool refuses_to_cut_with(const grid::CompensationMap& map) {
   const std::string why = not_to_cut_with(map);
   if (why.empty()) return false;
-  fmt::print(stderr, "{} --force goes on all the same.\n", why);
+  fmt::print(stderr, "{} --force continues anyway.\n", why);
   return true;
 }
 
@@ -87,7 +87,8 @@ std::string misses_sentence(std::optional<double> today_mm,
   constexpr double kNoMoreThanUncertain = 1.4142;
   if (today_mm && *today_mm <= kNoMoreThanUncertain * expected_mm) {
     return fmt::format(
-        "Your machine needs no {}: it misses by no more than these readings can show, about {} mm.",
+        "Your machine needs no {}: its error is no larger than these readings can show, about {} "
+        "mm.",
         remedy.needed,
         about_mm(expected_mm));
   }
@@ -103,7 +104,8 @@ std::string misses_sentence(std::optional<double> today_mm,
 
 std::string worst_sentence(double x_mm, double y_mm, double worst_mm) {
   return fmt::format(
-      "At worst it misses by about {} mm, in 95 of 100 sessions. It is least sure near ({:.0f}, {:.0f}).",
+      "At worst it misses by about {} mm, in 95 of 100 sessions. The error is largest near "
+      "({:.0f}, {:.0f}).",
       about_mm(worst_mm),
       x_mm,
       y_mm);
@@ -112,7 +114,7 @@ std::string worst_sentence(double x_mm, double y_mm, double worst_mm) {
 std::string fit_sentence(const grid::CompensationMap& map) {
   if (map.machine() == nullptr) return points_sentence(map);
   if (!not_to_cut_with(map).empty())
-    return "These readings disagree with each other: they make no map to cut with.";
+    return "These readings disagree with each other, so the map is not fit for cutting.";
   const auto before = grid::error_in_use(map);
   return misses_sentence(before ? std::optional(before->rms_mm) : std::nullopt,
                          map.contents().accuracy.expected_tool.rms_mm,
@@ -155,7 +157,7 @@ std::string points_sentence(const grid::CompensationMap& map) {
       "out in "
       "turn, comes back within {:.2f} mm rms{}.",
       points,
-      has_placed_sheet(contents) ? ", the sheet laid as well as it can be," : "",
+      has_placed_sheet(contents) ? ", for the best placement of the sheet," : "",
       summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
       summary_of(contents, &grid::MapPoint::mapped_mm).rms_mm,
       left_out.tool.rms_mm,
@@ -197,7 +199,7 @@ std::string wish_sentence(const grid::CompensationMap& map, double wish_mm) {
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
   const std::string held = fmt::format("You wish for {:g} mm: ", wish_mm);
   if (map.machine() == nullptr || !not_to_cut_with(map).empty())
-    return held + "these readings cannot say whether that is reached.";
+    return held + "these readings do not show whether that is reached.";
   if (expected_mm <= wish_mm) return held + "reached.";
   if (map.contents().distances)
     return held + "not reached. More distances, or a better tape, would bring it down.";

@@ -31,7 +31,7 @@ struct Remedy {
 [[nodiscard]] std::string misses_sentence(std::optional<double> today_mm,
                                           double expected_mm,
                                           const Remedy& remedy);
-/// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. It is least sure near (1118, 508)."
+/// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. The error is largest near (1118, 508)."
 [[nodiscard]] std::string worst_sentence(double x_mm, double y_mm, double worst_mm);
 
 /// The headline: by how much the tool misses today, and by how much with the map. Both are errors

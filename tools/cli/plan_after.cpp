@@ -102,7 +102,7 @@ std::string made_from_others(const PlanAfterOptions& options,
   const auto sentence = [&](std::string_view what) {
     std::vector<std::string> names;
     for (const Source& source : sources.all) names.push_back(source.name);
-    return fmt::format("{} was made from other {} than those of {}: diagnose these first.\n",
+    return fmt::format("{} was made from {} other than those of {}: diagnose these first.\n",
                        options.after,
                        what,
                        fmt::join(names, " and "));
@@ -207,7 +207,7 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
       sources.all.begin(), sources.all.end(), [](const Source& source) { return source.json; });
   if (none_holds_readings && proposes(found, MeasurementKind::reading)) {
     fmt::print(stderr,
-               "A CSV holds no readings: make the {} (JSON), which has a list of them.\n",
+               "A CSV cannot store readings: use a {} (JSON), which has a list for them.\n",
                sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
   // Once these are measured and written into their files.

@@ -127,7 +127,7 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
   const Diagnosis found = load_diagnosis(after);
   if (!is_of(found, read.belts)) {
     fmt::print(stderr,
-               "{} was made from other readings than those of {}: diagnose these first.\n",
+               "{} was made from readings other than those of {}: diagnose these first.\n",
                options.after,
                file.name);
     return kBadInput;

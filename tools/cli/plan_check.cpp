@@ -44,7 +44,7 @@ std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) 
 /// 400, two one in 20.
 std::string_view what_shows(const model::PerSide<double>& sigmas) {
   const double least = std::min(sigmas.left, sigmas.right);
-  if (least >= 3.0) return "show it beyond doubt";
+  if (least >= 3.0) return "certainly show it";
   if (least >= 2.0) return "probably show it";
   return "may miss it, so that more points or better readings are needed";
 }

@@ -129,7 +129,7 @@ int query_map(const QueryCommand& command, const grid::CompensationMap& stored) 
       stored.with_outside(rule_of(command.outside, stored.contents().outside));
   if (command.frame == "bed" && map.machine() == nullptr) {
     fmt::print(
-        stderr, "{}: a map without a machine knows only the frame of its marks\n", command.map);
+        stderr, "{}: a map without a machine has only the frame of its marks\n", command.map);
     return kNotSupportedOrOutside;
   }
   const grid::MapInFrame in_frame(

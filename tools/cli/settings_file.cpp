@@ -70,8 +70,8 @@ void refuse_other_chain(const std::vector<files::SettingChange>& changes, const 
       {{file,
         "",
         files::in_words(of_chain),
-        "the values that the map was measured with: with others a chain length means something "
-        "else, so measure and fit again, or set them back"}});
+        "the values that the map was measured with: others change the meaning of a chain length, "
+        "so measure and fit again, or set them back"}});
 }
 
 }  // namespace
@@ -124,11 +124,12 @@ model::Machine with_settings(const model::Machine& stated,
       files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
   refuse_other_chain(changes, now.name);
   if (changes.empty()) {
-    fmt::print(stderr, "{} holds the settings that the map is for.\n", now.name);
+    fmt::print(stderr, "{} has the settings that the map is for.\n", now.name);
   } else {
     fmt::print(
         stderr,
-        "{} holds other settings than the map was measured with ({}): the new ones are used.\n",
+        "The settings in {} differ from those that the map was measured with ({}): the new ones "
+        "are used.\n",
         now.name,
         files::in_words(changes));
   }

@@ -127,8 +127,8 @@ std::string drill_gcode(std::string_view what,
                         const std::vector<DrillPlace>& places,
                         const DrillOptions& options) {
   std::string text = fmt::format(
-      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Look whether every "
-      "one lies on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
+      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that every one "
+      "is on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
       what,
       options.depth_mm,
       options.clearance_mm);
@@ -163,7 +163,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
       options.clearance_mm);
   for (const SheetVisit& visit : visits_of(sheet)) {
     fmt::format_to(std::back_inserter(text),
-                   "G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then go on)\n",
+                   "G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then continue)\n",
                    whole(visit.mark.x_mm),
                    whole(visit.mark.y_mm),
                    visit.number);

@@ -212,8 +212,8 @@ std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
       {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to each; zero "
        "is the middle of the bed.",
        "Measure from centre to centre. The hook at the tape's end has play: hold the 100 mm mark "
-       "to the first hole instead, write down what the tape says, and say so "
-       "when you fit: --hook-offset-mm 100.",
+       "to the first hole instead, write down the tape's reading, and fit with --hook-offset-mm "
+       "100.",
        "Look at every number twice: one misread tape costs more than a hole left out.",
        typed_into(list)},
       "<th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th>",

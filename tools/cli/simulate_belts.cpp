@@ -48,7 +48,7 @@ StatedBelts belts_of(const std::string& path) {
     throw files::InputError({{file.name,
                               is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
                               "",
-                              "x_mm and y_mm of all four anchors: what is simulated goes by them; "
+                              "x_mm and y_mm of all four anchors, which the simulation needs; "
                               "chaintrue fit finds them"}});
   }
   return stated;

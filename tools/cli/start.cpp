@@ -148,7 +148,7 @@ int run_start(Verb verb, const StartCommand& command) {
   const std::string marks = (fs::path(folder) / "marks.csv").string();
   fmt::print(stderr,
              "{} holds the machine and the sheets: print marks.html, cut marks.nc, measure, and "
-             "write what you read into marks.csv (README.txt says more, and of holes and a "
+             "write what you read into marks.csv (README.txt has more, also on holes and a "
              "tape).\n",
              folder);
   say_next(

@@ -65,7 +65,7 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
    jumped a tooth, a zero that moved). To half a millimetre each, the tool will then be known to
    about {1:.1f} mm over the bed.
    Holes, for whoever has an hour and a tape: nine holes and twenty distances, about {2:.1f} mm,
-   the sheet laid as well as it can be.
+   for the best placement of the sheet.
    Chain lengths, for whoever can read them off the machine: chaintrue plan --machine machine.json
    --measure lengths -o lengths.csv. It is the way that tells causes apart best.
 

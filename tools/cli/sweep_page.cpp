@@ -125,7 +125,8 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
       continue;
     }
     sentences.push_back(
-        fmt::format("{}: {} errs least, {:.2f} mm rms at the tool; {} most, {:.2f} mm.",
+        fmt::format("{}: {} has the smallest error, {:.2f} mm rms at the tool; {} the largest, "
+                    "{:.2f} mm.",
                     kTitles[factor],
                     level(least),
                     *least,
@@ -154,7 +155,7 @@ report::Document sweep_page(const sweep::SweepSpec& spec,
                               sweep::combinations(spec),
                               spec.repetitions)};
   for (std::string& line : answers(spec, errors)) page.advice.push_back({std::move(line)});
-  page.not_proved = {"Made with the simulator; a real machine has errors that it does not know."};
+  page.not_proved = {"Made with the simulator; a real machine has errors that it does not model."};
   page.sections.push_back(std::move(panels));
   page.sections.push_back({"Numbers", {table(spec, errors)}});
   return page;

@@ -29,7 +29,7 @@ grid::CompensationMap with_settings_of(const std::string& settings,
   if (!stated) {
     throw grid::files::InputError({{map_name,
                                     "",
-                                    "a map that knows no machine",
+                                    "a map without a machine",
                                     "no --settings: its points are chain lengths"}});
   }
   const SettingsFile file = read_settings_file(settings);

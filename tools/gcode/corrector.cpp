@@ -47,7 +47,7 @@ std::string_view sentence_of(CorrectionReason reason) {
     case CorrectionReason::unreachable:
       return "cannot be reached by the machine";
     case CorrectionReason::not_converged:
-      return "has no answer in the map: the iteration did not settle";
+      return "has no answer in the map: the iteration did not converge";
     case CorrectionReason::controller:
       break;
   }

@@ -15,11 +15,12 @@ constexpr Term kTerms[] = {
     {"uncorrected", "the machine with the settings that it had when it was measured"},
     {"calibrated", "the settings moved to where they fit the readings best"},
     {"left out",
-     "one reading, or one block of the bed at a time, that the fit did not use: how well it "
-     "predicts that is the honest test of a fit"},
+     "one reading, or one block of the bed at a time, that the fit did not use: the error of "
+     "predicting it tests the fit"},
     {"residual", "the reading minus what was expected"},
-    {"chain zero", "how much too long or short a chain reads everywhere, as its zero is off"},
-    {"noise", "what readings of the same thing differ by"},
+    {"chain zero", "how much too long or short a chain reads everywhere, because its zero is "
+                   "wrong"},
+    {"noise", "the differences of repeated readings"},
     {"pitch", "the length of one link, 6.35 mm when it is new"},
     {"catenary", "the curve in which a chain hangs"},
     {"extrapolated", "beyond the measured part of the bed"},

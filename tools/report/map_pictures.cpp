@@ -50,7 +50,7 @@ Section before_after_section(const MapPictures& report) {
             "Each arrow runs from where the tool should be to where it lands. Hover or tap a point "
             "for its values.",
             "After: with the map, same scale",
-            "What is left at the points that the map was made from.",
+            "The residual at the points that the map was made from.",
             " Random directions are noise; neighbours that point the same way would be something "
             "that the map has missed."})) {
     section.blocks.emplace_back(std::move(row));
@@ -171,7 +171,7 @@ Chart error_map_chart(const MapPictures& report) {
       .specification = "error_map",
       .title = "Expected error over the bed",
       .caption =
-          "One sigma at the tool, as far as the readings' noise makes it. Circles are the points."};
+          "One sigma at the tool, from the noise of the readings. Circles are the points."};
   DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
   for (const ErrorCell& cell : map.cells)
     cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});

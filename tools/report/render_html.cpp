@@ -162,7 +162,7 @@ class HtmlWriter {
       add("</details>\n</section>\n");
     }
     if (folded == sections.end()) return;
-    add("<p class=\"on-paper\">What is folded on the screen is not printed: open there first what "
+    add("<p class=\"on-paper\">Folded sections are not printed: unfold on the screen first what "
         "is "
         "to be on paper.</p>\n");
   }

@@ -61,7 +61,9 @@ export function beltsMeasure(page) {
 }
 
 function placesTable({places}, toggle) {
-  return h("table", {class: "places"}, h("caption", {}, "Lengths in mm; in brackets how far a wrong one is from what the others make of it."),
+  return h("table", {class: "places"}, h("caption", {}, "Lengths in mm; in brackets the "
+                                                        "difference of a wrong one from the "
+                                                        "prediction by the others."),
     h("thead", {}, h("tr", {}, h("th", {scope: "col"}, "place"), CORNERS.map((corner) => h("th", {scope: "col", class: "number"}, CORNER_NAMES[corner])),
       h("th", {scope: "col"}, "leave out"))),
     h("tbody", {}, places.map((place) => {
@@ -97,7 +99,8 @@ class HolesPart {
       h("button", {type: "button", onclick: () => download("holes.nc", page.store.folder["holes.nc"])}, "Download the program that cuts them")),
     how.element, this.#print, h("p", {class: "choices"}, this.#hook.element), this.#readings.element);
     this.element = h("section", {}, h("h3", {}, "Holes and a tape"),
-      h("p", {}, "Belts alone do not say how large everything is, nor where the tool really cuts. Nine holes and a tape do, and give the map that programs are compensated by."),
+      h("p", {}, "Belts alone do not show the scale, nor where the tool really cuts. Nine holes "
+                 "and a tape do, and give the map for compensating programs."),
       this.#plan, this.#list);
   }
 

@@ -90,14 +90,21 @@ export function cutStep(page) {
   function stops({folder, view}) {
     const part = (...children) => [h("section", {}, ...children)];
     const go = (words, step) => h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step})}, words));
-    if (isPlotter(folder) && !readsGcode(jsonOf(folder[DRAWING]))) return part(h("p", {}, "This plotter is sent pictures, not programs. It draws them right once the numbers are typed in."));
+    if (isPlotter(folder) && !readsGcode(jsonOf(folder[DRAWING]))) return part(h("p", {},
+        "This plotter takes pictures, not programs. It draws them right once the numbers are "
+        "typed in."));
     if (!folder[mapOf(folder)]) return part(h("p", {class: "hint"}, "There is no result yet: measure first."), go("Go to the readings", "measure"));
     if (page.fit && isStopped(page)) return [verdictBand(page)];
     if (view.way === NUMBERS && !areIn(page.store)) {
-      return part(h("h3", {}, "Are the numbers in?"), h("p", {}, "You chose to type numbers in. Programs stay as they are; what is left can be compensated after that."),
+      return part(h("h3", {}, "Are the numbers in?"), h("p", {},
+          "You chose to type numbers in. Programs stay as they are; the remaining error can be "
+          "compensated after that."),
         page.numbers ? typedTick(page, page.numbers) : "", go("Show the numbers", "result"), putAway(page, NUMBERS));
     }
-    if (isBelts(folder) && areIn(page.store) && filledIn(folder[HOLES]) === 0) return part(h("p", {}, "The lines are in the machine: cut your programs as they are. Holes and a tape show what is left; then programs can be compensated for it."), go("Measure nine holes", "measure"));
+    if (isBelts(folder) && areIn(page.store) && filledIn(folder[HOLES]) === 0) return part(h("p", {},
+        "The lines are in the machine: cut your programs as they are. Holes and a tape show the "
+        "remaining error; then programs can be compensated for "
+        "it."), go("Measure nine holes", "measure"));
     return [];
   }
 
@@ -111,7 +118,9 @@ export function cutStep(page) {
     page.store.change({[name]: bytes});
     const isStoppedHere = stops(page.store).length > 0;
     if (!isStoppedHere || folder[mapOf(folder)]) page.store.show({step: "cut"});
-    if (isStoppedHere || home.isOpen(page.store)) page.say([`${name} is a program, and is kept. ${isStoppedHere ? "It can be corrected once there is a result that you have read." : "Say where home is, then press its button."}`]);
+    if (isStoppedHere || home.isOpen(page.store)) page.say([`${name} is a program, and is kept. ${isStoppedHere ?
+        "It can be corrected once you have read the "
+        "result." : "Enter where home is, then press its button."}`]);
     else await compensate(name);
   }
 

@@ -12,7 +12,7 @@ import {keepLaw, ownEffectPart, ownWords} from "./own_effect.js";
 import {Sheet} from "./sheet.js";
 
 /** What a diagnosis adds that the result does not repeat: its own numbers. */
-const NUMBERS = / With it, the tool's error falls from .*$| What one belt's reading is off by falls from .*$/;
+const NUMBERS = / With it, the tool's error falls from .*$| What error of one belt's reading falls from .*$/;
 
 export function causesPart(page) {
   const noise = new NoiseFields(page, () => diagnose(page, noise.words()));
@@ -72,7 +72,9 @@ function nameOf({effect, side}) {
 
 /** As laws are claimed (grid/diagnosis/constants.def, kLawClaimed). */
 const CLAIMED = 0.9;
-const SAYS = {confirmed: "confirmed, it acts here", denied: "denied, as it stands in the file it would have shown", open: "left open, measure more points", not_testable: "not testable with these readings"};
+const SAYS = {confirmed: "confirmed, it acts here", denied:
+    "denied, with the values in the file it would have "
+    "shown", open: "left open, measure more points", not_testable: "not testable with these readings"};
 
 /** The button that makes a claimed law a cause of the owner's own. */
 function lawPart(page, found, keep) {
@@ -82,7 +84,9 @@ function lawPart(page, found, keep) {
     h("span", {class: "hint"}, "then measure other points: they confirm or deny it"))];
 }
 
-const NOT_CAUSES = {nothing: "nothing besides the settings", law: "a law that no listed cause has", unknown: "a pattern that no known cause makes", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
+const NOT_CAUSES = {nothing: "nothing besides the settings", law: "a law that no listed cause has", unknown:
+    "a pattern that no known cause "
+    "explains", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
 
 /** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect. */
 function causeBars(hypotheses, meanings) {
@@ -115,7 +119,9 @@ async function drawCause(page, found, box) {
 
 /** All hypotheses by their probability, and what the verdict does not prove. */
 async function drawRest(page, found, box) {
-  const draw = (meanings) => box.replaceChildren(h("p", {class: "hint"}, "Each probability is for itself, because causes can act together."), causeBars(found.hypotheses, meanings),
+  const draw = (meanings) => box.replaceChildren(h("p", {class: "hint"},
+      "Each probability stands alone, because causes can act "
+      "together."), causeBars(found.hypotheses, meanings),
     h("h4", {}, "What this does not prove"), sentenceList([found.not_proved, ...(found.notes ?? [])].filter(Boolean).map(inPage)));
   draw({});
   const meanings = await meaningsOf(page);
@@ -134,7 +140,9 @@ async function meaningsOf(page) {
   return catalogue;
 }
 
-const NOISE = [["--noise-length-mm", "A chain length is good to, mm"], ["--noise-position-mm", "A place that you read is good to, mm"]];
+const NOISE = [["--noise-length-mm", "Error of a chain length, "
+                                     "mm"], ["--noise-position-mm",
+                                         "Error of a measured place, mm"]];
 
 /** How well the user reads. */
 class NoiseFields {

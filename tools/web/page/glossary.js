@@ -3,14 +3,18 @@
 import {h} from "./dom.js";
 
 const MEANINGS = {
-  "map": "A table of how far off the machine is at each place of the bed. With it programs can be rewritten so that they come out true.",
-  "compensate": "To rewrite a program's moves by the map, so that the machine as it is cuts what was drawn.",
+  "map": "A table of how far off the machine is at each place of the bed. With it programs can be "
+         "rewritten so that they are cut accurately.",
+  "compensate": "To rewrite a program's moves by the map, so that the unchanged machine cuts what "
+                "was drawn.",
   "sled": "The plate with the router on it, which hangs from the chains and slides over the sheet.",
   "sprocket": "The toothed wheel on a motor that the chain runs over.",
-  "chain's zero": "The length at which the controller takes a chain to be: wrong if a chain was hung in one link off.",
-  "chain zeros": "The lengths at which the controller takes the chains to be: wrong if a chain was hung in one link off.",
+  "chain's zero": "The length that the controller assumes for a chain: wrong if the chain was "
+                  "hung one link off.",
+  "chain zeros": "The lengths that the controller assumes for the chains: wrong if a chain was "
+                 "hung one link off.",
   "motor positions": "Where the motors' shafts are, counted from the middle of the sheet.",
-  "1 sigma": "Two of three measurements are closer than this to what is true.",
+  "1 sigma": "Two of three measurements are within this of the true value.",
   "ring": "The ring on the sled that the chains' ends run along.",
   "middle lines": "The two lines through the middle of the sheet, one along it and one across. Places count from where they cross.",
   "hook": "The metal end of a tape. It has play, and its own thickness is in what you read.",

@@ -5,7 +5,7 @@
 export const HOOK_LABEL = "from 100 mm";
 export const HOOK_HELP = `Hold the tape's 100 mm mark to the hole, and tick "${HOOK_LABEL}" when you type.`;
 
-const ON_SHEETS = [/say so when you fit: --hook-offset-mm 100/g, `tick "${HOOK_LABEL}" when you type`];
+const ON_SHEETS = [/fit with --hook-offset-mm 100/g, `tick "${HOOK_LABEL}" when you type`];
 const OPTIONS = [
   [/, or give it \(--hook-offset-mm\)\./g, `. ${HOOK_HELP}`],
   [/give \d+ mm \(hook_offset_mm of the tape, or --hook-offset-mm\)/g, `tick "${HOOK_LABEL}" if the tape was held at its 100 mm mark`],
@@ -14,17 +14,17 @@ const OPTIONS = [
   [/ \(older prints slant: --lengths belt_and_arm\)/g, " (older prints slant: choose that under \"How the log is read\")"],
   [/ \(--lengths belt_and_arm\)/g, " (choose that under \"How the log is read\")"],
   [/ \(--orientation\)/g, " (a frame on the floor: choose that under \"How the log is read\")"],
-  [/--settings maslow\.yaml says it, and the arm and the heights\./g, "maslow.yaml says it, and the arm and the heights: paste it into the box as well."],
-  [/; --runs takes others\./g, ". Choose another under \"How the log is read\"."],
+  [/--settings maslow\.yaml gives them, with the arm and the heights\./g, "maslow.yaml gives them, with the arm and the heights: paste it into the box too."],
+  [/; --runs selects others\./g, ". Choose another under \"How the log is read\"."],
   [/: chaintrue diagnose of the same belts says whether they do, with anchors and sigmas that count it\./g,
     ": the causes say whether they do, and the lines to paste count it."],
   [/and add it to the file's "distances"/g, "and type it into the box \"A taped distance\""],
   [/, and give it as distances/g, ", and type it into the box \"A taped distance\""],
   [/give it as distances/g, "type it into the box \"A taped distance\""],
   [/ \(gcode compensate\)/g, ""],
-  [/say where it is with --home X,Y/g, "type above where it is"],
-  [/; or say --accept-class if you know that it is the chain/g, ""],
-  [/: chaintrue diagnose of the same belts\./g, ": the causes say it."],
+  [/give its place with --home X,Y/g, "type above where it is"],
+  [/ If you know that it is the chain, use --accept-class\./g, ""],
+  [/: run chaintrue diagnose on the same belts\./g, ": see the causes."],
   [/ or say --inches\b/g, " or choose inches above the table"],
   [/ \(chaintrue plan [^)]*\)/g, ""],
   [/Write the law to a file \(chaintrue diagnose --law\), measure other points, and diagnose these with it \(--effects\): they/g,

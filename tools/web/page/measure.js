@@ -21,7 +21,7 @@ const WAYS = [
   [HOLES, "Holes: distances between them, with a tape"],
   ["lengths.csv", "Chain lengths: read off the machine at each mark"],
 ];
-const CHECK = [NEW_POINTS, "New points: does the map still hold?"];
+const CHECK = [NEW_POINTS, "New points: is the map still valid?"];
 /** Delay between the last key and a run of the command: the time between two keys. */
 const PAUSE_MS = 350;
 

@@ -91,6 +91,6 @@ export class Storage {
   #fail(problem) {
     const reason = problem?.name === "QuotaExceededError" ? "its storage is full" : "a private window, or its settings";
     this.#onProblem(`This browser keeps nothing of this page (${reason}). All works, but press Download before you ` +
-      "close it: the folder holds everything, and Open takes it back.");
+      "close it: the folder holds everything, and Open restores it.");
   }
 }

@@ -52,7 +52,11 @@ export function verdictOf(page) {
   const list = folder["machine.json"] && folder[fittedList(view)] ? Sheet.of(textOf(folder[fittedList(view)])) : null;
   const stops = sentences.filter((line) => STOP.test(line));
   const warnings = [
-    ...stops.map((line) => (!SESSION.test(line) ? line : "Something moved while you measured. The map below allows for it, but the machine may not be where it was: set the chains anew, and measure again before you rely on this.")),
+    ...stops.map((line) => (!SESSION.test(line) ? line : "Something moved while you measured. The "
+                                                         "map below allows for it, but the "
+                                                         "machine may have changed: set the "
+                                                         "chains again, and measure again before "
+                                                         "you rely on this.")),
     ...sentences.filter((line) => WARNING.test(line)).map((line) => twice(line, list) ?? line.replace(/^\S+\.(csv|json): (line \d+, column \d+: |\/\S+: )?/, "")), atLeftOut(jsonOf(folder["map.json"])),
   ].filter(Boolean);
   // A mark with a hint at the wrong digit needs no second sentence.
@@ -79,5 +83,6 @@ export function verdictBand(page, verdict = verdictOf(page)) {
   const tick = h("input", {type: "checkbox", class: "read", checked: !isStopped(page, verdict), onchange: () => page.store.show({read: tick.checked ? keyOf(verdict) : null})});
   return h("div", {class: `said ${tone}`, role: "status"}, headline && h("p", {class: "headline"}, explained(headline)),
     wish && h("p", {}, wish), warnings.length > 0 && sentenceList(warnings),
-    warnings.length > 0 && !page.fit.isWrong && h("p", {}, h("label", {class: "pair"}, tick, "I have read this and go on")));
+    warnings.length > 0 && !page.fit.isWrong && h("p", {}, h("label", {class: "pair"}, tick,
+        "I have read this; continue")));
 }

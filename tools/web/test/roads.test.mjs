@@ -165,7 +165,7 @@ for (const browser of browsers) {
     await visit.click("Nothing wrong");
     await visit.text("#step-result .said.good", "needs no map");
     await visit.text("#way-part", "Cut your programs as they are");
-    await visit.text("#step-result .cause", "as large as the readings can err");
+    await visit.text("#step-result .cause", "as large as the scatter of the readings");
     assert.doesNotMatch(await visit.text("#step-result .cause"), /Type in/);
   });
 
@@ -223,7 +223,7 @@ for (const browser of browsers) {
 
   walk("a pen: from a mural's settings and a ruler to numbers and the second page", browser, async (visit) => {
     await visit.paste("#paste-plotter", read("plotter/mural.txt"));
-    await visit.text("#step-machine", "Assumed is a mural");
+    await visit.text("#step-machine", "Assumed: a mural");
     await visit.click("On to measuring");
     await visit.click("Download page.svg");
     assert.match(textOf(await visit.downloaded("page.svg")), /<svg/);
