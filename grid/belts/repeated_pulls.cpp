@@ -65,9 +65,7 @@ std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
   if (found.empty()) return "";
   std::string text =
       "Places that were read twice, with the held belts unchanged, show how much the pulled ones "
-      "stretch "
-      "by "
-      "between the two pulls:";
+      "stretch between the two pulls:";
   for (const RepeatedPull& pull : found) {
     fmt::format_to(std::back_inserter(text),
                    "{} points {} and {} {:.3f} +- {:.3f} %",

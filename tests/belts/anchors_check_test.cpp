@@ -36,7 +36,7 @@ TEST(AnchorsCheck, NamesABeltWhoseZeroShiftedWithItsSize) {
   EXPECT_EQ(check.hypotheses.front().side, "br");
   // Six places that each leave br about half of its noise, and the anchors' uncertainty.
   EXPECT_NEAR(check.hypotheses.front().size(), 6.0, 4.0 * kNoiseMm);
-  EXPECT_THAT(check.sentence, HasSubstr("drawn in and let out anew"));
+  EXPECT_THAT(check.sentence, HasSubstr("retracting and extending the belts again"));
 }
 
 TEST(AnchorsCheck, WhatCannotBeCheckedHasASentence) {

@@ -106,7 +106,7 @@ TEST(LawsOfBelts, NoFileIsMadeOfThem) {
   const Diagnosis found = diagnosed(with_wave(1.2));
   const auto written = declaration_of(found.unexplained->laws, model::Bed{});
   ASSERT_FALSE(written);
-  EXPECT_THAT(written.error(), HasSubstr("acts on chains, and this law on a belt"));
+  EXPECT_THAT(written.error(), HasSubstr("acts on chains, but this law acts on a belt"));
 }
 
 }  // namespace

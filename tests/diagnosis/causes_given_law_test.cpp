@@ -115,7 +115,7 @@ TEST(CausesGivenLaw, WhatTheLawHidesIsSaid) {
   EXPECT_THAT(found.causes, IsEmpty());
   // Four sigmas: once in ten thousand sessions.
   EXPECT_NEAR(own.parameters.front().value, 0.24, 4.0 * own.parameters.front().sigma);
-  EXPECT_THAT(found.sentence, HasSubstr("With this law known, they also name "));
+  EXPECT_THAT(found.sentence, HasSubstr("Given this law, they also name "));
   EXPECT_THAT(found.what_to_do.back(), HasSubstr("diagnose these readings again with it"));
   const std::string text = files::write_diagnosis(found);
   EXPECT_THAT(text, HasSubstr("\"causes_given_law\""));

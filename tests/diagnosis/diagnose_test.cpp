@@ -67,7 +67,7 @@ TEST(DiagnoseBadInput, ReadingAgainstStatement) {
   grid.readings.push_back({ReadingOf::motor_spacing, "", 2900.0, 1.0});
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
-                 "motor_spacing_mm is 2900, but the machine file says 2978.4");
+                 "motor_spacing_mm is 2900, but the machine file has 2978.4");
 }
 
 TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {

@@ -65,9 +65,8 @@ TEST(HolesDiagnosisBadInput, TooFewDistancesSayWhichAreMissing) {
   set.distances.resize(6);
   expect_refused(set,
                  DiagnosisFailure::Reason::too_few_points,
-                 "6 distances are too few to name a cause: they give four of the settings, and at "
-                 "least 8 are needed; nine holes and twenty distances are a good start. Measure "
-                 "also ");
+                 "6 distances are too few to name a cause: at least 8 are needed. Nine holes and "
+                 "twenty distances are a good start. Measure also ");
 }
 
 TEST(HolesDiagnosisBadInput, AHookThatWasForgotten) {

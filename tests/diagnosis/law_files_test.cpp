@@ -183,7 +183,7 @@ TEST(LawFiles, WhatNoFormulaCanSayIsRefused) {
                          law_of(Coordinate::angle_right, LawShape::kink, Enters::x)}) {
     const auto written = declaration_of(law, bed);
     ASSERT_FALSE(written);
-    EXPECT_THAT(written.error(), HasSubstr("No file is made of the law found"));
+    EXPECT_THAT(written.error(), HasSubstr("cannot be written to a file"));
   }
   Law unsure = law_of(Coordinate::x, LawShape::step, Enters::left);
   unsure.probability = 0.89;

@@ -18,7 +18,7 @@ using testing::Not;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
-constexpr const char* kNotConverged = "Calibrating had not come to rest";
+constexpr const char* kNotConverged = "The calibration had not converged";
 
 Analysis analysis_of_grid(const MeasuredGrid& grid) {
   return analyse(observations_of(grid).value(), verdict_alone()).value();

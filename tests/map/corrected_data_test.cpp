@@ -100,7 +100,7 @@ TEST(CorrectedData, WithoutAnOrderSayWhatCouldNotBeTakenOut) {
   for (MeasuredPoint& point : measured.grid.points) point.order.reset();
   const auto corrected = corrected_data(measured.grid);
   ASSERT_TRUE(corrected);
-  EXPECT_THAT(corrected->notes, Contains(HasSubstr("could not be removed from the readings: the points do not give")));
+  EXPECT_THAT(corrected->notes, Contains(HasSubstr("could not be removed from the readings: the order")));
   EXPECT_EQ(corrected->grid.points[3].lengths->left_mm, measured.grid.points[3].lengths->left_mm);
 }
 

@@ -134,7 +134,7 @@ TEST(ResidualFit, SaysThatTheMirrorClaimFailsOnAMachineThatIsNotSymmetric) {
   spec.offsets = {{model::Setting::motor_left_y_mm, 8.0}};
   const auto tilted = fitted(session(spec).grid);
   EXPECT_FALSE(tilted.contents().mirror->holds);
-  EXPECT_THAT(tilted.contents().mirror->sentence, testing::HasSubstr("not the left one mirrored"));
+  EXPECT_THAT(tilted.contents().mirror->sentence, testing::HasSubstr("does not mirror the left one"));
 }
 
 TEST(ResidualFit, TakesWhatIsStatedWithoutUncertaintyAsKnown) {
