@@ -243,7 +243,7 @@ for (const browser of browsers) {
     const {folder} = await nativeFolder(visit);
     for (const line of runNative(["export", "plotter", "found.json"], folder).stdout.trim().split("\n")) assert.ok(shown.includes(line.split(": ")[1]), line);
     await visit.click("Programs");
-    await visit.text("#step-cut", "This plotter is sent pictures");
+    await visit.text("#step-cut", "This plotter takes pictures");
     await visit.click("Result");
     await visit.click("Draw the second page");
     await visit.page.waitForFunction(() => [...document.querySelectorAll("tr[data-measure] input")].every(({value}) => value === ""));
