@@ -130,7 +130,7 @@ void PrintTo(const Figure& figure, std::ostream* out) {
 
 class ModelSurface : public testing::TestWithParam<Figure> {};
 
-TEST_P(ModelSurface, MeetsAMachineThatNoModelDescribes) {
+TEST_P(ModelSurface, FitsAnUnmodelledMachine) {
   const CompensationMap map = fitted(measured(marks(GetParam().layout)));
   const double largest = largest_error_mm(map);
   EXPECT_GE(error_of(map).covered, 0.92);

@@ -27,7 +27,7 @@ MeasuredBelts measured(const model::BeltMachine& truth, int columns, int rows, s
   return synthetic::simulate_belts(testing_support::stated(), truth, spec).value();
 }
 
-TEST(AnchorsCheck, NamesABeltWhoseZeroShiftedWithItsSize) {
+TEST(AnchorsCheck, NamesABeltWithAShiftedZeroAndItsSize) {
   const auto fit = fit_belts(measured(testing_support::truth(), 6, 6, 1));
   MeasuredBelts shifted = measured(testing_support::truth(), 3, 2, 501);
   for (BeltPoint& point : shifted.points) point.lengths_mm.br += 6.0;
@@ -39,7 +39,7 @@ TEST(AnchorsCheck, NamesABeltWhoseZeroShiftedWithItsSize) {
   EXPECT_THAT(check.sentence, HasSubstr("retracting and extending the belts again"));
 }
 
-TEST(AnchorsCheck, WhatCannotBeCheckedHasASentence) {
+TEST(AnchorsCheck, RefusesUncheckableAnchorsWithASentence) {
   const auto fit = fit_belts(measured(testing_support::truth(), 6, 6, 1));
   MeasuredBelts inches = measured(testing_support::truth(), 3, 2, 2);
   for (BeltPoint& point : inches.points) {

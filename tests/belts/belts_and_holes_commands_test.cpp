@@ -91,7 +91,7 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
       grid::simulate_with_holes({.seed = 41, .unmodelled_mm = 3.0, .tape_mm = 0.2, .hole_mm = 0.1});
 };
 
-TEST_F(BeltAndHoleCommands, OneFitWhicheverFileComesFirst) {
+TEST_F(BeltAndHoleCommands, TheFitDoesNotDependOnFileOrder) {
   const Outcome fit = run("fit belts.json --with holes.json -v -o anchors.json");
   ASSERT_EQ(fit.code, 0) << fit.err;
   EXPECT_THAT(fit.err, HasSubstr("24 distances"));
@@ -132,7 +132,7 @@ TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController
   EXPECT_THAT(lengths.out, HasSubstr("line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm"));
 }
 
-TEST_F(BeltAndHoleCommands, OnceThePastedAnchorsAreInForceTheBendAloneIsLeft) {
+TEST_F(BeltAndHoleCommands, PastedAnchorsLeaveOnlyTheBend) {
   ASSERT_EQ(run("fit belts.json --with holes.json -o anchors.json").code, 0);
   const Outcome made =
       run("gcode compensate part.nc --map anchors.json --machine anchors.json -o part.true.nc");
@@ -147,7 +147,7 @@ TEST_F(BeltAndHoleCommands, OnceThePastedAnchorsAreInForceTheBendAloneIsLeft) {
   EXPECT_LT(after, before);
 }
 
-TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNotKnow) {
+TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsOnly) {
   ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
   const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;

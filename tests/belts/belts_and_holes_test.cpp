@@ -37,7 +37,7 @@ double error_mm(const SimulatedHoles& truth, const BeltMap& map) {
   return rms_when_laid(reached, targets());
 }
 
-TEST(BeltsAndHoles, FindTheScaleThatBeltsAloneDoNotKnow) {
+TEST(BeltsAndHoles, DetermineTheScale) {
   const SimulatedHoles set = simulate_with_holes({.seed = 300});
   const auto both = fit_belts_and_holes(set.belts, {set.holes});
   ASSERT_TRUE(both) << "seed 300";
@@ -46,7 +46,7 @@ TEST(BeltsAndHoles, FindTheScaleThatBeltsAloneDoNotKnow) {
   EXPECT_FALSE(both->holes.displacement) << "seed 300";
 }
 
-TEST(BeltsAndHoles, MapFollowsAToolThatHangsBesideItsBelts) {
+TEST(BeltsAndHoles, MapFollowsAToolOffsetFromItsBelts) {
   const SimulatedHoles set = simulate_with_holes({.seed = 300, .unmodelled_mm = 4.0});
   const auto alone = fit_belts(set.belts);
   const auto both = fit_belts_and_holes(set.belts, {set.holes});
@@ -57,7 +57,7 @@ TEST(BeltsAndHoles, MapFollowsAToolThatHangsBesideItsBelts) {
       << "seed 300";
 }
 
-TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
+TEST(BeltsAndHoles, RejectAMisreadDistance) {
   SimulatedHoles set = simulate_with_holes({.seed = 77});
   set.holes.set.distances[5].distance_mm += 12.0;
   const auto fit = fit_belts_and_holes(set.belts, {set.holes});
@@ -87,7 +87,7 @@ TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
   EXPECT_LT(rejected.left_out_sigma_mm, 5.0 * tape_mm);
 }
 
-TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {
+TEST(BeltsAndHoles, TheSheetsEdgesFixTheFrame) {
   SimulatedHoles set = simulate_with_holes({.seed = 78, .tape_mm = 0.2, .hole_mm = 0.1});
   MeasuredHoles& holes = set.holes.set;
   holes.tape.sigma_mm = 0.2;

@@ -54,7 +54,7 @@ double true_error_mm(const model::BeltMachine& believed, const model::BeltMachin
   return std::sqrt(off.squaredNorm() / static_cast<double>(off.cols()));
 }
 
-TEST(BeltsError, TodayIsWhatTheTrueMachineMissesBy) {
+TEST(BeltsError, TodayIsTheErrorOfTheTrueMachine) {
   const auto fit = fit_belts(measured(0.001, 1)).value();
   const auto error = error_of_belts(fit);
   ASSERT_TRUE(error);
@@ -69,7 +69,7 @@ TEST(BeltsError, TodayIsWhatTheTrueMachineMissesBy) {
 
 // To first order the error is the sum of the shifts by each principal axis of the anchors'
 // covariance.
-TEST(BeltsError, ExpectedIsWhatTheAnchorsUncertaintyMoves) {
+TEST(BeltsError, ExpectedFollowsFromTheAnchorCovariance) {
   const auto fit = fit_belts(measured(0.5, 1)).value();
   const auto error = error_of_belts(fit);
   ASSERT_TRUE(error);
@@ -85,7 +85,7 @@ TEST(BeltsError, ExpectedIsWhatTheAnchorsUncertaintyMoves) {
   EXPECT_GE(error->expected.maximum_mm, error->expected.rms_mm);
 }
 
-TEST(BeltsError, WithoutAnchorsInForceTodayIsNotKnown) {
+TEST(BeltsError, TodayNeedsTheAnchorsInForce) {
   MeasuredBelts belts = measured(0.5, 3);
   const auto known = error_of_belts(fit_belts(belts).value());
   belts.machine.anchors_known = false;
@@ -97,7 +97,7 @@ TEST(BeltsError, WithoutAnchorsInForceTodayIsNotKnown) {
   EXPECT_NEAR(error->expected.rms_mm, known->expected.rms_mm, 0.05 * known->expected.rms_mm);
 }
 
-TEST(BeltsError, OfTooFewPlacesNothingIsSaid) {
+TEST(BeltsError, IsUnknownForTooFewPlaces) {
   BeltsFit fit = fit_belts(measured(0.5, 4)).value();
   fit.places.resize(2);
   EXPECT_FALSE(error_of_belts(fit));

@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Every,
                                          BeltLengths::span),
                          [](const auto& tested) { return std::string(name(tested.param)); });
 
-TEST_P(BeltsFitOfLengths, WithoutNoiseTheAnchorsAreTheTrueOnes) {
+TEST_P(BeltsFitOfLengths, RecoversTheAnchorsWithoutNoise) {
   for (const std::uint64_t seed : {1, 2}) {
     for (const bool known : {true, false}) {
       const SimulatedBelts set = simulate({.seed = seed,
@@ -64,7 +64,7 @@ TEST(BeltsFit, TheSpreadDividesByTheChecksAndTheRmsByTheReadings) {
   EXPECT_NEAR(fit->rms_mm * std::sqrt(4.0 * 81), fit->residual_sigma_mm * std::sqrt(2.0 * 81 - 5), 1e-9);
 }
 
-TEST(BeltsFit, WhatACoordinateRestsOnIsWholeAndMirrored) {
+TEST(BeltsFit, InfluencesOnACoordinateAreCompleteAndMirrored) {
   const SimulatedBelts set = simulate({.seed = 5});
   const auto fit = fit_belts(set.belts);
   ASSERT_TRUE(fit);
@@ -78,7 +78,7 @@ TEST(BeltsFit, WhatACoordinateRestsOnIsWholeAndMirrored) {
   EXPECT_GT(fit->coordinates[2].variance_share.tr, fit->coordinates[2].variance_share.tl);
 }
 
-TEST(BeltsFit, NamesAReadingThatIsOffByItsPlaceAndBelt) {
+TEST(BeltsFit, NamesABadReadingByPlaceAndBelt) {
   for (const int seed : {1, 2}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     SimulatedBelts set = simulate({.seed = static_cast<std::uint64_t>(seed)});
@@ -97,7 +97,7 @@ TEST(BeltsFit, NamesAReadingThatIsOffByItsPlaceAndBelt) {
   }
 }
 
-TEST(BeltsFit, SeveralBadReadingsDoNotHideOneAnother) {
+TEST(BeltsFit, FindsSeveralBadReadings) {
   SimulatedBelts set = simulate({.seed = 11});
   set.belts.points[3].lengths_mm.tl += 44.0;
   set.belts.points[30].lengths_mm.br -= 44.0;
@@ -112,7 +112,7 @@ TEST(BeltsFit, SeveralBadReadingsDoNotHideOneAnother) {
   EXPECT_NEAR(fit->residual_sigma_mm, 0.5, 4.0 * 0.5 / std::sqrt(2.0 * 153.0));
 }
 
-TEST(BeltsFit, APlaceOfWhichFewReadingsAgreeIsNamed) {
+TEST(BeltsFit, NamesAPlaceWithFewConsistentReadings) {
   SimulatedBelts set = simulate({.seed = 12});
   set.belts.points[40].lengths_mm.tl += 60.0;
   set.belts.points[40].lengths_mm.bl += 35.0;
@@ -121,7 +121,7 @@ TEST(BeltsFit, APlaceOfWhichFewReadingsAgreeIsNamed) {
   EXPECT_THAT(fit->bad_points, ElementsAre(40U));
 }
 
-TEST(BeltsFit, LowerBeltsAreForetoldAsWellAsTheNoiseAllows) {
+TEST(BeltsFit, PredictsTheLowerBeltsToTheNoise) {
   const SimulatedBelts set = simulate({.seed = 21});
   const auto fit = fit_belts(set.belts);
   ASSERT_TRUE(fit && fit->half_left_out);
@@ -136,7 +136,7 @@ TEST(BeltsFit, LowerBeltsAreForetoldAsWellAsTheNoiseAllows) {
   EXPECT_LT(fit->half_left_out->rms_mm, 1.3 * fit->one_left_out.rms_mm);
 }
 
-TEST(BeltsFit, OnePlaceLeftOutIsAFitWithoutIt) {
+TEST(BeltsFit, LeftOutPlaceEqualsAFitWithoutIt) {
   SimulatedBelts set = simulate({.seed = 22, .columns = 4, .rows = 4});
   const auto fit = fit_belts(set.belts);
   ASSERT_TRUE(fit && fit->bad.empty());
@@ -157,7 +157,7 @@ TEST(BeltsFit, OnePlaceLeftOutIsAFitWithoutIt) {
   EXPECT_NEAR(fit->one_left_out.rms_mm, rms(residual_mm), 0.01);
 }
 
-TEST(BeltsFit, BeltsAloneKnowNoScaleAndATapeTellsIt) {
+TEST(BeltsFit, NeedsATapeForTheScale) {
   SimulatedBelts set = simulate({.seed = 31});
   EXPECT_FALSE(fit_belts(set.belts)->scale);
   // All readings 1.005 times as long: the frame, and the spread, 1.005 times as large.
@@ -183,7 +183,7 @@ TEST(BeltsFit, BeltsAloneKnowNoScaleAndATapeTellsIt) {
   EXPECT_GT(taped->scale->sigma, 2e-4);
 }
 
-TEST(BeltsFit, TheDistanceThatIsProposedTellsTheScaleAsWellAsItSaysAndNoAnchorsTellItBetter) {
+TEST(BeltsFit, ProposesTheBestDistanceForTheScale) {
   for (const bool known : {true, false}) {
     for (const int columns : {3, 9}) {
       SCOPED_TRACE(testing::Message() << "anchors known " << known << ", columns " << columns);
@@ -243,7 +243,7 @@ TEST(BeltsFit, FindsTheScaleFromTapesBetweenAnchorsPointsAndHoles) {
   EXPECT_NEAR(scale_of(CutHole{left}, CutHole{right}, hole(left), hole(right)), kTrueScale, kTolerance);
 }
 
-TEST(BeltsFit, ATapeThatContradictsTheBeltsDoesNotMakeThemSeemLessSure) {
+TEST(BeltsFit, AContradictoryTapeDoesNotWidenTheBeltsSigmas) {
   SimulatedBelts set = simulate({.seed = 32});
   const auto alone = fit_belts(set.belts);
   const auto& a = set.truth.anchors;
@@ -258,7 +258,7 @@ TEST(BeltsFit, ATapeThatContradictsTheBeltsDoesNotMakeThemSeemLessSure) {
   EXPECT_GT(fit->scale->residuals_mm[1] - fit->scale->residuals_mm[0], 10.0);
 }
 
-TEST(BeltsFit, OneBadReadingOfFewPlacesIsNamedAndNotItsPlace) {
+TEST(BeltsFit, NamesTheReadingNotThePlaceWhenPlacesAreFew) {
   SimulatedBelts set = simulate({.seed = 33, .columns = 3, .rows = 3, .noise_mm = 0.2});
   set.belts.points[4].lengths_mm.tl += 80.0;
   const auto fit = fit_belts(set.belts);
@@ -269,7 +269,7 @@ TEST(BeltsFit, OneBadReadingOfFewPlacesIsNamedAndNotItsPlace) {
   EXPECT_TRUE(fit->bad_points.empty());
 }
 
-TEST(BeltsFit, WhatCannotBeFittedHasAReasonAndASentence) {
+TEST(BeltsFit, RefusesUnfittableDataWithAReason) {
   using Reason = BeltsFitFailure::Reason;
   SimulatedBelts set = simulate({.seed = 41, .columns = 4, .rows = 4});
   MeasuredBelts few = set.belts;

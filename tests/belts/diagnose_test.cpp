@@ -98,12 +98,12 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
   EXPECT_LT(found.belts->prediction->rms_mm, found.belts->prediction_before->rms_mm);
 }
 
-TEST(BeltsDiagnosis, NamesNothingWhereNothingIsWrong) {
+TEST(BeltsDiagnosis, NamesNothingOnASoundMachine) {
   const Diagnosis found = diagnosed(measured_in({.hidden = {}, .seed = 1}));
   EXPECT_TRUE(found.causes.empty()) << "seed 1: " << found.sentence;
 }
 
-TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
+TEST(BeltsDiagnosis, NamesABadReadingByPointAndBelt) {
   for (const bool stretched : {false, true}) {
     Session session;
     if (stretched) session.hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
@@ -124,7 +124,7 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
   }
 }
 
-TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherOfTheOtherBeltsMayBeTheBadOne) {
+TEST(BeltsDiagnosis, CannotTellWhichBeltIsBadBetweenTwoAnchors) {
   MeasuredBelts belts = measured_in({});
   // The middle of the 9 x 9 points is on the line from the top right to the bottom left anchor.
   belts.points[40].lengths_mm.tl += 20.0;
@@ -137,7 +137,7 @@ TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherOfTheOtherBeltsMayBeTheBadO
   EXPECT_THAT(found.sentence, HasSubstr("at point 41, or the "));
 }
 
-TEST(BeltsDiagnosis, APlaceOfWhichSeveralReadingsAreOffIsBadAsAWhole) {
+TEST(BeltsDiagnosis, RejectsAPlaceWithSeveralBadReadings) {
   MeasuredBelts belts = measured_in({});
   // No other position makes one belt of a side longer and the other shorter.
   belts.points[40].lengths_mm.tr += 40.0;
@@ -148,14 +148,14 @@ TEST(BeltsDiagnosis, APlaceOfWhichSeveralReadingsAreOffIsBadAsAWhole) {
   EXPECT_FALSE(found.outliers[0].belt);
 }
 
-TEST(BeltsDiagnosis, LengthsThatLeaveTheArmsOutSaySo) {
+TEST(BeltsDiagnosis, ReportsLengthsThatExcludeTheArms) {
   MeasuredBelts belts = measured_in({.hidden = {{"belt_zero", "all", {{"offset_mm", -153.4}}}}});
   const Diagnosis found = diagnosed(belts);
   ASSERT_FALSE(found.causes.empty()) << found.sentence;
   EXPECT_THAT(found.what_to_do.front(), HasSubstr("leave arm and extension out"));
 }
 
-TEST(BeltsDiagnosis, WhatNoBeltShowsIsNotTestableAndSaysWhatWould) {
+TEST(BeltsDiagnosis, UntestableCausesNameTheMeasurementThatTestsThem) {
   MeasuredBelts belts = measured_in({});
   for (auto& point : belts.points) point.order.reset();
   const Diagnosis found = diagnosed(belts);
@@ -170,7 +170,7 @@ TEST(BeltsDiagnosis, WhatNoBeltShowsIsNotTestableAndSaysWhatWould) {
   EXPECT_THAT(reason("anchor_moved", "all"), HasSubstr("from two edges of the sheet"));
 }
 
-TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {
+TEST(BeltsDiagnosis, TheFileHoldsTheWholeDiagnosis) {
   const Diagnosis found =
       diagnosed(measured_in({.hidden = {{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}}));
   const std::string text = files::write_diagnosis(found);
@@ -183,7 +183,7 @@ TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {
 
 // A skip near the noise: a likely cause is not also reported absent, and no places are proposed
 // that achieve almost nothing.
-TEST(BeltsDiagnosis, WhatMayActIsNotAbsent) {
+TEST(BeltsDiagnosis, DoesNotCallAPossibleCauseAbsent) {
   int likely = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -212,7 +212,7 @@ TEST(BeltsDiagnosis, WhatMayActIsNotAbsent) {
   EXPECT_GT(likely, 0) << "no set in which a skip was likely: nothing was tested";
 }
 
-TEST(BeltsDiagnosis, FailsInTheWordsOfTheFit) {
+TEST(BeltsDiagnosis, FailsWithTheMessageOfTheFit) {
   MeasuredBelts belts = measured_in({});
   belts.points.resize(4);
   const auto found = diagnosis::diagnose(belts);
@@ -221,7 +221,7 @@ TEST(BeltsDiagnosis, FailsInTheWordsOfTheFit) {
 }
 
 // With the causes only this uncertainty remains of the tool's error.
-TEST(BeltsDiagnosis, WhatTheReadingsLeaveUncertainIsInEveryErrorOfTheTool) {
+TEST(BeltsDiagnosis, ErrorsOfTheToolIncludeTheirUncertainty) {
   const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
   const Diagnosis found = diagnosed(read.belts);
   EXPECT_GT(found.belts->tool.after_mm, 0.0);
@@ -229,7 +229,7 @@ TEST(BeltsDiagnosis, WhatTheReadingsLeaveUncertainIsInEveryErrorOfTheTool) {
   EXPECT_GE(found.belts->tool.stated_mm, found.belts->tool.after_mm);
 }
 
-TEST(BeltsDiagnosis, APlaceThatIsProposedTwiceSaysSo) {
+TEST(BeltsDiagnosis, MarksAPlaceProposedTwice) {
   const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
   std::set<std::pair<double, double>> proposed;
   int repeated = 0;

@@ -69,7 +69,7 @@ TEST(LawsOfBelts, AWaveOfOneTurnIsFoundBesideTheStretch) {
   EXPECT_TRUE(is_said);
 }
 
-TEST(LawsOfBelts, EachPointStandsNextToTheCurve) {
+TEST(LawsOfBelts, EachPointIsNearTheCurve) {
   const Diagnosis found = diagnosed(with_wave(1.2));
   const Law& law = found.unexplained->laws.front();
   EXPECT_EQ(law.points.size() + found.outliers.size(), 31U);
@@ -82,7 +82,7 @@ TEST(LawsOfBelts, EachPointStandsNextToTheCurve) {
   EXPECT_LT(std::sqrt(square / static_cast<double>(law.points.size())), 0.6);
 }
 
-TEST(LawsOfBelts, NoneIsFoundWhereNoneIs) {
+TEST(LawsOfBelts, AreNotFoundWithoutOne) {
   const Diagnosis found = diagnosed(with_wave(0.0));
   ASSERT_TRUE(found.unexplained);
   EXPECT_THAT(found.unexplained->laws, IsEmpty());
@@ -102,7 +102,7 @@ TEST(LawsOfBelts, CausesAreComparedOnceMoreWithoutIt) {
   EXPECT_LT(given.estimate.noise_square, 0.5 * a.estimate.noise_square);
 }
 
-TEST(LawsOfBelts, NoFileIsMadeOfThem) {
+TEST(LawsOfBelts, WriteNoFile) {
   const Diagnosis found = diagnosed(with_wave(1.2));
   const auto written = declaration_of(found.unexplained->laws, model::Bed{});
   ASSERT_FALSE(written);

@@ -183,7 +183,7 @@ TEST(OneEstimator, EndsWhereNoAnchorAndNoPlaceLowersTheSumOfSquares) {
   }
 }
 
-TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
+TEST(OneEstimator, ConvergesFromACentimetreAway) {
   for (const NamedSet& set : every_set()) {
     if (!set.belts.distances.empty()) continue;
     SCOPED_TRACE(set.name);
@@ -215,7 +215,7 @@ TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
 // The estimator's loop for units rejects a place, whose two rows are one unit, and reduces the
 // weight of those beyond 95 of 100; the search for single readings keeps the other three of the
 // place.
-TEST(OneEstimator, TheLoopForUnitsRejectsThePlacesOfWhichAReadingIsRejected) {
+TEST(OneEstimator, RejectsPlacesWithARejectedReading) {
   for (const std::uint64_t seed : {11, 12}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     SimulatedBelts set = simulate({.seed = seed});

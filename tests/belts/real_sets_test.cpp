@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Sets,
                                          RealSet{"run_1", "ten_runs_1_to_5.txt", 1, 100, 1.12}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST_P(RealBelts, AnchorsAloneLeaveWhatAnotherProgramFoundThatTheyLeave) {
+TEST_P(RealBelts, AnchorsAloneLeaveThePublishedResiduals) {
   ASSERT_EQ(import_.belts.points.size(), GetParam().places);
   const auto fit = fit_belts(import_.belts);
   ASSERT_TRUE(fit) << fit.error().sentence();
@@ -70,7 +70,7 @@ TEST_P(RealBelts, TheTwoConventionsOfThePrintDifferByLessThanTheHeights) {
   }
 }
 
-TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
+TEST(RealBeltSets, HalfOfARebuiltFramePredictsTheOther) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "frame_rebuilt.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
@@ -81,7 +81,7 @@ TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
   EXPECT_NEAR(fit->half_left_out->rms_mm, 1.92, 0.05);
 }
 
-TEST(RealBeltSets, SixPlacesOfAStartAreFittedAndSaidToBeUncertain) {
+TEST(RealBeltSets, SixPlacesAreFittedWithLargeSigmas) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "clbm_2026-01.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";

@@ -47,7 +47,7 @@ TEST(SimulatedBelts, EveryCauseShowsInWhatFiveAnchorsLeave) {
   }
 }
 
-TEST(SimulatedBelts, BadReadingsAreFound) {
+TEST(SimulatedBelts, RevealBadReadings) {
   synthetic::BeltsSpec spec;
   spec.bad_readings = 3;
   spec.seed = 5;

@@ -39,7 +39,7 @@ double off_mm(const SimulatedHoles& truth, const BeltsFit& fit) {
   return std::sqrt(off.squaredNorm() / static_cast<double>(off.size()));
 }
 
-TEST(StretchWithHoles, FitFindsTheStretchAndTheUnstretchedFrame) {
+TEST(StretchWithHoles, FindsTheStretchAndTheUnstretchedFrame) {
   const SimulatedHoles truth = stretched(1);
   const auto alone = fit_belts_and_holes(truth.belts, {truth.holes});
   const auto counted = diagnosis::fit_with_causes_and_holes(truth.belts, {truth.holes});

@@ -35,7 +35,7 @@ MeasuredBelts stretched_and_taped() {
   return belts;
 }
 
-TEST(BeltsDiagnosis, CountsAStretchOnceInTheScale) {
+TEST(BeltsDiagnosis, CountsAStretchInTheScaleOnce) {
   const MeasuredBelts belts = stretched_and_taped();
   const auto found = diagnosis::diagnose(belts);
   ASSERT_TRUE(found);

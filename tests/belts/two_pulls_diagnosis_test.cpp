@@ -34,7 +34,7 @@ TEST(TwoPulls, APassHasItsPullAndVisitsAreNumberedOn) {
   }
 }
 
-TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
+TEST(TwoPulls, NameWhatOnePullLeavesOpen) {
   // Weak enough that other anchors, a belt's scale or the stretch do nearly the same.
   const std::vector<model::AppliedEffect> flex = {{"anchor_flex", "", {{"give_mm", 2.0}}}};
   const Diagnosis one = diagnosis::diagnose(measured(flex, {}, 0.5, 3)).value();
@@ -48,7 +48,7 @@ TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
               3.0 * two.causes.front().parameters.front().sigma);
 }
 
-TEST(TwoPulls, OnceTheSecondPassWasMadeThereIsNoneToPropose) {
+TEST(TwoPulls, ProposesNoThirdPass) {
   const Diagnosis two = diagnosis::diagnose(
       measured({{"anchor_flex", "", {{"give_mm", 0.2}}}}, {1.0, kHarder}, 0.5, 3)).value();
   EXPECT_FALSE(two.belts->second_pass);

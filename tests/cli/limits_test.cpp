@@ -86,7 +86,7 @@ class Limits : public testing_support::CommandFixture {
   }
 };
 
-TEST_F(Limits, HoldForEveryKindOfFile) {
+TEST_F(Limits, ApplyToEveryKindOfFile) {
   for (const Flood& flood : floods()) {
     std::string text = flood.head;
     for (std::size_t i = 0; text.size() < kAlmostTooLarge; ++i) text += flood.line(i);

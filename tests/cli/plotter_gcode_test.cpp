@@ -186,7 +186,7 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
   EXPECT_EQ(plain.code, 1);
 }
 
-TEST_F(PlotterGcode, FluidNcTakesTheSameRoad) {
+TEST_F(PlotterGcode, FluidNcGetsTheSameProgram) {
   fit("fluidnc");
   ASSERT_EQ(run("square --map found.json --size-mm 300 --at 450 200 --gcode square.gcode").code, 0);
   const Outcome made = run("gcode compensate square.gcode --map found.json -o true.gcode --report path.html" + kSteep);

@@ -118,7 +118,7 @@ class Plotter : public testing_support::CommandFixture {
   }
 };
 
-TEST_F(Plotter, AMuralsZero23MmOffIsNamedAndTheNextPageBowsUnder1Mm) {
+TEST_F(Plotter, DiagnosisAndNewSettingsStraightenAMural) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Json drawing = first_drawing(seed);
@@ -149,7 +149,7 @@ TEST_F(Plotter, AMuralsZero23MmOffIsNamedAndTheNextPageBowsUnder1Mm) {
   }
 }
 
-TEST_F(Plotter, TheFixtureIsAPageOfThisMural) {
+TEST_F(Plotter, FixtureIsAPageOfThisMural) {
   EXPECT_EQ(Json::parse(content_of(CHAINTRUE_FIXTURES "/plotter/mural_drawing.json"))["measures"],
             first_drawing(1)["measures"])
       << first_drawing(1).dump(1);

@@ -27,7 +27,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::StartsWith;
 
-TEST(ProgressState, SaysHowMuchIsDoneAndHowLongTheStepWillTakeYet) {
+TEST(ProgressState, ReportsShareAndTimeLeft) {
   double now_s = 100.0;
   cli::ProgressState state([&now_s] { return now_s; });
   state.begin("sweep");
@@ -106,7 +106,7 @@ grid::MeasuredGrid demo_grid() {
   return grid::files::read_grid(CHAINTRUE_FIXTURES "/grids/seven_by_four.json").grid;
 }
 
-TEST(LongWork, OfAFitAndACheckTellsEachStep) {
+TEST(LongWork, OfAFitAndACheckReportsEachStep) {
   Told fitted, checked;
   grid::FitOptions options;
   options.progress = fitted.progress();
@@ -118,7 +118,7 @@ TEST(LongWork, OfAFitAndACheckTellsEachStep) {
   EXPECT_GT(checked.steps[1].share, 0.9);  // 33 of 34 points
 }
 
-TEST(LongWork, OfADiagnosisTellsEachStep) {
+TEST(LongWork, OfADiagnosisReportsEachStep) {
   Told told;
   grid::diagnosis::DiagnosisOptions options;
   options.progress = told.progress();
@@ -126,7 +126,7 @@ TEST(LongWork, OfADiagnosisTellsEachStep) {
   EXPECT_THAT(told.numbers(), ElementsAre(1, 2, 3, 4));
 }
 
-TEST(LongWork, OfAPlanAndASimulationTellsItsShare) {
+TEST(LongWork, OfAPlanAndASimulationReportsItsShare) {
   Told planned, read;
   grid::HolesPlanRequest request;
   request.progress = planned.progress();

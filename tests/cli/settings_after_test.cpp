@@ -221,7 +221,7 @@ double stated_mm(const std::string& talk) {
   return at == std::string::npos ? std::nan("") : std::stod(talk.substr(at + words.size()));
 }
 
-TEST_P(SettingsAfter, TheMapAfterIsRightAndTheOneBeforeIsNot) {
+TEST_P(SettingsAfter, OnlyTheNewMapIsRight) {
   const double stated =
       stated_mm(succeed("gcode compensate part.nc --map map.after.json -o after.nc"));
   succeed("gcode compensate part.nc --map map.json -o before.nc");

@@ -48,7 +48,7 @@ class Terminal : public testing_support::CommandFixture {
 };
 
 // Ten million rows, written as they are computed: no machine is done before the first word.
-TEST_F(Terminal, ControlCStopsWhatIsShownAndLeavesNothingBehind) {
+TEST_F(Terminal, ControlCStopsAndClearsTheProgress) {
   write("b.nc", "G21 G90\nG0 X-1000 Y0\nG1 X1000 Y0 F500\nM2\n");
   ASSERT_EQ(run("fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o m.json").code, 0);
   const Seen screen =

@@ -76,7 +76,7 @@ TEST(BeltEffects, EachEquationByHand) {
   EXPECT_EQ(added(anchor_moved, EffectSide::bl, {3.0, 0.0, 13.0}, held), 0.0);
 }
 
-TEST(BeltEffects, BeltsThatHoldGiveByWhatTheyCarry) {
+TEST(BeltEffects, HoldingBeltsStretchByTheirTension) {
   const BeltMachine machine = frame(BeltLengths::belt);
   const FramePoint place{900.0, 600.0};
   const PerBelt<double> tension = tensions_of(machine, kLowerBeltsPulled, 1.6, place);
@@ -93,7 +93,7 @@ TEST(BeltEffects, BeltsThatHoldGiveByWhatTheyCarry) {
   }
 }
 
-TEST(BeltEffects, ALevelPrintTakesOutTheHeightsThatTheMachineBelieves) {
+TEST(BeltEffects, ALevelPrintRemovesTheConfiguredHeights) {
   const BeltMachine machine = frame(BeltLengths::span);
   const FramePoint place{900.0, 600.0};
   const BeltVisit visit{Belt::bl, kLowerBeltsPulled, 0};

@@ -99,7 +99,7 @@ TEST_P(BeltKinematicsLaws, TheSpanOfALengthIsTheDistanceFromTheAnchor) {
 
 // With the firmware's names: a and b to the corner, c down to the belt's end, arm and extension
 // subtracted from the horizontal length; before October 2024 from the slanting length.
-TEST(BeltKinematics, LengthsAreThoseOfThePublishedFirmware) {
+TEST(BeltKinematics, LengthsMatchThePublishedFirmware) {
   BeltMachine machine = plain();
   machine.surface_mm = 18.0;
   const FramePoint place{1000.0, 700.0};
@@ -135,7 +135,7 @@ TEST(BeltKinematics, CommandsCountFromWhereTheDiagonalsCross) {
   EXPECT_NEAR(at.y_mm - centre.y_mm, -299.7, 1e-11);
 }
 
-TEST(BeltKinematics, WhatCannotBeHasAName) {
+TEST(BeltKinematics, NamesImpossiblePlaces) {
   BeltMachine machine = plain();
   machine.lengths = BeltLengths::belt;
   EXPECT_EQ(lengths_at(machine, {-27.6, 2000.0}).error(), BeltReason::inside_the_arm);

@@ -48,7 +48,7 @@ bool all_taut(const PerBelt<double>& tension) {
   return tension.tl > 0.0 && tension.tr > 0.0 && tension.bl > 0.0 && tension.br > 0.0;
 }
 
-TEST(BeltTensions, TwoThatHoldBalanceTheTwoThatArePulledAndTheWeight) {
+TEST(BeltTensions, TwoHoldingBeltsBalanceTheTwoPulledAndTheWeight) {
   int taut = 0;
   for (const Orientation orientation : {Orientation::upright, Orientation::flat}) {
     const BeltMachine machine = frame(orientation);
@@ -72,7 +72,7 @@ TEST(BeltTensions, TwoThatHoldBalanceTheTwoThatArePulledAndTheWeight) {
   EXPECT_GE(taut, 80);
 }
 
-TEST(BeltTensions, InTheMiddleOfAFlatFrameAllCarryAboutThePull) {
+TEST(BeltTensions, AreAllNearThePullInTheMiddleOfAFlatFrame) {
   const PerBelt<double> tension =
       tensions_of(frame(Orientation::flat), kLowerBeltsPulled, 1.0, {1462.0, 1033.0});
   // The belts' heights differ, 3 % of their length.
@@ -80,7 +80,7 @@ TEST(BeltTensions, InTheMiddleOfAFlatFrameAllCarryAboutThePull) {
   EXPECT_NEAR(tension.tr, 1.0, 0.01);
 }
 
-TEST(BeltTensions, WithoutAPullNothingIsKnown) {
+TEST(BeltTensions, AreUnknownWithoutAPull) {
   const BeltTensions none = tensions_at(frame(Orientation::upright), {}, 1.0, {1462.0, 1033.0});
   for (const Belt belt : kBelts) {
     EXPECT_EQ(none.tension[belt], 0.0);
@@ -89,7 +89,7 @@ TEST(BeltTensions, WithoutAPullNothingIsKnown) {
   EXPECT_THROW((void)tensions_of(BeltMachine{}, kLowerBeltsPulled, 1.0, {}), std::logic_error);
 }
 
-TEST(BeltTensions, OneThatHoldsCarriesWhatIsAlongItAndThreeTheLeast) {
+TEST(BeltTensions, OneHoldingBeltCarriesTheForceAlongIt) {
   const BeltMachine machine = frame(Orientation::flat);
   const FramePoint place{1500.0, 1000.0};
   const PerBelt<double> one = tensions_of(machine, kOneHolds, 1.0, place);
@@ -102,7 +102,7 @@ TEST(BeltTensions, OneThatHoldsCarriesWhatIsAlongItAndThreeTheLeast) {
   for (const Belt belt : kBelts) EXPECT_LE(three[belt], 1.0);
 }
 
-TEST(BeltTensions, BetweenTwoAnchorsThatHoldTheyAreLimited) {
+TEST(BeltTensions, AreLimitedBetweenTwoHoldingAnchors) {
   const BeltMachine machine = frame(Orientation::upright);
   for (const double y : {2064.0, 2065.7, 2066.0, 2080.0}) {
     const PerBelt<double> tension = tensions_of(machine, kLowerBeltsPulled, 1.0, {1500.0, y});

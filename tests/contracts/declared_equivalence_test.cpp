@@ -48,7 +48,7 @@ const Effect* built_in_of(const Effect& own) {
 /// Rounding of lengths of 3000 mm, a few times.
 constexpr double kRoundingMm = 1e-11;
 
-TEST(DeclaredEquivalence, EveryEffectThatFormulasCanWriteIsThere) {
+TEST(DeclaredEquivalence, CoversEveryFormulaicEffect) {
   std::size_t written = 0;
   for (const Effect* effect : catalogue()) written += effect->station != Station::machine ? 1 : 0;
   EXPECT_EQ(catalogue_in_files().size(), written);
@@ -112,7 +112,7 @@ TEST(DeclaredEquivalence, ReadsAsTheBuiltInOnesTogetherDo) {
   EXPECT_LE(largest_difference(session(with_files), session(with_built_in)), kRoundingMm);
 }
 
-TEST(DeclaredExamples, AreThoseOfThePage) {
+TEST(DeclaredExamples, MatchThePage) {
   const std::string fixtures = CHAINTRUE_FIXTURES;
   const std::string page = grid::files::read_whole_file(fixtures + "/../docs/effects.md");
   for (const char* file :

@@ -146,7 +146,7 @@ TEST_P(EffectContract, AWholeNumberIsMisreadInProportion) {
   }
 }
 
-TEST_P(EffectContract, StandsAtExactlyOneStation) {
+TEST_P(EffectContract, HasExactlyOneStation) {
   const Effect& e = effect();
   const int paper = e.write != nullptr;
   const int machine = e.alter != nullptr;

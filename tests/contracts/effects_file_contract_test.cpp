@@ -13,7 +13,7 @@
 namespace chaintrue::model::effects {
 namespace {
 
-TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
+TEST(EffectFileContract, EveryEffectRoundTrips) {
   Machine declaring;
   declaring.declared = declared_examples();
   for (const Effect* effect : listed_effects(declaring)) {
@@ -41,7 +41,7 @@ TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
 }
 
 // Bad effects in files are in tests/cli/cases/machine_files.cases.
-TEST(EffectsOfAMachine, AreABrokenPreconditionWhereTheyCannotBe) {
+TEST(EffectsOfAMachine, ImpossibleOnesBreakAPrecondition) {
   Machine machine;
   machine.effects = {{"side_pull", "", {{"force_n", std::numeric_limits<double>::quiet_NaN()}}}};
   EXPECT_THROW(ReadingModel{machine}, std::invalid_argument);

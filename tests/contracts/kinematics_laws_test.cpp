@@ -309,7 +309,7 @@ TEST_P(KinematicsLaws, LengthsScaledTogetherScaleTheChains) {
 }
 
 // Newton on inverse from anywhere on the bed ends at the unique point with these lengths.
-TEST_P(KinematicsLaws, AnyStartLeadsToTheSamePoint) {
+TEST_P(KinematicsLaws, TheSolutionDoesNotDependOnTheStart) {
   BedPoints points(kSeed + 6);
   for (int n = 0; n < 20; ++n) {
     const BedPoint target = points.next();
@@ -361,7 +361,7 @@ TEST_P(KinematicsLaws, LengthsAreContinuousAlongPaths) {
   }
 }
 
-TEST_P(KinematicsLaws, WhatIsNoPoseIsNamed) {
+TEST_P(KinematicsLaws, NameImpossiblePoses) {
   const double y = std::max(parameters().motors.left.y_mm, parameters().motors.right.y_mm);
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();

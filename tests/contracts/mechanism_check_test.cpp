@@ -120,7 +120,7 @@ class CalibratedMechanism : public testing::TestWithParam<Hung> {
   }
 };
 
-TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
+TEST_P(CalibratedMechanism, MapsForwardAndInverse) {
   Random random(1, 17);
   const FittedMechanism fit = fitted(GetParam(), random);
   const model::MechanismExtent e = fit.mechanism->extent();
@@ -150,7 +150,7 @@ TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
   EXPECT_EQ(beyond.error(), MapReason::outside_map);
 }
 
-TEST_P(CalibratedMechanism, ItsMapsSigmasAreThoseOfItsParameters) {
+TEST_P(CalibratedMechanism, SigmasFollowFromItsParameters) {
   Random random(2, 17);
   const FittedMechanism fit = fitted(GetParam(), random);
   const model::ToolPosition at = fit.mechanism->extent().centre();
@@ -194,25 +194,25 @@ std::array<int, 3> verdicts(const Hung& hung,
 // twenty.
 constexpr int kMostWrong = 4;
 
-TEST_P(CalibratedMechanism, FreshReadingsSayThatItIsStillValid) {
+TEST_P(CalibratedMechanism, FreshReadingsConfirmIt) {
   const auto count =
       verdicts(GetParam(), [](auto& random) { return fitted(GetParam(), random); }, nullptr, 0.0);
   EXPECT_GE(count[0], kSets - kMostWrong) << "seeds 1 to " << kSets;
 }
 
-TEST_P(CalibratedMechanism, AZeroThatShiftedIsMendedByReZeroing) {
+TEST_P(CalibratedMechanism, ProposesRezeroingForAShiftedZero) {
   const auto count =
       verdicts(GetParam(), [](auto& random) { return fitted(GetParam(), random); }, nullptr, 5.0);
   EXPECT_GE(count[1], kSets - kMostWrong) << "seeds 1 to " << kSets;
 }
 
-TEST_P(CalibratedMechanism, WhatNoZeroMendsIsToBeMeasuredAgain) {
+TEST_P(CalibratedMechanism, AsksForNewMeasurementsWhereRezeroingFails) {
   const auto count = verdicts(
       GetParam(), [](auto& random) { return fitted(GetParam(), random); }, GetParam().moved, 0.0);
   EXPECT_GE(count[2], kSets - kMostWrong) << "seeds 1 to " << kSets;
 }
 
-TEST_P(CalibratedMechanism, AReadingThatIsWrongByItselfIsNamed) {
+TEST_P(CalibratedMechanism, NamesASingleBadReading) {
   Random random(3, 29);
   const FittedMechanism fit = fitted(GetParam(), random);
   auto places = read(*GetParam().make(), 3, 2, GetParam().some_unknown, random);

@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Every,
                          testing::ValuesIn(every_mechanism()),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST_P(MechanismContract, ItHasItsWordsAndItsShapes) {
+TEST_P(MechanismContract, HasNamesAndDimensions) {
   const MechanismPtr mechanism = GetParam().make();
   EXPECT_FALSE(mechanism->kind().empty());
   const auto lengths = mechanism->lengths();
@@ -133,7 +133,7 @@ TEST_P(MechanismContract, ParametersAtTheirValuesChangeNothing) {
     EXPECT_EQ(moved->parameters()[i].stated, mechanism->parameters()[i].stated);
 }
 
-TEST_P(MechanismContract, FailuresAreNamed) {
+TEST_P(MechanismContract, NamesFailures) {
   const MechanismPtr mechanism = GetParam().make();
   const auto is_named = [](const MechanismFailure& failure) {
     return !failure.sentence().empty() && !failure.reason.name.empty() &&
@@ -172,7 +172,7 @@ TEST_P(MechanismContract, ItsMirrorImageHasTheMirroredLengths) {
   }
 }
 
-TEST(BeltMechanismTest, AnchorsThatNobodyKnowsHaveNoLengthsUntilTheyAreFound) {
+TEST(BeltMechanismTest, UnknownAnchorsHaveNoLengths) {
   BeltMachine machine = four_belts(BeltLengths::span);
   machine.anchors_known = false;
   const auto mechanism = make_belt_mechanism(machine);

@@ -65,7 +65,7 @@ Analysis analysed(double knot_mm) {
 }
 
 /// A knot acts like a zero error of ten sigmas of 2 mm.
-TEST(MechanismDiagnosis, TheEffectOfAToyIsNamedWithItsSize) {
+TEST(MechanismDiagnosis, NamesTheEffectOfAToyWithItsSize) {
   const Analysis a = analysed(20.0);
   EXPECT_EQ(a.decision.verdict, Verdict::named) << "seed " << kSeed;
   const std::vector<Cause> causes = causes_found(a);
@@ -75,7 +75,7 @@ TEST(MechanismDiagnosis, TheEffectOfAToyIsNamedWithItsSize) {
   EXPECT_NEAR(causes.front().parameters.front().value, 20.0, 8.0) << "seed " << kSeed;
 }
 
-TEST(MechanismDiagnosis, NothingIsNamedOfAToyThatIsAsItIsSet) {
+TEST(MechanismDiagnosis, NamesNothingOnASoundToy) {
   const Analysis a = analysed(0.0);
   EXPECT_EQ(a.decision.verdict, Verdict::nothing_found) << "seed " << kSeed;
   EXPECT_THAT(causes_found(a), IsEmpty());

@@ -91,7 +91,7 @@ TEST(MechanismEstimate, AToyIsCalibratedFromLengthsAtKnownPositions) {
   EXPECT_NEAR(found.noise / (kNoiseMm * kNoiseMm), 1.0, 4.0 * std::sqrt(2.0 / (69.0 * kSets)));
 }
 
-TEST(MechanismEstimate, FourBeltsAreCalibratedFromLengthsAtPositionsThatNobodyMeasured) {
+TEST(MechanismEstimate, CalibratesFourBeltsFromUnmeasuredPositions) {
   constexpr int kSets = 60;
   model::BeltMachine machine;
   machine.anchors_known = true;

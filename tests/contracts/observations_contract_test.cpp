@@ -231,7 +231,7 @@ class EveryObservation : public testing::TestWithParam<const Kind*> {
 
 constexpr Columns kAllColumns{.parameters = true, .sheet = true};
 
-TEST_P(EveryObservation, UnitsCoverTheRowsAndSpeak) {
+TEST_P(EveryObservation, UnitsCoverTheRowsAndHaveDescriptions) {
   const auto observation = simulated();
   EXPECT_EQ(&observation->kind(), GetParam());
   EXPECT_EQ(observation->measured().size(), observation->rows());
@@ -299,7 +299,7 @@ class AtOnePlace final : public LengthCorrection {
   model::ChainLengths c_;
 };
 
-TEST_P(EveryObservation, WhatIsPaidOutMovesAUnitAsItsColumnsSay) {
+TEST_P(EveryObservation, CommandedLengthsMoveAUnitAsItsColumns) {
   const auto observation = simulated();
   const auto line = observation->linearise(as_stated(), {});
   ASSERT_TRUE(line);

@@ -148,7 +148,7 @@ TEST_P(SurfaceContract, GivesTheSameBitsInAnyThread) {
   }
 }
 
-TEST_P(SurfaceContract, RefusesWhatIsNoGrid) {
+TEST_P(SurfaceContract, RefusesInvalidGrids) {
   const auto build = GetParam().build;
   const Eigen::MatrixXd z = Eigen::MatrixXd::Zero(3, 3);
   Eigen::MatrixXd hole = z;

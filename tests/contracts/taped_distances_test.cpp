@@ -93,7 +93,7 @@ TEST(TapedDistances, DerivativesAreThoseOfDifferences) {
   }
 }
 
-TEST(TapedDistances, OneThatCannotBeReachedHasAName) {
+TEST(TapedDistances, UnreachableOnesAreNamed) {
   const MechanismPtr mechanism = belts();
   AtHole nowhere = hole(*mechanism, 0.5, 0.5);
   nowhere.lengths_mm.head<2>().setConstant(200.0);
@@ -140,14 +140,14 @@ TEST(TapedDistances, JoinPlacesToABlockWithARowMoreThanTheyLeaveAlone) {
   EXPECT_LT((with.measured() - line->predicted).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(TapedDistances, AnEndAtWhichTooFewLengthsCountSaysNothing) {
+TEST(TapedDistances, AnEndWithTooFewLengthsTellsNothing) {
   Taped set = taped();
   set.places[2].counting = {true, false, false, false};
   const BeltLengthReadings with(set.places, false, {.length_mm = 0.5}, 15.0, set.distances);
   EXPECT_EQ(with.rows(), 4);
 }
 
-TEST(TapedDistances, ToAPositionThatIsGivenThrows) {
+TEST(TapedDistances, ToAKnownPositionThrow) {
   const Taped set = taped();
   const model::ToolPosition given = within(*set.mechanism, 0.8, 0.8);
   std::vector<LengthsAtPlace> known = set.places;

@@ -59,7 +59,7 @@ double share_of_patterns(const ModelComparison& comparison) {
   return sum;
 }
 
-TEST(BedParts, EachOfSixteenIsAQuarterOnOneSide) {
+TEST(BedParts, EachHasAQuarterOfTheReadingsOnOneSide) {
   const Analysis a = analysed(session_of({}, 1));
   const auto parts = parts_of_all(a);
   ASSERT_EQ(parts.size(), 16U);
@@ -86,7 +86,7 @@ TEST(BedParts, EachOfSixteenIsAQuarterOnOneSide) {
   EXPECT_LT(*std::max_element(times.begin(), times.end()), 16);  // none is left out of all
 }
 
-TEST(BedParts, AreOfTheReadingsThatCount) {
+TEST(BedParts, UseTheReadingsThatCount) {
   const Analysis a = analysed(session_of({}, 1));
   std::vector<bool> excluded = nothing_rejected(a.system);
   excluded[3] = true;
@@ -94,13 +94,13 @@ TEST(BedParts, AreOfTheReadingsThatCount) {
     EXPECT_THAT(part.units, Not(Contains(3U)));
 }
 
-TEST(BedParts, ThereAreNoneOfTooFewReadings) {
+TEST(BedParts, NeedEnoughReadings) {
   const Analysis a = analysed(session_of({}, 1));
   EXPECT_TRUE(bed_parts(a.system, nothing_rejected(a.system), a.system.units.size()).empty());
 }
 
 // Of marks on two columns, what is left without one side is on one line for most of the directions.
-TEST(BedParts, NoPartLeavesALine) {
+TEST(BedParts, NeverLeaveALine) {
   const Analysis a = analysed(session_of({}, 1, 2, 7));
   for (const BedPart& part : parts_of_all(a)) {
     std::vector<double> x;
@@ -113,7 +113,7 @@ TEST(BedParts, NoPartLeavesALine) {
 }
 
 // With only noise and a cause the likelihood is right: nothing is averaged.
-TEST(Averaging, ChangesNothingWhereNoPatternStands) {
+TEST(Averaging, ChangesNothingWithoutAPattern) {
   const MeasuredGrid grid = session_of({kLongLeftOfParts}, 5);
   const Analysis whole = analysed(grid, false);
   const Analysis averaged = analysed(grid);
@@ -196,7 +196,7 @@ TEST(Averaging, SaysWhichQuarterDisagrees) {
   EXPECT_TRUE(parts_in_words(d).empty());
 }
 
-TEST(Sessions, SayWhatIsCommonAndWhatIsOneSessions) {
+TEST(Sessions, SeparateCommonAndSingleCauses) {
   Diagnosis d;
   d.verdict = Verdict::several_causes;
   const auto of = [](const char* session, double skew, double friction) {
@@ -213,7 +213,7 @@ TEST(Sessions, SayWhatIsCommonAndWhatIsOneSessions) {
                                  "not in D.json (2 %)")));
 }
 
-TEST(Sessions, ACopyOfAnotherIsRefused) {
+TEST(Sessions, RefuseACopy) {
   Measured both;
   both.add({"one.json", session_of({}, 11)});
   both.add({"two.json", session_of({}, 11)});
@@ -256,7 +256,7 @@ TEST(Sessions, TheOrderOfTheFirstIsFoundInItsReadings) {
 
 // If probabilities are averaged over parts of the bed, each session's are still those of its
 // readings.
-TEST(Sessions, AreWeighedByThemselvesBesideAPattern) {
+TEST(Sessions, AreWeighedSeparatelyWithAPattern) {
   const auto session = [](const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
     return with_ridge(session_of(hidden, seed, 8, 5), 1.5, 100.0);
   };

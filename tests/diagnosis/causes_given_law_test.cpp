@@ -47,7 +47,7 @@ Eigen::VectorXd rows_of_wave(const MeasuredGrid& without, const Analysis& a) {
   return rows;
 }
 
-TEST(CausesGivenLaw, AreThoseOfTheReadingsWithoutIt) {
+TEST(CausesGivenLaw, EqualThoseOfReadingsWithoutTheLaw) {
   const MeasuredGrid plain = with_friction(0.6);
   const Analysis without = analysed(plain);
   const Analysis with = analysed(with_wave(plain));
@@ -63,20 +63,20 @@ TEST(CausesGivenLaw, AreThoseOfTheReadingsWithoutIt) {
   EXPECT_NEAR(own.front().probability, asked.front().probability, 0.03);
 }
 
-TEST(CausesGivenLaw, OfNothingTakenOutTheVerdictStays) {
+TEST(CausesGivenLaw, KeepTheVerdictIfNothingIsRemoved) {
   const Analysis a = analysed(with_friction(0.6));
   const Analysis again = analyse_without(a, Eigen::VectorXd::Zero(a.system.e.size()), calibrated_rules());
   EXPECT_EQ(again.decision.verdict, a.decision.verdict);
   EXPECT_THAT(causes_that_change(a, again), IsEmpty());
 }
 
-TEST(CausesGivenLaw, WithoutAClaimedLawNothingIsTakenOut) {
+TEST(CausesGivenLaw, RemoveNothingWithoutAClaimedLaw) {
   const Analysis a = analysed(with_friction(0.6));
   EXPECT_FALSE(rows_of_claimed_law(a, laws_found(a)));
 }
 
 // A law alone: no cause has any evidence once it is known, and the comparison is not made again.
-TEST(CausesGivenLaw, WhereNoCauseCouldBeNamedTheyAreNotComparedAgain) {
+TEST(CausesGivenLaw, AreNotComparedWithoutANamedCause) {
   const Analysis a = analysed(with_half_turns(11));
   const LawsFound laws = laws_found(a);
   ASSERT_FALSE(laws.laws.empty());
@@ -86,7 +86,7 @@ TEST(CausesGivenLaw, WhereNoCauseCouldBeNamedTheyAreNotComparedAgain) {
 }
 
 // With friction as the law it is not a cause, and its probability is low.
-TEST(CausesGivenLaw, WhatOnlyTheLawMadeLikelyIsNoName) {
+TEST(CausesGivenLaw, DropANameThatOnlyTheLawMadeLikely) {
   Analysis a = analysed(with_friction(0.6));
   ASSERT_EQ(a.decision.listed.size(), 1U);
   const int column = a.decision.regressors.front();
@@ -104,7 +104,7 @@ TEST(CausesGivenLaw, WhatOnlyTheLawMadeLikelyIsNoName) {
 }
 
 // A little weaker than what is visible with the wave.
-TEST(CausesGivenLaw, WhatTheLawHidesIsSaid) {
+TEST(CausesGivenLaw, ReportWhatTheLawHides) {
   const Diagnosis found = diagnose(with_wave(with_friction(0.24)), testing_support::verdict_alone()).value();
   ASSERT_NE(claimed_law(found), nullptr);
   ASSERT_FALSE(found.unexplained->causes_given_law.empty()) << found.sentence;

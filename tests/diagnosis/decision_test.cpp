@@ -39,7 +39,7 @@ Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
   return decide(system, comparison, {}, true, classes);
 }
 
-TEST(Decision, ANamedCauseIsTheOneThatIsFitted) {
+TEST(Decision, FitsTheNamedCause) {
   // The first cause is likeliest as a single cause; the second has the largest total over all sets.
   const Decision found = decided({{{0}, 0.35}, {{1}, 0.31}, {{1, 2}, 0.20}, {{1, 3, 4}, 0.10}}, 5);
   ASSERT_EQ(found.verdict, Verdict::named);
@@ -47,7 +47,7 @@ TEST(Decision, ANamedCauseIsTheOneThatIsFitted) {
   EXPECT_EQ(found.regressors, std::vector<int>{1});
 }
 
-TEST(Decision, ANamedCauseThatNeverActsAloneIsFittedWithoutItsPartners) {
+TEST(Decision, FitsANamedCauseWithoutItsPartners) {
   const Decision found = decided({{{0}, 0.34}, {{1, 2}, 0.31}, {{1, 3, 4}, 0.31}}, 5);
   ASSERT_EQ(found.verdict, Verdict::named);
   EXPECT_EQ(found.listed, std::vector<std::size_t>{1});

@@ -50,7 +50,7 @@ std::string name_in_catalogue(const CauseId& cause) {
 
 class InPlaceOfTheCatalogue : public testing::TestWithParam<model::AppliedEffect> {};
 
-TEST_P(InPlaceOfTheCatalogue, GivesTheSameVerdictAndSizes) {
+TEST_P(InPlaceOfTheCatalogue, DeclaredEffectsGiveTheSameVerdictAndSizes) {
   MeasuredGrid grid = session_of({}, {GetParam()}, 41);
   const auto with_built_in = diagnose(grid, verdict_alone());
   grid.machine->declared = catalogue_in_files();

@@ -30,13 +30,13 @@ void expect_refused(const MeasuredGrid& grid,
   EXPECT_THAT(answer.error().sentence(), HasSubstr(words));
 }
 
-TEST(DiagnoseBadInput, TooFewPoints) {
+TEST(DiagnoseBadInput, RefusesTooFewPoints) {
   MeasuredGrid grid = session_of({}, 1);
   grid.points.resize(7);
   expect_refused(grid, DiagnosisFailure::Reason::too_few_points, "7 points are too few");
 }
 
-TEST(DiagnoseBadInput, NoNoiseAndNoRepeats) {
+TEST(DiagnoseBadInput, RefusesMissingNoiseWithoutRepeats) {
   MeasuredGrid grid = session_of({}, 1);
   grid.noise.reset();
   grid.points.resize(20);
@@ -48,7 +48,7 @@ TEST(DiagnoseBadInput, NoNoiseAndNoRepeats) {
   expect_refused(grid, DiagnosisFailure::Reason::no_noise, "measure at least six points twice");
 }
 
-TEST(DiagnoseBadInput, RepeatsStandInForStatedNoise) {
+TEST(DiagnoseBadInput, EstimatesMissingNoiseFromRepeats) {
   MeasuredGrid grid = session_of({}, 2);
   grid.noise.reset();
   const auto answer = diagnose(grid, {});
@@ -56,13 +56,13 @@ TEST(DiagnoseBadInput, RepeatsStandInForStatedNoise) {
   EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("by the marks that were measured twice")));
 }
 
-TEST(DiagnoseBadInput, NoMachine) {
+TEST(DiagnoseBadInput, RefusesAMissingMachine) {
   MeasuredGrid grid = session_of({}, 1);
   grid.machine.reset();
   expect_refused(grid, DiagnosisFailure::Reason::no_machine, "--machine");
 }
 
-TEST(DiagnoseBadInput, ReadingAgainstStatement) {
+TEST(DiagnoseBadInput, ReportsAReadingThatContradictsTheMachine) {
   MeasuredGrid grid = session_of({}, 1);
   grid.readings.push_back({ReadingOf::motor_spacing, "", 2900.0, 1.0});
   expect_refused(grid,
@@ -70,7 +70,7 @@ TEST(DiagnoseBadInput, ReadingAgainstStatement) {
                  "motor_spacing_mm is 2900, but the machine file has 2978.4");
 }
 
-TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {
+TEST(DiagnoseBadInput, ReportsTwoContradictoryReadings) {
   MeasuredGrid grid = session_of({}, 1);
   grid.readings.push_back({ReadingOf::link_pitch, "left", 6.350, 0.001});
   grid.readings.push_back({ReadingOf::link_pitch, "left", 6.370, 0.001});
@@ -79,7 +79,7 @@ TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {
                  "two readings of link_pitch_mm contradict each other");
 }
 
-TEST(DiagnoseBadInput, ExchangedColumnsAreSuspected) {
+TEST(DiagnoseBadInput, SuspectsSwappedColumns) {
   MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
   expect_refused(grid,
@@ -87,7 +87,7 @@ TEST(DiagnoseBadInput, ExchangedColumnsAreSuspected) {
                  "the columns left_mm and right_mm look swapped");
 }
 
-TEST(DiagnoseBadInput, InchesAreSuspected) {
+TEST(DiagnoseBadInput, SuspectsInches) {
   MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) {
     p.lengths = model::ChainLengths{p.lengths->left_mm / 25.4, p.lengths->right_mm / 25.4};
@@ -95,13 +95,13 @@ TEST(DiagnoseBadInput, InchesAreSuspected) {
   expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "look like inches");
 }
 
-TEST(DiagnoseBadInput, AxesTurnedRoundAreSuspected) {
+TEST(DiagnoseBadInput, SuspectsReversedAxes) {
   MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) p.mark.y_mm = -p.mark.y_mm;
   expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "y_mm looks counted downwards");
 }
 
-TEST(DiagnoseBadInput, AnotherMachineAltogether) {
+TEST(DiagnoseBadInput, RefusesAnotherMachine) {
   MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) {
     // The right chain of another machine: the calibration does not converge to a valid machine.

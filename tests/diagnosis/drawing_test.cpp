@@ -68,7 +68,7 @@ TEST(DrawingDiagnosis, ACauseThatNoSettingsMakeIsNamedWithItsSize) {
   EXPECT_THAT(found->sentence, HasSubstr("mm to the right"));
 }
 
-TEST(DrawingDiagnosis, ABadMeasureIsSetAsideByItsName) {
+TEST(DrawingDiagnosis, RejectsABadMeasureByName) {
   TestDrawing drawing = drawn_with(model::mural(1500.0), {}, 6);
   drawing.measures[3].value_mm += 10.0;
   const auto found = diagnose(drawing);
@@ -81,7 +81,7 @@ TEST(DrawingDiagnosis, ABadMeasureIsSetAsideByItsName) {
   EXPECT_THAT(found->sentence, HasSubstr(words_of(drawing, 3)));
 }
 
-TEST(DrawingDiagnosis, ASlipIsRefusedAsAFitRefusesIt) {
+TEST(DrawingDiagnosis, RefusesASlipAsTheFitDoes) {
   TestDrawing drawing = drawn_with(model::mural(1500.0), {}, 7);
   for (auto& m : drawing.measures) m.value_mm /= 25.4;
   const auto found = diagnose(drawing);

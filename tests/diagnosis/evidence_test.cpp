@@ -120,7 +120,7 @@ double brute_force(const RegressorSystem& system,
           brute_force_at(system, marginalised, lowest, with_cause, kWideSignalToNoise));
 }
 
-TEST(Evidence, OfNothingEqualsTheIntegral) {
+TEST(Evidence, WithoutACauseEqualsTheIntegral) {
   const RegressorSystem system = small_system(-100.0);
   const MarginalisedSystem marginalised = marginalise(system, {false, false, false});
   const NormalEquations equations = normal_equations(system, marginalised, {0});
@@ -131,7 +131,7 @@ TEST(Evidence, OfNothingEqualsTheIntegral) {
       << "settings integrated in closed form";
 }
 
-TEST(Evidence, OfACauseEqualsTheIntegral) {
+TEST(Evidence, WithACauseEqualsTheIntegral) {
   for (const double lowest : {-100.0, 0.0}) {
     const RegressorSystem system = small_system(lowest);
     const MarginalisedSystem marginalised = marginalise(system, {false, false, false});
@@ -188,7 +188,7 @@ TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
               1e-12);
 }
 
-TEST(Decision, NothingIsMoreThanCertain) {
+TEST(Decision, ProbabilitiesStayBelowOne) {
   const RegressorSystem system = small_system(-100.0);
   const std::vector<bool> none(3, false);
   ModelComparison comparison;
@@ -224,7 +224,7 @@ TEST(NullDistribution, HoldsItsSize) {
   EXPECT_GT(null.p_value(1e9), 0.0) << "never certain";
 }
 
-TEST(Comparison, OfNoModelsHasNoBest) {
+TEST(Comparison, HasNoBestWithoutModels) {
   EXPECT_THROW((void)ModelComparison{}.best(), std::invalid_argument);
 }
 

@@ -44,7 +44,7 @@ Diagnosis diagnosed(const MeasuredHoles& set, const DiagnosisOptions& options = 
 
 // Ninety-three distances for which Eigen's divide and conquer for singular values gave NaN, so that
 // no model remained.
-TEST(HolesDiagnosis, SingularValuesThatAreNearlyEqualAreNoMatter) {
+TEST(HolesDiagnosis, ToleratesNearlyEqualSingularValues) {
   const MeasuredHoles set =
       files::read_holes(CHAINTRUE_FIXTURES "/holes/thirty_holes.json").holes;
   const Diagnosis found = diagnosed(set);
@@ -60,7 +60,7 @@ void expect_refused(const MeasuredHoles& set,
   EXPECT_THAT(found.error().sentence(), HasSubstr(words));
 }
 
-TEST(HolesDiagnosisBadInput, TooFewDistancesSayWhichAreMissing) {
+TEST(HolesDiagnosisBadInput, NamesTheMissingDistances) {
   MeasuredHoles set = holes({}, 1);
   set.distances.resize(6);
   expect_refused(set,
@@ -69,7 +69,7 @@ TEST(HolesDiagnosisBadInput, TooFewDistancesSayWhichAreMissing) {
                  "twenty distances are a good start. Measure also ");
 }
 
-TEST(HolesDiagnosisBadInput, AHookThatWasForgotten) {
+TEST(HolesDiagnosisBadInput, ReportsAForgottenHookOffset) {
   MeasuredHoles set = holes({}, 1);
   for (HoleDistance& distance : set.distances) distance.distance_mm += 40.0;
   expect_refused(set,
@@ -78,13 +78,13 @@ TEST(HolesDiagnosisBadInput, AHookThatWasForgotten) {
                  "by the same: it looks as if the tape's hook offset, given as 0 mm, is 40 mm");
 }
 
-TEST(HolesDiagnosisBadInput, NoMachine) {
+TEST(HolesDiagnosisBadInput, RefusesAMissingMachine) {
   MeasuredHoles set = holes({}, 1);
   set.machine.reset();
   expect_refused(set, DiagnosisFailure::Reason::no_machine, "give --machine M.json");
 }
 
-TEST(HolesDiagnosisBadInput, AHoleOutOfReach) {
+TEST(HolesDiagnosisBadInput, RefusesAHoleOutOfReach) {
   MeasuredHoles set = holes({}, 1);
   set.holes[0].commanded = {0.0, 5000.0};
   expect_refused(set, DiagnosisFailure::Reason::point_unreachable, "hole A at (0.0, 5000.0)");
@@ -123,7 +123,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
 }
 
 // With measured edges the sheet's placement is estimated, as one of the settings.
-TEST(HolesDiagnosis, EdgesPlaceTheSheet) {
+TEST(HolesDiagnosis, EdgesLocateTheSheet) {
   MeasuredHoles design = nine_holes();
   const std::vector<std::pair<std::size_t, SheetEdge>> edges = {{0, SheetEdge::left},
                                                                 {0, SheetEdge::top},
@@ -157,7 +157,7 @@ TEST(HolesDiagnosis, EdgesPlaceTheSheet) {
   EXPECT_LT(found.improvement->placed->rms_mm, 0.5 * found.improvement->uncalibrated.rms_mm);
 }
 
-TEST(HolesDiagnosis, NamesADistanceThatIsOffWithItsAmount) {
+TEST(HolesDiagnosis, NamesABadDistanceWithItsError) {
   for (const std::uint64_t seed : {1, 2}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     MeasuredHoles set = holes({}, seed);

@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Written{Coordinate::angle_right, LawShape::kink, Enters::right},
                     Written{Coordinate::tension_left, LawShape::square, Enters::left}));
 
-TEST(LawFiles, WhatNoFormulaCanSayIsRefused) {
+TEST(LawFiles, RefuseLawsNoFormulaCanExpress) {
   const model::Bed bed;
   for (const Law& law : {law_of(Coordinate::border, LawShape::exponential, Enters::outwards),
                          law_of(Coordinate::length_left, LawShape::wave, Enters::right),

@@ -30,7 +30,7 @@ MeasuredBelts frame() {
 }
 
 // Of every variable, belt by belt: the residuals of the readings with the law, less those without.
-TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
+TEST(BeltLaws, ColumnsAreTheDifferencesOfReadings) {
   const MeasuredBelts plain = frame();
   const belts::FrameState state = belts::fit_anchors_robustly(plain).value().state;
   constexpr double kSigmaMm = 0.4;
@@ -57,7 +57,7 @@ TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
   EXPECT_EQ(compared, 11 * 4);
 }
 
-TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
+TEST(BeltLaws, PriorIsSharedAmongEntrancesOfAVariable) {
   const MeasuredBelts belts = frame();
   const belts::FrameState state = belts::fit_anchors_robustly(belts).value().state;
   const RegressorSystem system = system_of(belts, state, observations_of(belts, state, 0.4));

@@ -69,7 +69,7 @@ double probability_of(const Diagnosis& found, std::string_view what) {
 }
 
 // What is claimed below is not denied above.
-TEST(Laws, TheVerdictIsOfTheLawThatIsClaimed) {
+TEST(Laws, TheVerdictNamesTheClaimedLaw) {
   const Diagnosis found = diagnose(with_half_turns(11), testing_support::verdict_alone()).value();
   ASSERT_NE(claimed_law(found), nullptr);
   EXPECT_EQ(found.verdict, Verdict::model_discrepancy);
@@ -101,7 +101,7 @@ double rms(const std::vector<double>& values) {
 }
 
 // The partial residuals minus the curve are noise, and so is the tool's residual with the law.
-TEST(Laws, PointsStandAboutTheCurveByTheirNoise) {
+TEST(Laws, PointsScatterAboutTheCurveByTheirNoise) {
   for (const auto& [name, grid] :
        {std::pair{"wave", with_half_turns(11)}, std::pair{"step", with_step_along_x(12)}}) {
     SCOPED_TRACE(name);
@@ -131,7 +131,7 @@ TEST(Laws, PointsStandAboutTheCurveByTheirNoise) {
   }
 }
 
-TEST(Laws, NothingAndListedCausesAreNoLaw) {
+TEST(Laws, AreNotClaimedForNoiseOrListedCauses) {
   for (const std::uint64_t seed : {21, 22, 23}) {
     EXPECT_THAT(laws_found(analysed(session_of({}, seed))).laws, IsEmpty()) << "seed " << seed;
   }
@@ -147,7 +147,7 @@ TEST(Laws, NothingAndListedCausesAreNoLaw) {
 }
 
 // The prior of all laws is fixed and shared out.
-TEST(Laws, AListThatHoldsEachLawTwiceSaysTheSame) {
+TEST(Laws, DuplicatesChangeNothing) {
   const Analysis a = analysed(with_step_along_x(12, 0.5));
   const std::vector<LawCurve> once = law_curves(a.system);
   std::vector<LawCurve> twice;
@@ -163,7 +163,7 @@ TEST(Laws, AListThatHoldsEachLawTwiceSaysTheSame) {
   EXPECT_NEAR(of_twice, of_once, 0.01);
 }
 
-TEST(Laws, MoreParametersAndDirectionsHaveLess) {
+TEST(Laws, PriorFallsWithParametersAndDirections) {
   const Analysis a = analysed(session_of({}, 21));
   std::map<LawShape, double> along_x;
   double across = 0.0;

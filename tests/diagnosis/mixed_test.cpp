@@ -65,7 +65,7 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
   EXPECT_TRUE(found->stated_tape);
 }
 
-TEST(TwoSessions, AnotherZeroIsNoCauseAndIsTold) {
+TEST(TwoSessions, AnotherZeroIsReportedNotNamed) {
   const MeasuredGrid first = session_of({}, 21);
   MeasuredGrid second = session_of({}, 22);
   for (MeasuredPoint& point : second.points) point.lengths->left_mm += 5.0;

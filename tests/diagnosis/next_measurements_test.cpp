@@ -46,7 +46,7 @@ bool is_silent(const std::vector<Alternative>& alternatives, const Rows& rows) {
 }
 
 // A chain's weight, a yielding beam or a stretching chain: links and tapes do not depend on them.
-TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
+TEST(NextMeasurements, AnIndependentReadingChangesNothing) {
   int sets = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
@@ -128,7 +128,7 @@ double drawn_named_alone(const std::vector<Alternative>& alternatives,
 
 // Both chains long, or the tape long, is one class for distances. A reading that depends on one
 // carries no information about the other, whichever of them fits slightly better.
-TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
+TEST(NextMeasurements, PredictEachCauseOfAClassSeparately) {
   int sets = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));

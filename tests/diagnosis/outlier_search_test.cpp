@@ -127,7 +127,7 @@ std::vector<bool> one_by_one(const RegressorSystem& system, const std::vector<in
   return best;
 }
 
-TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
+TEST(OutlierSearch, EqualsThatOfTheFullCovariance) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -200,7 +200,7 @@ Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& out
 }
 
 // A set's weight, and a check by the whole covariance that no other reading is worse.
-TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
+TEST(OutlierSearch, DirectionsEqualThoseOfTheFullCovariance) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

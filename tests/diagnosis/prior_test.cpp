@@ -43,7 +43,7 @@ double prior_of(const RegressorSystem& system, const std::vector<int>& set, bool
   return std::exp(log_prior(system, set, pattern));
 }
 
-TEST(Prior, OneCauseOfBeltsHasItsShareWhateverChainsAreListed) {
+TEST(Prior, ShareOfBeltCausesDoesNotDependOnChainCauses) {
   const RegressorSystem system = system_of_flat_frame();
   // By effect, the prior of its testable sides; each other side would have as much.
   std::map<std::string, double> share;
@@ -66,7 +66,7 @@ TEST(Prior, OneCauseOfBeltsHasItsShareWhateverChainsAreListed) {
   EXPECT_NEAR(one, kPriorOfNothing / 6.0, 1e-9);
 }
 
-TEST(Prior, WhatIsExpectedIsAsLikelyAsNot) {
+TEST(Prior, ExpectedCausesHaveProbabilityOneHalf) {
   const RegressorSystem system = system_of_flat_frame();
   std::vector<int> expected, other;
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {

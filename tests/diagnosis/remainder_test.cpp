@@ -59,7 +59,7 @@ TEST(Discrepancy, PriorsOfKernelsAddUpToOne) {
   }
 }
 
-TEST(Discrepancy, LowRankIsTheDenseCovariance) {
+TEST(Discrepancy, LowRankEqualsTheDenseCovariance) {
   const Analysis a = analysis_of(session_of({kLongLeft}, 3));
   MarginalisedSystem marginalised = marginalised_system(a);
   std::vector<std::size_t> kernels(a.system.discrepancies->kernels.size());
@@ -116,7 +116,7 @@ TEST(Remainder, ACauseIsNamedBesideAPattern) {
 }
 
 // Undetermined by the first marks: with so low a dent a pattern is neither reported nor excluded.
-TEST(Remainder, WhereNothingIsNamedYetMarksAreProposed) {
+TEST(Remainder, ProposesMarksBeforeACauseIsNamed) {
   int open = 0;
   for (std::uint64_t seed = 31; seed < 43; ++seed) {
     DiagnosisOptions options = verdict_alone();
@@ -139,7 +139,7 @@ TEST(Remainder, WhereNothingIsNamedYetMarksAreProposed) {
   EXPECT_EQ(open, 1) << "no session asks the question";
 }
 
-TEST(Remainder, ExpectsOfMeasuredRowsWhatTheFitMakesOfThem) {
+TEST(Remainder, PredictsMeasuredRowsAsTheFit) {
   const Analysis a = analysis_of(with_dent(session_of({kLongLeft}, 11, 10, 6)));
   const auto alternatives = alternatives_about(a, a.session);
   ASSERT_TRUE(alternatives);
@@ -156,7 +156,7 @@ TEST(Remainder, ExpectsOfMeasuredRowsWhatTheFitMakesOfThem) {
   EXPECT_GE(given, 1);
 }
 
-TEST(Remainder, IsNotToldWhereThereIsNone) {
+TEST(Remainder, IsAbsentWithoutAPattern) {
   const auto found = diagnose(session_of({kLongLeft}, 12), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->unexplained);
@@ -189,7 +189,7 @@ TEST(Budget, PartsAddUpToTheError) {
 }
 
 // A chain that is 0.15 % long makes 0.15 mm of 100 mm along it, slightly more or less at the tool.
-TEST(Budget, APartIsWrongByWhatTheCauseMakesOfIt) {
+TEST(Budget, APartIsTheErrorFromItsCause) {
   const auto found = diagnose(session_of({kLongLeft}, 13), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->budget);

@@ -24,7 +24,7 @@ Analysis analysis_of_grid(const MeasuredGrid& grid) {
   return analyse(observations_of(grid).value(), verdict_alone()).value();
 }
 
-TEST(Settling, WhatDidNotComeToRestIsSaid) {
+TEST(Settling, ReportsNonConvergence) {
   Analysis a = analysis_of_grid(session_of({}, 1, 5, 4));
   Diagnosis converged;
   put_into_words(a, converged);
@@ -35,7 +35,7 @@ TEST(Settling, WhatDidNotComeToRestIsSaid) {
   EXPECT_THAT(not_converged.notes, Contains(HasSubstr(kNotConverged)));
 }
 
-TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
+TEST(Settling, MeasuresATurnOfTheSheetAtItsEdge) {
   // A rotation of 1e-4 rad is 0.12 mm at the edge of the bed: at convergence it is far below that.
   MeasuredGrid grid = session_of({}, 2, 5, 4);
   grid.sheet = SheetUncertainty{20.0, 10.0};

@@ -78,7 +78,7 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
 }
 
 // Nothing left out: the comparison itself, except for models that are not followed.
-TEST(Downdating, OfAllPointsIsTheComparison) {
+TEST(Downdating, WithAllPointsEqualsTheComparison) {
   const auto session = observations_of(session_of({kLongLeftChain}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
@@ -95,7 +95,7 @@ TEST(Downdating, OfAllPointsIsTheComparison) {
 }
 
 // Downdating compared with a separate comparison without each point and line.
-TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
+TEST(Downdating, EqualsANewComparison) {
   const model::AppliedEffect wave{
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
   for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeftChain, 2)}) {
@@ -123,7 +123,7 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
   }
 }
 
-TEST(Stability, AStrongNameStandsWithoutAnyPointColumnOrRow) {
+TEST(Stability, AStrongNameSurvivesWithoutAnyPointColumnOrRow) {
   const auto found = diagnose(session_of({kLongLeftChain}, 5), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_EQ(found->verdict, Verdict::named) << found->sentence;
@@ -141,7 +141,7 @@ TEST(Stability, AStrongNameStandsWithoutAnyPointColumnOrRow) {
               testing::Contains(HasSubstr("The answer stays the same whichever of")));
 }
 
-TEST(Stability, OfNothingNamedThereIsNone) {
+TEST(Stability, IsAbsentWithoutAName) {
   const auto found = diagnose(session_of({}, 7), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->causes.empty()) << found->sentence;

@@ -67,7 +67,7 @@ TEST(VisitNumbers, MarksMeasuredAgainComeLast) {
   EXPECT_THAT(visit_numbers(points, {}).value(), ElementsAre(0, 6, 1, 2, 3, 4, 5));
 }
 
-TEST(VisitNumbers, ACloudStandsInNoLines) {
+TEST(VisitNumbers, AScatteredSetHasNoLines) {
   std::vector<MeasuredPoint> points;
   for (int k = 0; k < 30; ++k)
     points.push_back(at(40.0 * ((k * 37) % 50), 40.0 * ((k * 23) % 31)));

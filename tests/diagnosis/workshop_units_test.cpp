@@ -25,7 +25,7 @@ std::vector<const model::effects::Effect*> all_effects() {
   return all;
 }
 
-TEST(WorkshopUnits, NoMinusSignIsBesideAWordThatHasADirection) {
+TEST(WorkshopUnits, UseDirectionsInsteadOfSigns) {
   constexpr std::array kDirected = {"longer", "shorter", "larger",  "smaller", "higher", "lower",
                                     "more",   "less",    "much",    "little",  "heavier",
                                     "lighter", "below",  "above",   "left",    "right"};
@@ -67,7 +67,7 @@ std::string worded(std::string_view effect, const char* parameter, double value,
 }
 
 // A bug of words: "1 links".
-TEST(WorkshopUnits, OneOfSomethingIsOne) {
+TEST(WorkshopUnits, UseSingularForOne) {
   EXPECT_EQ(worded("tooth_skip", "links", 1.0, 0.0), "1 link");
   EXPECT_EQ(worded("tooth_skip", "links", -1.0, 0.0), "-1 link");
   EXPECT_EQ(worded("tooth_skip", "links", 2.0, 0.0), "2 links");

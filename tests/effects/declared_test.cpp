@@ -61,7 +61,7 @@ std::string own_problem(const std::function<void(Declaration&)>& change) {
   return only_problem(problems_of(own));
 }
 
-TEST(DeclaredEffect, IsAnEffectLikeThoseOfTheCatalogue) {
+TEST(DeclaredEffect, BehavesLikeACatalogueEffect) {
   ASSERT_THAT(problems_of(wave()), IsEmpty());
   ASSERT_THAT(problems_on_bed(wave(), Machine{}), IsEmpty());
   const Effect& effect = declared_effect(wave());
@@ -77,7 +77,7 @@ TEST(DeclaredEffect, IsAnEffectLikeThoseOfTheCatalogue) {
   EXPECT_EQ(effects_of(machine).back(), &effect);
 }
 
-TEST(DeclaredEffect, StandsInPlaceOfOneOfTheCatalogue) {
+TEST(DeclaredEffect, ReplacesACatalogueEffect) {
   Declaration own = wave();
   own.instead_of = "sprocket_eccentricity";
   Machine machine;
@@ -88,7 +88,7 @@ TEST(DeclaredEffect, StandsInPlaceOfOneOfTheCatalogue) {
     EXPECT_EQ(all[i]->id, catalogue()[i]->id == own.instead_of ? "wave" : catalogue()[i]->id);
 }
 
-TEST(DeclaredEffect, ADirectionGivesAnEffectOfTheVisit) {
+TEST(DeclaredEffect, ADirectionMakesItAnEffectOfTheVisit) {
   Declaration own = wave();
   own.id = "play";
   own.parameters = {size("half_width_mm")};
@@ -140,7 +140,7 @@ TEST(DeclaredEffect, APlaceIsComparedWithTheOneVariableOfItsUnit) {
             PlaceVariable::none);
 }
 
-TEST(DeclaredEffect, SaysWhatIsWrongWithItself) {
+TEST(DeclaredEffect, ReportsItsErrors) {
   EXPECT_EQ(own_problem([](Declaration& d) { d.id = "drift"; }),
             "/id: drift: another name: the catalogue has an effect of this one; \"instead_of\" "
             "takes its place");
@@ -199,7 +199,7 @@ TEST(DeclaredEffect, SaysWhatIsWrongWithItself) {
               HasSubstr("the number of the visit"));
 }
 
-TEST(DeclaredEffect, SaysWhereOnTheBedItIsNotFinite) {
+TEST(DeclaredEffect, ReportsWhereItIsNotFinite) {
   Declaration own = wave();
   own.adds_mm = "amplitude_mm * log(0 * phase_rad + x / mm)";
   ASSERT_THAT(problems_of(own), IsEmpty());
@@ -210,14 +210,14 @@ TEST(DeclaredEffect, SaysWhereOnTheBedItIsNotFinite) {
                         "-610) mm with amplitude_mm = -5"));
 }
 
-TEST(DeclaredEffect, ASlopeThatIsNotFiniteIsSaidToo) {
+TEST(DeclaredEffect, ReportsANonFiniteSlope) {
   Declaration own = wave();
   own.parameters = {size("size_mm")};
   own.adds_mm = "size_mm * sqrt(abs(x) / mm)";
   EXPECT_THAT(only_problem(problems_on_bed(own, Machine{})), HasSubstr("at (0, "));
 }
 
-TEST(DeclaredEffect, SaysWhereItIsNotNullAtNull) {
+TEST(DeclaredEffect, ReportsWhereItIsNotZeroAtNull) {
   Declaration own = wave();
   own.adds_mm = "amplitude_mm + 0.1 * mm * sin(phase_rad + L0 / turn)";
   ASSERT_THAT(problems_of(own), IsEmpty());

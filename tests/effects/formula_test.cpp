@@ -144,7 +144,7 @@ struct Bad {
 
 class NoFormula : public testing::TestWithParam<Bad> {};
 
-TEST_P(NoFormula, IsRefusedWhereItIsWrong) {
+TEST_P(NoFormula, WrongOneIsRefusedAtItsPlace) {
   const Bad& bad = GetParam();
   const auto parsed = Formula::parse(bad.text, kNames, kMm);
   ASSERT_FALSE(parsed) << bad.text;
@@ -224,7 +224,7 @@ TEST(Formula, TheDeepestFormulaIsEvaluated) {
   EXPECT_GT(number(text), 10.0);
 }
 
-TEST(Formula, SaysWhereAValueIsNotFinite) {
+TEST(Formula, ReportsWhereAValueIsNotFinite) {
   const Formula f = formula("a_mm * (1 + log(phi))");
   std::array<Five, 5> values;
   values[0] = 1.0;

@@ -120,14 +120,14 @@ TEST(Estimate, PointsAndDistancesTogetherBeatEither) {
   EXPECT_GT(errors.covered, 0.90);
 }
 
-TEST(Estimate, AlsoWhereTheMachineBendsAsNoSettingExplains) {
+TEST(Estimate, ConvergesOnAMachineNoSettingsExplain) {
   const Errors errors = errors_of("beam and hose beside them", 4, 3, Beyond::beam_and_hose);
   EXPECT_LT(errors.both2, errors.points2);
   EXPECT_LT(errors.both2, errors.holes2);
   EXPECT_GT(errors.covered, 0.90);
 }
 
-TEST(Estimate, TheOrderOfTheFilesMovesTheFrameAlone) {
+TEST(Estimate, FileOrderMovesOnlyTheFrame) {
   const Owner own = owner(3, 4, 3);
   const auto one = joint_fit({{"points", own.points}, {"holes", own.holes}});
   const auto other = joint_fit({{"holes", own.holes}, {"points", own.points}});
@@ -157,7 +157,7 @@ estimation::EstimationInput of_distances(const MeasuredHoles& set) {
   return input;
 }
 
-TEST(Estimate, WhatIsToldOfTheUnitsBelongsToTheWeightsOfTheFitAlsoUnsettled) {
+TEST(Estimate, UnitResultsUseTheFitsFinalWeights) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     SCOPED_TRACE(seed);
     auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
@@ -183,7 +183,7 @@ TEST(Estimate, WhatIsToldOfTheUnitsBelongsToTheWeightsOfTheFitAlsoUnsettled) {
   }
 }
 
-TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
+TEST(Estimate, LeftOutUnitEqualsAFitWithoutIt) {
   const Owner own = owner(8, 4, 3);
   estimation::EstimationInput input = of_distances(own.holes);
   const auto observation = std::make_shared<const observation::ChainLengthReadings>(
@@ -209,7 +209,7 @@ TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
   }
 }
 
-TEST(FitTogether, AnotherMachineIsRefusedInWords) {
+TEST(FitTogether, RefusesAnotherMachine) {
   Owner own = owner(2, 4, 3);
   own.holes.machine->motors.left.x_mm -= 5.0;
   const auto fit = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
@@ -223,7 +223,7 @@ TEST(FitTogether, AnotherMachineIsRefusedInWords) {
   EXPECT_THROW((void)joint_fit({}), std::invalid_argument);
 }
 
-TEST(FitTogether, TheMapSaysWhatCameFromWhere) {
+TEST(FitTogether, MapListsTheSourceOfEachPart) {
   Owner own = owner(4, 4, 3);
   own.holes.distances[5].distance_mm += 12.0;
   const auto fit = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});

@@ -157,7 +157,7 @@ TEST(Cholesky, FactorsSolvesAndInverts) {
   }
 }
 
-TEST(Cholesky, SaysWhatIsNotPositiveDefinite) {
+TEST(Cholesky, RefusesIndefiniteMatrices) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const Index n : {Index{1}, Index{3}, Index{100}}) {
     for (const double pivot : {0.0, -1.0, kNan}) {
@@ -253,7 +253,7 @@ TEST(Range, SplitsTheSpaceAtTheRank) {
   EXPECT_EQ(range_of(scaled, 1e-4).range.cols(), 3);
 }
 
-TEST(LeastSquares, LeavesWhatIsOrthogonalAndIsShortest) {
+TEST(LeastSquares, ResidualIsOrthogonalAndSolutionShortest) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   const MatrixXd full = random_matrix(20, 4, random);

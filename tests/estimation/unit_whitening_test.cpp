@@ -42,7 +42,7 @@ TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {
   }
 }
 
-TEST(UnitWhiteningBadInput, TooManyReadings) {
+TEST(UnitWhiteningBadInput, RefusesTooManyReadings) {
   EXPECT_THROW(UnitWhitening(Eigen::MatrixXd::Identity(5, 5)), std::invalid_argument);
   EXPECT_THROW(UnitWhitening(Eigen::MatrixXd(0, 0)), std::invalid_argument);
 }

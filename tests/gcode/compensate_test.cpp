@@ -119,7 +119,7 @@ std::vector<std::string> fitting_files() {
   return names;
 }
 
-TEST(RealFiles, FitTheBedButForTheOthers) {
+TEST(RealFiles, FitTheBed) {
   if (!std::filesystem::exists(kCorpus)) GTEST_SKIP() << "no real G-code files at " << kCorpus;
   Dialect dialect;
   dialect.tools_have_no_diameter = true;
@@ -170,7 +170,7 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
   }
 }
 
-TEST_P(RealFile, StaysItselfUnderTheIdentity) {
+TEST_P(RealFile, IdentityKeepsIt) {
   const std::string original = read(kCorpus / GetParam());
   const FormulaMap map([](model::BedPoint) { return model::BedPoint{}; });
   const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));

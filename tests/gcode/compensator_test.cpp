@@ -84,7 +84,7 @@ TEST(Compensator, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
 
 /// Chains that follow the motors only across a gap: with the correction by the path's direction the
 /// tool stays on the path.
-TEST(Compensator, PlayIsTakenUpWhereAChainTurnsAround) {
+TEST(Compensator, TakesUpPlayWhereAChainReverses) {
   const FormulaMap map(random_smooth_displacement(6));
   const Corrector corrector(map, kPlain, firmware(model::ControllerKind::maslow_classic));
   const std::string program =

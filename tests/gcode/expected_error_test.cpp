@@ -84,7 +84,7 @@ TEST(ExpectedError, CutIntoPiecesIsTheSame) {
               0.01);
 }
 
-TEST(ExpectedError, WhatWasNotMeasuredStandsByItself) {
+TEST(ExpectedError, ListsUnmeasuredPartsSeparately) {
   CutPlaces cuts;
   cuts.add(feed({-100, 300, -3}, {-100, 400, -3}, 2));
   cuts.add(feed({100, 520, -3}, {150, 520, -3}, 3));
@@ -121,7 +121,7 @@ TEST(ExpectedError, ArcsAreCutsPlungesAreAndRapidsAreNot) {
   EXPECT_EQ(others.expected(HalvesMap{})->measured.rms_mm, 0.3);
 }
 
-TEST(ExpectedError, OfAMapThatKnowsNoneIsNotSaid) {
+TEST(ExpectedError, IsAbsentIfTheMapHasNone) {
   CutPlaces cuts;
   cuts.add(feed({0, 0, 0}, {10, 0, 0}, 1));
   const FormulaMap plain([](model::BedPoint) { return model::BedPoint{}; });

@@ -13,7 +13,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-TEST(Language, NotesWhatOtherControllersDoOtherwise) {
+TEST(Language, NotesDifferencesBetweenControllers) {
   ProgramEvents events;
   ASSERT_TRUE(run_text("G20 F10\nG91.1\nG28\n/G4 P1\n", events));
   std::vector<std::string> names;

@@ -35,7 +35,7 @@ class Believes final : public model::ControllerKinematics {
   model::ToyMechanism mechanism_;
 };
 
-TEST(MechanismPath, AStraightPathOfAMechanismThatNobodyKnowsIsCompensatedAndVerified) {
+TEST(MechanismPath, CompensatesAndVerifiesAStraightPathOfAnUnknownMechanism) {
   const grid::FittedMechanism fitted{std::make_shared<const model::ToyMechanism>(-1003.0, 1206.0),
                                      0.01 * Eigen::Matrix3d::Identity(),
                                      0.3,

@@ -97,7 +97,7 @@ TEST(PathMatcher, DecidesTheFrechetDistance) {
 }
 
 /// Every point is on the path, but not in its order.
-TEST(PathMatcher, GoingBackIsAFault) {
+TEST(PathMatcher, ReportsGoingBack) {
   const Polyline path{{0, 0, 0}, {100, 0, 0}};
   EXPECT_TRUE(follows(path, {{0, 0, 0}, {60, 0, 0}, {100, 0, 0}}, 0.05));
   EXPECT_FALSE(follows(path, {{0, 0, 0}, {60, 0, 0}, {50, 0, 0}, {100, 0, 0}}, 0.05));

@@ -18,14 +18,14 @@ model::Machine imported() {
   return read_groundcontrol(CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini").machine;
 }
 
-TEST(ControllerSettings, BearTheNamesOfTheirFile) {
+TEST(ControllerSettings, UseTheNamesOfTheirFile) {
   const auto settings = settings_in_force(imported());
   ASSERT_FALSE(settings.empty());
   EXPECT_EQ(settings.front().name, "bedwidth");
   EXPECT_EQ(settings.front().text, "2438.4");
 }
 
-TEST(ControllerSettings, OfAnExportAreThoseThatWereExported) {
+TEST(ControllerSettings, OfAnExportEqualTheExported) {
   model::Machine machine = imported();
   *machine.controller.settings.motor_spacing_mm += 1.23456789;
   const GroundcontrolText text =
@@ -34,7 +34,7 @@ TEST(ControllerSettings, OfAnExportAreThoseThatWereExported) {
   EXPECT_THAT(changed_settings(settings_in_force(machine), settings_in_force(typed)), IsEmpty());
 }
 
-TEST(ControllerSettings, ThatChangeAreNamedWithBothValues) {
+TEST(ControllerSettings, NameChangesWithBothValues) {
   model::Machine now = imported();
   const std::string before = settings_in_force(now)[2].text;
   now.controller.settings.motor_spacing_mm = 2982.7791;
@@ -44,7 +44,7 @@ TEST(ControllerSettings, ThatChangeAreNamedWithBothValues) {
   EXPECT_THAT(of_the_chain(changes), IsEmpty());
 }
 
-TEST(ControllerSettings, ATiltThatIsNotSetIsNone) {
+TEST(ControllerSettings, UnsetTiltIsZero) {
   model::Machine machine = imported();
   machine.controller.settings.top_beam_tilt_deg.reset();
   model::Machine level = machine;
@@ -54,7 +54,7 @@ TEST(ControllerSettings, ATiltThatIsNotSetIsNone) {
   EXPECT_THAT(changed_settings(settings_in_force(machine), settings_in_force(level)), SizeIs(1));
 }
 
-TEST(ControllerSettings, OfTheChainAreToldApart) {
+TEST(ControllerSettings, DistinguishChainSettings) {
   model::Machine now = imported();
   now.controller.settings.chain_pitch_mm = 6.4;
   now.controller.settings.chain_over_sprocket_top =

@@ -94,7 +94,7 @@ TEST(CsvTable, ADashIsNoReading) {
 }
 
 // 1,113 may be a metre or a millimetre: it is rejected if nothing else shows which.
-TEST(CsvTable, ACommaOfWhichNobodyKnowsTheMeaningIsRefused) {
+TEST(CsvTable, RefusesAnAmbiguousComma) {
   EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508\n").refusals, ElementsAre(HasSubstr("found 1,113")));
   EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508.5\n").refusals, ElementsAre(HasSubstr("found 1,113")));
   EXPECT_THAT(read("x_mm;y_mm\n555,5;1.113\n").refusals, ElementsAre(HasSubstr("found 555,5")));
@@ -107,7 +107,7 @@ TEST(CsvTable, ANumberBelowOneIsNotMultipliedByAThousand) {
   EXPECT_THAT(read("x_mm;y_mm\n1,113.5;0,125\n").refusals, Not(IsEmpty()));
 }
 
-TEST(CsvTable, SaysWhatItDidNotUse) {
+TEST(CsvTable, ReportsUnusedColumns) {
   EXPECT_THAT(read("x_mm,y_mm,note\n1,2,ok\n").warnings,
               ElementsAre("t.csv: line 1, column 11: the column \"note\" is not used"));
   EXPECT_THAT(read("x_mm,y_mm\n1,2\nmeasured with the steel rule,\n").warnings,
@@ -115,7 +115,7 @@ TEST(CsvTable, SaysWhatItDidNotUse) {
 }
 
 // A column with nearly a known name is a slip, not an additional column.
-TEST(CsvTable, RefusesWhatMayBeAReading) {
+TEST(CsvTable, RefusesTextThatMayBeAReading) {
   EXPECT_THAT(read("x_mm,y_mm,ordr\n1,2,1\n").refusals,
               ElementsAre(HasSubstr("\"ordr\" is probably order")));
   EXPECT_THAT(read("x_mm,note\n1,ok\n").refusals, ElementsAre(HasSubstr("\"note\" is unknown")));
@@ -155,7 +155,7 @@ TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
 }
 
 /// Oversized tables are refused while they are read, not after.
-TEST(CsvTable, OfMoreThanAnySessionHasIsRefused) {
+TEST(CsvTable, RefusesTooManyRows) {
   std::string rows = "x_mm,y_mm\n";
   for (int i = 0; i < 400'001; ++i) rows += "1,2\n";
   Problems problems("t.csv");

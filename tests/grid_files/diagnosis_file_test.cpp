@@ -49,7 +49,7 @@ TEST(DiagnosisFile, IsReadIntoTheMembersOfItsKeys) {
   EXPECT_EQ(read.seed, 18446744073709551615ULL);
 }
 
-TEST(DiagnosisFile, NeverWritesANumberThatIsNone) {
+TEST(DiagnosisFile, NeverWritesNonFiniteNumbers) {
   Diagnosis found = sample_diagnosis();
   found.noise_factor = std::nan("");
   EXPECT_THROW((void)write_diagnosis(found), std::logic_error);

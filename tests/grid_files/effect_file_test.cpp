@@ -31,7 +31,7 @@ TEST(EffectFile, IsReadWithItsAssumptions) {
   EXPECT_EQ(own.typical, "amplitude_mm = 0.2");
 }
 
-TEST(EffectFile, ComesBackFromWhatIsWritten) {
+TEST(EffectFile, RoundTrips) {
   const Declaration own = parse_effect(kText, "wave.json");
   const std::string text = write_effect(own);
   EXPECT_EQ(parse_effect(text, "again.json"), own);

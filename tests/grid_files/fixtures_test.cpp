@@ -22,7 +22,7 @@ std::vector<::testing::Matcher<std::string>> each_with(const std::vector<std::st
 
 class BadInput : public ::testing::TestWithParam<FixtureFile> {};
 
-TEST_P(BadInput, IsRefusedWithEveryProblemItHasAndNoOther) {
+TEST_P(BadInput, IsRefusedWithExactlyItsProblems) {
   const auto expected = remarks_in(GetParam(), "expect: ");
   ASSERT_FALSE(expected.empty()) << "the file does not say what is expected";
   EXPECT_THAT(read_fixture(GetParam()).problems, UnorderedElementsAreArray(each_with(expected)));

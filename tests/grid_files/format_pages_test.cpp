@@ -69,7 +69,7 @@ TEST(FormatPages, GiveTheRangesThatAMachineIsHeldTo) {
   EXPECT_GT(tried, 30);
 }
 
-TEST(FormatPages, OfAFormatThatThereIsNotAreRefused) {
+TEST(FormatPages, RefuseUnknownFormats) {
   EXPECT_THROW((void)write_format_page("holler"), std::invalid_argument);
 }
 

@@ -82,7 +82,7 @@ class GridOfAnyMachine : public ::testing::TestWithParam<int> {
   MeasuredGrid grid_;
 };
 
-TEST_P(GridOfAnyMachine, IsAcceptedWithoutAWord) {
+TEST_P(GridOfAnyMachine, IsAcceptedWithoutMessages) {
   EXPECT_THAT(said_of(grid_), IsEmpty());
   grid_.machine = machine_;
   EXPECT_THAT(said_of(grid_), IsEmpty());

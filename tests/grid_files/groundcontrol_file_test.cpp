@@ -23,7 +23,7 @@ using ::testing::Not;
 
 const std::filesystem::path kSettings = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "holey";
 
-TEST(GroundcontrolSettings, TypedInGiveTheMachineBack) {
+TEST(GroundcontrolSettings, TypedInReproduceTheMachine) {
   model::Machine machine;
   machine.controller.kind = model::ControllerKind::holey;  // which alone has a tilt of the beam
   const double spacing = 3603.25;
@@ -79,7 +79,7 @@ void expect_the_way_there_and_back(const std::string& ini) {
   }
 }
 
-TEST(GroundcontrolSettings, OfEveryFileThatIsHereGoThereAndBack) {
+TEST(GroundcontrolSettings, OfEveryFixtureRoundTrip) {
   std::vector<std::filesystem::path> files;
   for (const auto& folder : {std::filesystem::path(CHAINTRUE_FIXTURES) / "good", kSettings}) {
     if (!std::filesystem::exists(folder)) continue;
@@ -129,7 +129,7 @@ std::string random_ini(std::mt19937_64& bits) {
   return text;
 }
 
-TEST(GroundcontrolSettings, OfTwoHundredRandomFilesGoThereAndBack) {
+TEST(GroundcontrolSettings, OfRandomFilesRoundTrip) {
   constexpr std::uint64_t kSeed = 20260816;
   SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   std::mt19937_64 bits(kSeed);
@@ -140,7 +140,7 @@ TEST(GroundcontrolSettings, OfTwoHundredRandomFilesGoThereAndBack) {
   }
 }
 
-TEST(GroundcontrolSettings, TolerancesThatNobodyExplainsStayWithTheController) {
+TEST(GroundcontrolSettings, KeepUndocumentedTolerances) {
   const std::string ini = read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good" /
                                           "groundcontrol_ring.ini");
   model::Machine machine = parse_groundcontrol(ini, "any.ini", Tolerances::unexplained).machine;
@@ -152,7 +152,7 @@ TEST(GroundcontrolSettings, TolerancesThatNobodyExplainsStayWithTheController) {
   EXPECT_TRUE(says_more_than_its_settings(machine));
 }
 
-TEST(GroundcontrolSettings, SayByWhatANumberChanges) {
+TEST(GroundcontrolSettings, ReportTheChangeOfANumber) {
   const std::string ini = read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good" /
                                           "groundcontrol_ring.ini");
   model::Machine machine = parse_groundcontrol(ini, "any.ini").machine;

@@ -290,7 +290,7 @@ TEST(Importers, HonourOrNameEveryNumber) {
 }
 
 /// For any input an importer returns numbers, or refuses with the file's name.
-TEST(Importers, AnswerOrRefuseEveryFileThereIs) {
+TEST(Importers, AnswerOrRefuseEveryFile) {
   std::size_t answered = 0, refused = 0;
   static const std::regex no_number(R"(\b(nan|inf)\b)", std::regex::icase);
   for (const auto& folder : {kFixtures, kReports, kReports.parent_path() / "gcode", kReports.parent_path() / "maslow4",

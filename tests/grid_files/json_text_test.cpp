@@ -61,7 +61,7 @@ TEST(JsonText, NumbersTakeTheFewestDigits) {
   EXPECT_EQ(print_json(Json(12.0)), "12\n");
 }
 
-TEST(JsonText, AWriterIsNeverGivenWhatIsNoNumber) {
+TEST(JsonText, WritersRefuseNonFiniteNumbers) {
   EXPECT_THROW((void)print_json(Json(std::nan(""))), std::logic_error);
   EXPECT_THROW((void)print_json(Json({{"a", {1.0, std::numeric_limits<double>::infinity()}}})),
                std::logic_error);
@@ -84,7 +84,7 @@ TEST(JsonText, LayoutDependsOnTheValuesOnly) {
   }
 }
 
-TEST(JsonText, KeepsTheOrderOfKeysAndNamesThoseThatStandTwice) {
+TEST(JsonText, KeepsTheOrderOfKeysAndNamesDuplicates) {
   EXPECT_EQ(compact_json(parse(R"({"z": 1, "a": 2})")), R"({"z": 1, "a": 2})");
   EXPECT_THAT(
       problems_of_text(R"({"a": [0, {"b/c": 1, "b/c": 2}], "d": 3, "d": [4]})"),
@@ -128,13 +128,13 @@ INSTANTIATE_TEST_SUITE_P(
         // The quotes inserted around NaN must not shift the places after it.
         Broken{"{\"a\": NaN, \"b\": x}", "line 1, column 17: found x, expected JSON"}));
 
-TEST(JsonText, WhatIsNoNumberReachesItsFieldAsAText) {
+TEST(JsonText, NonFiniteNumbersReachTheirFieldAsText) {
   EXPECT_EQ(parse("[NaN, -Infinity, 1e999, inf, -1E+400]"),
             Json({"NaN", "-Infinity", "1e999", "inf", "-1E+400"}));
   EXPECT_EQ(parse(R"(["NaN \" 1e999", 1e-999, 1e308])"), Json({"NaN \" 1e999", 0.0, 1e308}));
 }
 
-TEST(JsonText, DeepNestingIsRefusedNotFollowed) {
+TEST(JsonText, RefusesDeepNesting) {
   EXPECT_THAT(problems_of_text(std::string(64, '[') + std::string(64, ']')), IsEmpty());
   const auto problems = problems_of_text(std::string(1000000, '['));
   ASSERT_EQ(problems.size(), 1U);
@@ -181,7 +181,7 @@ TEST(Problems, OfAKindFiveAreListedAndTheRestCounted) {
   }
 }
 
-TEST(Problems, TheNearestWordIsTheOneMeant) {
+TEST(Problems, SuggestTheNearestWord) {
   const std::vector<std::string> keys = {"x_mm", "y_mm", "left_mm", "right_mm", "order"};
   EXPECT_EQ(nearest("left", keys), "left_mm");
   EXPECT_EQ(nearest("X", keys), "x_mm");
@@ -278,7 +278,7 @@ TEST(JsonReader, AFormatIsATableOfItsFields) {
   EXPECT_THAT(bad, ::testing::Not(HasSubstr("/holes/0/x_mm: missing")));
 }
 
-TEST(JsonText, OfMoreValuesThanAnyFileHasIsRefused) {
+TEST(JsonText, RefusesTooManyValues) {
   std::string text = "[0";
   for (int i = 0; i < 1'000'000; ++i) text += ",0";
   Problems problems("t.json");

@@ -32,7 +32,7 @@ struct Meaning {
   std::optional<std::string> value;
 };
 
-TEST(MarlinDefines, AreWhatTheCompilerMakesOfThem) {
+TEST(MarlinDefines, MatchTheCompiler) {
   const Meaning meanings[] = {
       {"#define X_BED_SIZE 650 // mm", "650"},
       {"# define X_BED_SIZE /* motor to motor */ 650.5f", "650.5"},

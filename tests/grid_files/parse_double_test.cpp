@@ -54,7 +54,7 @@ TEST(ParseDouble, OutOfRangeLeavesTheValue) {
     expect({text, kUntouched, text.size(), kOutOfRange}, NumberForm::general);
 }
 
-TEST(ParseDouble, NoNumberIsInvalid) {
+TEST(ParseDouble, RefusesNonNumbers) {
   for (const std::string_view text : {"", "-", ".", "+1", " 1", "x"})
     expect({text, kUntouched, 0, std::errc::invalid_argument}, NumberForm::general);
 }

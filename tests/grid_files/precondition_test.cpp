@@ -36,7 +36,7 @@ std::string words_of(const std::function<void()>& call) {
   return "nothing thrown";
 }
 
-TEST(Precondition, IsToldWithItsValues) {
+TEST(Precondition, ReportsItsValues) {
   EXPECT_STREQ(precondition("{} of {} mm, {:.1f}", 3, kNan, -kInfinity).what(),
                "3 of nan mm, -inf");
 }
@@ -57,7 +57,7 @@ void PrintTo(const Site& site, std::ostream* out) { *out << site.name; }
 
 class BrokenBy : public ::testing::TestWithParam<Site> {};
 
-TEST_P(BrokenBy, WhatIsNoNumberIsToldWithIt) {
+TEST_P(BrokenBy, ShowsNonFiniteValues) {
   EXPECT_THAT(words_of([] { GetParam().call(kNan); }), ::testing::HasSubstr("nan"));
 }
 

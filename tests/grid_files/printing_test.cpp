@@ -19,7 +19,7 @@ constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()};
 
-TEST(Printing, LetsNoNumberThroughThatIsNone) {
+TEST(Printing, RefusesNonFiniteNumbers) {
   for (const double bad : kBad) {
     std::string text;
     EXPECT_THROW((void)fmt::format("{}", bad), std::logic_error);
@@ -33,14 +33,14 @@ TEST(Printing, LetsNoNumberThroughThatIsNone) {
   }
 }
 
-TEST(Printing, IsOtherwiseAsEver) {
+TEST(Printing, KeepsTheFormatsOfTheStandard) {
   EXPECT_EQ(fmt::format("{:.2f} {} {}", 1.005, "nan", 7), "1.00 nan 7");
   const std::vector<double> list = {1.5, 2.5};
   EXPECT_EQ(fmt::format("{}", fmt::join(list, ",")), "1.5,2.5");
 }
 
 /// A range's text is printed inside the grid's library.
-TEST(Printing, IsWhatTheGridsOwnTextsGoThrough) {
+TEST(Printing, FormatsAllTextsOfTheProgram) {
   for (const double bad : kBad)
     EXPECT_THROW((void)(grid::files::Range{"mm", 0.0, bad}.expected()), std::logic_error);
 }

@@ -38,7 +38,7 @@ TEST(Sha256, GivesThePublishedDigests) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, DoesNotDependOnThePieces) {
+TEST(Sha256, DoesNotDependOnTheChunks) {
   std::string text;
   for (int i = 0; i < 300; ++i) text += static_cast<char>(i * 7 % 256);
   for (std::size_t piece = 1; piece < 130; ++piece) {
@@ -78,7 +78,7 @@ TEST_F(Sources, AreNamedWithoutFoldersAndHashedByTheirBytes) {
   EXPECT_THAT(sources_read(), ElementsAre(SourceFile{"wide.csv", digest_of(bytes)}));
 }
 
-TEST_F(Sources, AreKeptOnceForEachContentAndInOrder) {
+TEST_F(Sources, AreOrderedWithoutDuplicates) {
   const std::string second = path("b.csv", "second");
   (void)read_whole_file(second);
   (void)read_whole_file(path("a.csv", "first"));
@@ -92,13 +92,13 @@ TEST_F(Sources, AreKeptOnceForEachContentAndInOrder) {
   EXPECT_THAT(sources_read(), IsEmpty());
 }
 
-TEST_F(Sources, AreThoseOfTheThread) {
+TEST_F(Sources, BelongToTheThread) {
   const std::string file = path("a.csv", "text");
   std::thread([&] { (void)read_whole_file(file); }).join();
   EXPECT_THAT(sources_read(), IsEmpty());
 }
 
-TEST(ChangedSince, NamesFilesOfTheSameNameAndAnotherContentAlone) {
+TEST(ChangedSince, NamesOnlyFilesWithChangedContent) {
   const Provenance then{"1.0", "fit", {}, {{"a.csv", "1"}, {"b.csv", "2"}}};
   EXPECT_THAT(changed_since(then, {{"a.csv", "1"}, {"b.csv", "3"}, {"c.csv", "4"}}),
               ElementsAre("b.csv"));
@@ -121,7 +121,7 @@ TEST(MadeBy, IsHeldToItsFormatWithTheRestOfTheFile) {
   }
 }
 
-TEST(MadeBy, ComesBackAsItWasWritten) {
+TEST(MadeBy, RoundTrips) {
   const Provenance made_by{"1.2.3", "fit", {"--surface direct"}, {{"a \"b\".csv", digest_of("")}}};
   const diagnosis::Diagnosis found = parse_diagnosis(
       read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good/diagnosis_every_key.json"),

@@ -100,7 +100,7 @@ const Slip kSlips[] = {
      },
      ProblemKind::constant_offset}};
 
-TEST(Transformations, OfAllRowsAndOfATailAreNamed) {
+TEST(Transformations, AreNamedForAllRowsAndForATail) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const MeasuredGrid sound = sound_grid(seed);
     EXPECT_FALSE(check_points(sound).whole) << "seed " << seed << ": " << check_points(sound).whole->sentence();
@@ -128,7 +128,7 @@ TEST(Transformations, OfAllRowsAndOfATailAreNamed) {
   }
 }
 
-TEST(Transformations, ATurnedSheetIsToldFromSkewAxes) {
+TEST(Transformations, DistinguishATurnedSheetFromSkewedAxes) {
   constexpr double kRad = 0.015;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     MeasuredGrid turned = sound_grid(seed), skew = turned;

@@ -45,7 +45,7 @@ std::string refusal_of(const Action& action) {
   return "no error";
 }
 
-TEST_F(WholeFile, IsReadAsItWasWritten) {
+TEST_F(WholeFile, RoundTrips) {
   std::string text("a\0b\r\n\xFF", 6);
   text += std::string(200000, 'x');
   write_whole_file(folder_ / "file", text);
@@ -55,7 +55,7 @@ TEST_F(WholeFile, IsReadAsItWasWritten) {
   EXPECT_EQ(files_in_folder(), 1U);
 }
 
-TEST_F(WholeFile, ThatCannotBeReadIsNamed) {
+TEST_F(WholeFile, UnreadableIsNamed) {
   EXPECT_THAT(
       refusal_of([&] { (void)read_whole_file(folder_ / "none"); }),
       HasSubstr(
@@ -64,7 +64,7 @@ TEST_F(WholeFile, ThatCannotBeReadIsNamed) {
               HasSubstr("found a directory, expected a file"));
 }
 
-TEST_F(WholeFile, ThatCannotBeWrittenLeavesNothingBehind) {
+TEST_F(WholeFile, UnwritableLeavesNothingBehind) {
   EXPECT_THAT(refusal_of([&] { write_whole_file(folder_, "x"); }),
               HasSubstr("found a directory, expected the name of a file"));
   EXPECT_THAT(refusal_of([&] { write_whole_file(folder_ / "none" / "file", "x"); }),
@@ -73,7 +73,7 @@ TEST_F(WholeFile, ThatCannotBeWrittenLeavesNothingBehind) {
   EXPECT_EQ(files_in_folder(), 0U);
 }
 
-TEST_F(WholeFile, ThatIsProtectedStaysAsItIs) {
+TEST_F(WholeFile, ProtectedIsKept) {
   const fs::path file = folder_ / "file";
   write_whole_file(file, "old");
   fs::permissions(file, fs::perms::owner_read);
@@ -82,7 +82,7 @@ TEST_F(WholeFile, ThatIsProtectedStaysAsItIs) {
   EXPECT_EQ(read_whole_file(file), "old");
 }
 
-TEST_F(WholeFile, KeepsItsRightsAndItsLink) {
+TEST_F(WholeFile, KeepsPermissionsAndLink) {
   const fs::path file = folder_ / "file";
   const fs::path link = folder_ / "link";
   write_whole_file(file, "old");
@@ -95,7 +95,7 @@ TEST_F(WholeFile, KeepsItsRightsAndItsLink) {
             fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
 }
 
-TEST_F(WholeFile, NewOnesHaveTheRightsOfTheProcess) {
+TEST_F(WholeFile, NewOnesUseTheUmask) {
   const mode_t mask = ::umask(027);
   write_whole_file(folder_ / "file", "x");
   ::umask(mask);
@@ -103,7 +103,7 @@ TEST_F(WholeFile, NewOnesHaveTheRightsOfTheProcess) {
 }
 
 /// The second cannot be renamed, because a folder has its name in the meantime.
-TEST_F(WholeFile, OneThatFailsLeavesTheOthersAsTheyWere) {
+TEST_F(WholeFile, AFailureLeavesTheOthersUnchanged) {
   write_whole_file(folder_ / "old", "old");
   for (const char* first : {"old", "new"}) {
     const std::size_t before = files_in_folder();
@@ -121,14 +121,14 @@ TEST_F(WholeFile, OneThatFailsLeavesTheOthersAsTheyWere) {
   }
 }
 
-TEST_F(WholeFile, ThatIsLongerThanAnyOfOursIsRefused) {
+TEST_F(WholeFile, TooLongIsRefused) {
   const fs::path file = folder_ / "file";
   std::ofstream(file) << "1";
   fs::resize_file(file, std::uintmax_t{17} << 20U);
   EXPECT_THAT(refusal_of([&] { (void)read_whole_file(file); }), HasSubstr("at most 16 MB"));
 }
 
-TEST_F(WholeFile, DevicesAreWrittenTo) {
+TEST_F(WholeFile, WritesToDevices) {
   EXPECT_EQ(refusal_of([] { write_whole_file("/dev/null", "x"); }), "no error");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   if (fs::exists("/dev/full")) {

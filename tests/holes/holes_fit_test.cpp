@@ -44,7 +44,7 @@ TEST(HoleDistances, HolesAreWhereTheirChainsPutThem) {
   EXPECT_LT((distances->measured() - *predicted).cwiseAbs().maxCoeff(), 1e-7);
 }
 
-TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
+TEST(HolesFit, RecoversTheTruthWithoutNoise) {
   MeasuredHoles design = nine_holes();
   design.hole_sigma_mm = 0.0;
   auto made = synthetic::simulate_holes(design, usual_holes(5));
@@ -109,7 +109,7 @@ TEST(HolesFit, ASheetThatIsLargerMovesEachEdgeByHalfOfThat) {
   }
 }
 
-TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
+TEST(HolesFit, PlacesAFreeSheetByTheCommandedHoles) {
   const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(11));
   const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
@@ -129,7 +129,7 @@ TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
   EXPECT_NEAR(turn / 1e6, 0.0, 0.02);
 }
 
-TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
+TEST(HolesFit, LeftOutPredictionEqualsAFitWithoutTheReading) {
   MeasuredHoles design = nine_holes();
   design.hole_sigma_mm = 0.0;  // so that a hole's own error does not correlate readings
   design.noise_dof = 1e9;      // so that the noise is not estimated again
@@ -167,7 +167,7 @@ TEST(HolesFit, NamesABadReadingAndSetsItAside) {
                              HasSubstr("shorter than the others make it")));
 }
 
-TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
+TEST(HolesFit, ReportsAForgottenHookOffsetIfTheFitFails) {
   MeasuredHoles design = nine_holes();
   design.tape.tape_zero_offset_mm = 40.0;
   auto made = synthetic::simulate_holes(design, usual_holes(3));
@@ -179,7 +179,7 @@ TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
   EXPECT_THAT(words, HasSubstr("hook offset"));
 }
 
-TEST(HolesFit, TheMapIsTheFittedMachineAndKeepsInItsFile) {
+TEST(HolesFit, MapRoundTripsAndEqualsTheFittedMachine) {
   const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(21));
   const auto fit = joint_fit(made->set);
   const CompensationMap map = fit->map;
@@ -197,7 +197,7 @@ TEST(HolesFit, TheMapIsTheFittedMachineAndKeepsInItsFile) {
   EXPECT_EQ(again.contents().distances->used, map.contents().distances->used);
 }
 
-TEST(HolesFit, BrokenPreconditionsThrow) {
+TEST(HolesFit, ThrowsOnBrokenPreconditions) {
   MeasuredHoles set = nine_holes();
   set.distances.clear();
   EXPECT_THROW((void)joint_fit(set), std::invalid_argument);
@@ -224,7 +224,7 @@ TEST(HolesFit, AReadingOfTheMotorSpacingMovesTheMotors) {
   }
 }
 
-TEST(HolesFit, ImpossibleReadingsAreSaid) {
+TEST(HolesFit, ReportsImpossibleReadings) {
   MeasuredHoles set = nine_holes();
   set.readings = {{ReadingOf::sled_mass, "", -1.0, 0.1}};
   const auto fit = joint_fit(set);
@@ -233,7 +233,7 @@ TEST(HolesFit, ImpossibleReadingsAreSaid) {
   EXPECT_THAT(fit.error().sentence(), HasSubstr("with the set's readings put in, "));
 }
 
-TEST(HolesFit, AHoleOutOfReachIsSaid) {
+TEST(HolesFit, ReportsAHoleOutOfReach) {
   MeasuredHoles set = nine_holes();
   set.holes[0] = {"Z", {0.0, 1500.0}};
   const auto fit = joint_fit(set);

@@ -38,7 +38,7 @@ TEST(HolesPlan, HasTheHolesAndDistancesAskedForOnTheSheet) {
   }
 }
 
-TEST(HolesPlan, PromisesWhatAFitReaches) {
+TEST(HolesPlan, PredictsTheErrorOfAFit) {
   const auto plan = plan_holes(classic(), {.holes = 9, .distances = 20});
   const auto made = synthetic::simulate_holes(plan->set, testing_support::usual_holes(2));
   const auto fit = joint_fit(made->set);
@@ -78,14 +78,14 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
   EXPECT_LE(known("the whole job, turned")->after, 0.5) << "mm per metre";
 }
 
-TEST(HolesPlan, WithoutEdgesTheSheetsPlaceIsNotSpokenOf) {
+TEST(HolesPlan, OmitsTheSheetsPlaceWithoutEdges) {
   const auto plan = plan_holes(classic(), {.holes = 9});
   ASSERT_TRUE(plan);
   for (const PlannedKnowledge& known : plan->knowledge)
     EXPECT_THAT(known.name, testing::Not(HasSubstr("whole job")));
 }
 
-TEST(HolesPlan, EveryDistanceLeftOutOfTheSheetsPlaceIsPaidForInTheWhole) {
+TEST(HolesPlan, FewerEdgeDistancesRaiseTheError) {
   // The tool's whole error includes the part that remains for the best placement of the sheet.
   const double whole = plan_holes(classic(), {.holes = 9, .edges = true})->expected_rms_mm;
   const double shape = plan_holes(classic(), {.holes = 9, .distances = 24})->expected_rms_mm;
@@ -125,7 +125,7 @@ TEST(HolesPlan, MoreDistancesAndABetterTapeTellMore) {
   EXPECT_LT(fine, twenty);
 }
 
-TEST(HolesPlan, SaysWhichEffectsItSees) {
+TEST(HolesPlan, ListsTheEffectsItCanDetect) {
   const std::vector<DetectableEffect> found = detectable_effects(testing_support::nine_holes());
   const auto find = [&found](std::string_view effect, std::string_view side) {
     return std::find_if(found.begin(), found.end(), [&](const DetectableEffect& one) {
@@ -140,7 +140,7 @@ TEST(HolesPlan, SaysWhichEffectsItSees) {
   EXPECT_EQ(find("tape_scale", "both"), found.end());
 }
 
-TEST(HolesPlan, WhereTheSheetLiesIsNoEffect) {
+TEST(HolesPlan, ExcludesTheSheetsPlaceFromTheEffects) {
   // The sheet's placement is free: three readings to its edges determine it, and make no other
   // effect observable, however far an effect moves or rotates all holes together.
   MeasuredHoles between = testing_support::nine_holes();

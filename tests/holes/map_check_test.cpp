@@ -65,7 +65,7 @@ double together(const model::PerSide<double>& sigmas) {
   return 2.0 / (1.0 / std::pow(sigmas.left, 2) + 1.0 / std::pow(sigmas.right, 2));
 }
 
-TEST(CheckPlan, NoSinglePointMovedTellsMore) {
+TEST(CheckPlan, IsLocallyOptimal) {
   const MeasuredMachine& one = mapped();
   const CheckPlanRequest request;
   const auto plan = plan_check(one.map, request);
@@ -132,7 +132,7 @@ TEST(MapCheck, ProbabilitiesSumToOneAndFollowTheVerdicts) {
   EXPECT_TRUE(check->is_valid_as_it_is());
 }
 
-TEST(MapCheck, WhatOnePointCannotTellIsSaid) {
+TEST(MapCheck, ReportsWhatOnePointCannotDetermine) {
   // One point, 1 mm too long on one chain: a zero, a pitch, or the point itself.
   model::Machine machine = mapped().truth;
   machine.chain_zero.left_mm += 1.5;
@@ -145,7 +145,7 @@ TEST(MapCheck, WhatOnePointCannotTellIsSaid) {
   EXPECT_FALSE(check->is_valid_as_it_is());
 }
 
-TEST(MapCheck, APointThatIsWrongByItselfIsNamed) {
+TEST(MapCheck, NamesASingleBadPoint) {
   Random random(5);
   MeasuredGrid grid = five_points(mapped().truth, random);
   grid.points[3].lengths->left_mm += 14.0;
@@ -155,7 +155,7 @@ TEST(MapCheck, APointThatIsWrongByItselfIsNamed) {
   EXPECT_THAT(files::write_map_check(*check), HasSubstr("\"point\": 3"));
 }
 
-TEST(MapCheck, HolesTellAToothAndAGrownPitch) {
+TEST(MapCheck, HolesFindASkippedToothAndAGrownPitch) {
   const auto made =
       synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_holes(4));
   const auto first = joint_fit(made->set);
@@ -197,7 +197,7 @@ void expect_equal(const std::vector<double>& a, const std::vector<double>& b, do
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
 }
 
-TEST(MapCheck, RepeatsOfAMarkSayWhatTheyWouldOneByOne) {
+TEST(MapCheck, RepeatsOfAMarkEqualSingleReadings) {
   constexpr std::uint64_t kSeed = 19;
   SCOPED_TRACE(kSeed);
   const MeasuredMachine& one = mapped();
@@ -222,7 +222,7 @@ TEST(MapCheck, RepeatsOfAMarkSayWhatTheyWouldOneByOne) {
                1e-6);
 }
 
-TEST(MapCheck, RepeatsOfADistanceSayWhatTheyWouldOneByOne) {
+TEST(MapCheck, RepeatsOfADistanceEqualSingleReadings) {
   const auto made =
       synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_holes(4));
   const CompensationMap map = joint_fit(made->set)->map;
@@ -280,7 +280,7 @@ TEST(MapCheck, AChainThatSkippedAToothIsFoundOnASheetLaidAside) {
   EXPECT_EQ(check->verdict, CheckVerdict::valid_after_rezeroing) << "seed 32";
 }
 
-TEST(MapCheck, AHandLaidSheetWhoseSigmasAreNothingIsAnExactOne) {
+TEST(MapCheck, AHandLaidSheetWithZeroSigmasIsExact) {
   Random random(33);
   MeasuredGrid exact = five_points(mapped().truth, random);
   MeasuredGrid laid = exact;
@@ -291,7 +291,7 @@ TEST(MapCheck, AHandLaidSheetWhoseSigmasAreNothingIsAnExactOne) {
                1e-6);
 }
 
-TEST(MapCheck, EffectsOfPaperAndVisitAreTakenOutOfTheNewReadings) {
+TEST(MapCheck, RemovesEffectsOfPaperAndVisit) {
   const auto verdict = [](const model::AppliedEffect& effect, bool known) {
     Random random(34);
     model::Machine disturbed = mapped().truth;
@@ -320,7 +320,7 @@ TEST(MapCheck, EffectsOfPaperAndVisitAreTakenOutOfTheNewReadings) {
   }
 }
 
-TEST(MapCheck, APointOffTheMapIsSaid) {
+TEST(MapCheck, ReportsAPointOffTheMap) {
   Random random(2);
   MeasuredGrid grid = five_points(mapped().truth, random);
   grid.points[0].mark = {5000.0, 0.0};

@@ -100,7 +100,7 @@ TEST(ReadingCovariance, NarrowedIsTheSameWithFewerColumns) {
   EXPECT_EQ(narrowed(f.leftCols(3)), f.leftCols(3));
 }
 
-TEST(ReadingCovariance, WhatIsNoCovarianceThrows) {
+TEST(ReadingCovariance, RefusesInvalidMatrices) {
   ReadingCovariance k = drawn(1, 5, 2, 0.4);
   k.own[2](0, 0) = 0.0;
   EXPECT_THROW(FactoredCovariance{k}, std::invalid_argument);

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing_support::nine_holes;
 using testing_support::usual_holes;
 
-TEST(UnknownTapeZero, EachFileHasOneOfItsOwn) {
+TEST(UnknownTapeZero, EachFileHasItsOffset) {
   MeasuredHoles first = synthetic::simulate_holes(nine_holes(), usual_holes(8))->set;
   first.tape.tape_zero_offset_sigma_mm = 5.0;
   MeasuredHoles second = first;
@@ -29,7 +29,7 @@ TEST(UnknownTapeZero, EachFileHasOneOfItsOwn) {
   EXPECT_NEAR(fit->distances[1].tape_zero->mm - fit->distances[0].tape_zero->mm, 3.0, 0.05);
 }
 
-TEST(JointFit, TwoSetsTellMoreThanEither) {
+TEST(JointFit, TwoSetsLowerTheError) {
   const auto first = synthetic::simulate_holes(nine_holes(), usual_holes(8));
   const auto second = synthetic::simulate_holes(nine_holes(), usual_holes(9), first->truth);
   const auto sigma_of_fit = [](const Measured& sets) {
@@ -63,7 +63,7 @@ double pulled_mm(const estimation::SessionZero& zero, double shift_mm) {
   return std::abs(shift_mm) * std::pow(zero.sigma_mm / estimation::kSessionZeroSigmaMm, 2);
 }
 
-TEST(SessionZeros, WhatIsAddedToASessionIsItsOwn) {
+TEST(SessionZeros, AnOffsetBelongsToItsSession) {
   const MeasuredGrid first = marks_of(1);
   const MeasuredGrid second = marks_of(2);
   const auto before = joint_fit({{"first", first}, {"second", second}});
@@ -94,7 +94,7 @@ TEST(SessionZeros, WhatIsAddedToASessionIsItsOwn) {
   EXPECT_THAT(before->map.contents().notes, testing::Not(testing::Contains(HasSubstr("zeros"))));
 }
 
-TEST(SessionZeros, TheMapIsOfTheSessionThatIsNamedFirst) {
+TEST(SessionZeros, MapBelongsToTheFirstSession) {
   const MeasuredGrid now = marks_of(3);
   const MeasuredGrid other = with_zeros_more(marks_of(4), 0.0, 6.0);
   const auto map = joint_fit({{"now", now}, {"other", other}});
@@ -108,7 +108,7 @@ TEST(SessionZeros, TheMapIsOfTheSessionThatIsNamedFirst) {
   EXPECT_NEAR(there->lengths.right_mm - here->lengths.right_mm, 6.0, 4.0 * sigma_mm);
 }
 
-TEST(SessionZeros, HolesShareThoseOfTheMachine) {
+TEST(SessionZeros, HolesShareTheMachinesZeros) {
   const MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(6))->set;
   const auto fit = joint_fit({{"holes", set}, {"grid", marks_of(5)}, {"more", marks_of(7)}});
   ASSERT_TRUE(fit) << fit.error().sentence();
@@ -117,7 +117,7 @@ TEST(SessionZeros, HolesShareThoseOfTheMachine) {
   EXPECT_TRUE(fit->estimate.observations[2].zeros);
 }
 
-TEST(UnknownTapeZero, WhatIsAddedToEveryReadingIsTheHooks) {
+TEST(UnknownTapeZero, AbsorbsAConstantAddedToEveryReading) {
   auto made = synthetic::simulate_holes(nine_holes(), usual_holes(12));
   made->set.tape.tape_zero_offset_sigma_mm = 1000.0;
   const auto before = joint_fit(made->set);
@@ -133,7 +133,7 @@ TEST(UnknownTapeZero, WhatIsAddedToEveryReadingIsTheHooks) {
   }
 }
 
-TEST(UnknownTapeZero, OneThatIsOffIsSpokenOf) {
+TEST(UnknownTapeZero, IsReportedIfNonzero) {
   auto made = synthetic::simulate_holes(nine_holes(), usual_holes(14));
   for (HoleDistance& distance : made->set.distances) distance.distance_mm += 4.0;
   made->set.tape.tape_zero_offset_sigma_mm = 2.0;
@@ -143,7 +143,7 @@ TEST(UnknownTapeZero, OneThatIsOffIsSpokenOf) {
 }
 
 // An unstated hook or bit width in every distance made the map wrong by up to 2.5 mm.
-TEST(TapeZero, OneThatNobodyStatedIsTakenOffAndSaid) {
+TEST(TapeZero, UnstatedIsRemovedAndReported) {
   for (const double zero_mm : {6.35, -5.0}) {
     SCOPED_TRACE(testing::Message() << zero_mm << " mm, seed 3");
     auto made = synthetic::simulate_holes(nine_holes(), usual_holes(3));

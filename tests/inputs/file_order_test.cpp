@@ -130,7 +130,7 @@ TEST(FileOrder, ChangesNoAnswer) {
   }
 }
 
-TEST(FileOrder, OfTwoFilesOfADiagnosisChangesNoCause) {
+TEST(FileOrder, ChangesNoCauseOfADiagnosis) {
   const InputFolder folder;
   const auto diagnosed = [&](const std::string& line) { return answer_of(folder.run(line), line); };
   const Document one = diagnosed("diagnose @worn.json --with @holes.json --json");

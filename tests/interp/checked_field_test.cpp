@@ -57,7 +57,7 @@ TEST(CheckedField, IsExactForBicubicsAndKnowsTheirCurvature) {
   EXPECT_NEAR(parabola.curvature(0.5, 0.5), 0.02, 1e-12);
 }
 
-TEST(CheckedField, LeavesPlacesNextToNothingToTheCaller) {
+TEST(CheckedField, IsUndefinedNextToMissingNodes) {
   const auto half_plane = [](double x, double) -> std::optional<Value> {
     return x > 0.0 ? std::optional(Value{1.0, 2.0}) : std::nullopt;
   };
@@ -89,7 +89,7 @@ TEST(CheckedField, CostsNoMoreThanItLeaves) {
   EXPECT_LT(left, 8000);
 }
 
-TEST(CheckedField, OptionsWithoutMeaningThrow) {
+TEST(CheckedField, RefusesMeaninglessOptions) {
   EXPECT_THROW(CheckedField(waves(1.0), {0.0, 1.0}), std::invalid_argument);
   EXPECT_THROW(CheckedField(waves(1.0), {1.0, NAN}), std::invalid_argument);
 }

@@ -95,7 +95,7 @@ TEST(MissingNodes, OfASmoothResidualCostAtMostTwoHundredths) {
   }
 }
 
-TEST(MissingNodes, ThatNothingReachesAreNamed) {
+TEST(MissingNodes, UnreachableOnesAreNamed) {
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(4, 4);
   values(1, 0) = values(2, 0) = values(1, 1) = values(1, 2) = NAN;
   const auto grid = fill_missing(even(0, 3, 4), even(0, 3, 4), values);

@@ -209,7 +209,7 @@ TEST(Reml, RowsKeepTheirDigitsWithoutNoise) {
   EXPECT_LT((fit.coefficients - expected.coefficients).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-TEST(Reml, AColumnThatNothingTouchesIsRefused) {
+TEST(Reml, RefusesAnEmptyColumn) {
   Sample sample = sample_of(20, 0.3, false);
   sample.problem.gram.row(26).setZero();
   sample.problem.gram.col(26).setZero();
@@ -227,7 +227,7 @@ TEST(Reml, PriorKnowledgeOfARidgeColumnThrows) {
 
 // A plane and a checkered part that is rougher than the ridge's waves and less than the stated
 // noise.
-TEST(Reml, AFieldThatIsNotThereStaysUncertain) {
+TEST(Reml, AnAbsentFieldStaysUncertain) {
   Eigen::MatrixXd design(25, 3 + 4);
   Eigen::VectorXd response(25);
   for (int i = 0; i < 25; ++i) {

@@ -53,7 +53,7 @@ TEST(SplinePair, IsTheTwoSplinesAlsoOutsideForOneAndForMany) {
   }
 }
 
-TEST(SplinePair, OtherAxesAreRefused) {
+TEST(SplinePair, RefusesOtherAxes) {
   const TensorSpline a({0, 1, 3}, {0, 1}, Eigen::MatrixXd::Zero(3, 2));
   const TensorSpline b({0, 1, 2}, {0, 1}, Eigen::MatrixXd::Zero(3, 2));
   EXPECT_THROW(SplinePair(a, b), std::invalid_argument);

@@ -251,7 +251,7 @@ std::string message_of(Action action) {
   return "no exception";
 }
 
-TEST(TensorSpline, RefusesWhatIsNoGrid) {
+TEST(TensorSpline, RefusesInvalidGrids) {
   const Eigen::MatrixXd z = Eigen::MatrixXd::Zero(3, 2);
   EXPECT_EQ(message_of([&] { TensorSpline({0, 1}, {0, 1}, z); }), "3 x 2 values for 2 x 2 nodes");
   EXPECT_EQ(message_of([&] {

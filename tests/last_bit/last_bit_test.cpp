@@ -74,7 +74,7 @@ void PrintTo(const Task& task, std::ostream* out) { *out << task.words; }
 
 class LastBit : public testing_support::CommandFixture, public testing::WithParamInterface<Task> {};
 
-TEST_P(LastBit, DecidesNothing) {
+TEST_P(LastBit, DoesNotChangeTheVerdict) {
   const std::string words = std::string(GetParam().words) + " -o result.json";
   const auto plain = run_line("cp -r " CHAINTRUE_FIXTURES "/* . && " CHAINTRUE_COMMAND " " + words);
   ASSERT_EQ(plain.code, 0) << plain.err;

@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Machines,
                                          Session(-2.0, 3.0, 4.0)));
 
 // Splines through lengths have no machine, so no error in use.
-TEST(ErrorInUse, OfAMapWithoutAMachineIsUnknown) {
+TEST(ErrorInUse, NeedsAMachine) {
   MeasuredGrid grid;
   const auto kinematics = model::make_controller_kinematics(model::Machine{});
   for (double x = -1000.0; x <= 1000.0; x += 250.0) {

@@ -86,7 +86,7 @@ TEST(CorrectedData, AreCorrectedOnce) {
   EXPECT_EQ(once->grid.machine->effects.size(), kOfTheMachine.size());
 }
 
-TEST(CorrectedData, OfAMachineWithoutSuchEffectsAreTheData) {
+TEST(CorrectedData, EqualTheDataWithoutSuchEffects) {
   const auto measured = session(machine_with({kOfTheMachine}));
   const auto corrected = corrected_data(measured.grid);
   ASSERT_TRUE(corrected);
@@ -95,7 +95,7 @@ TEST(CorrectedData, OfAMachineWithoutSuchEffectsAreTheData) {
     EXPECT_EQ(corrected->grid.points[i].lengths->left_mm, measured.grid.points[i].lengths->left_mm);
 }
 
-TEST(CorrectedData, WithoutAnOrderSayWhatCouldNotBeTakenOut) {
+TEST(CorrectedData, ReportEffectsThatNeedTheOrder) {
   auto measured = session(machine_with({kOfTheVisit}));
   for (MeasuredPoint& point : measured.grid.points) point.order.reset();
   const auto corrected = corrected_data(measured.grid);

@@ -69,7 +69,7 @@ TEST(DirectFit, EstimatesTheErrorBetweenItsLines) {
   EXPECT_LT(sigma, 0.24);
 }
 
-TEST(DirectFit, TakesEveryKindOfEnd) {
+TEST(DirectFit, AcceptsEveryBoundaryCondition) {
   for (const auto end : {interp::EndCondition::not_a_knot,
                          interp::EndCondition::natural,
                          interp::EndCondition::parabolic,

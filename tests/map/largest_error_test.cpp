@@ -13,7 +13,7 @@ namespace {
 /// Four sigmas of a quantile of 400 draws, by its density, in sigmas.
 double tolerance(double density) { return 4.0 * std::sqrt(0.95 * 0.05 / 400.0) / density; }
 
-TEST(LargestError, OfWhatIsCertainIsTheLargest) {
+TEST(LargestError, WithoutUncertaintyIsTheMaximum) {
   LargestError largest;
   EXPECT_EQ(largest.bound_mm(), 0.0);
   for (const double mm : {3.0, 5.0, 4.0}) largest.add({0.6 * mm, -0.8 * mm}, Eigen::Matrix2Xd(2, 0));
@@ -21,14 +21,14 @@ TEST(LargestError, OfWhatIsCertainIsTheLargest) {
 }
 
 // Rayleigh: sqrt(-2 ln 0.05) = 2.448, its density there 0.05 times that.
-TEST(LargestError, OfOnePlaceIsItsQuantile) {
+TEST(LargestError, AtOnePlaceIsItsQuantile) {
   LargestError largest;
   largest.add(Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity());
   EXPECT_NEAR(largest.bound_mm(), 2.448, tolerance(0.05 * 2.448));
 }
 
 // Places with equal errors count as one; independent ones are two chances.
-TEST(LargestError, KnowsWhatHangsTogether) {
+TEST(LargestError, UsesTheCorrelations) {
   LargestError together, apart;
   Eigen::Matrix2Xd first = Eigen::Matrix2Xd::Zero(2, 4), second = first;
   first.leftCols<2>() = second.rightCols<2>() = Eigen::Matrix2d::Identity();

@@ -93,7 +93,7 @@ TEST(LatticeResidual, SigmaGrowsBeyondTheLattice) {
   }
 }
 
-TEST(LatticeResidual, ReadingsThatBearNoiseKeepThePenalisedSurface) {
+TEST(LatticeResidual, NoisyReadingsUseThePenalisedSurface) {
   grid::Random random(1);
   auto grid = lattice();
   for (auto& point : grid.points) {
@@ -116,7 +116,7 @@ TEST(LatticeResidual, StatedNoiseRepeatsAndPointsBesideTheLinesKeepThePenalisedS
   EXPECT_FALSE(surface_of(fitted_lattice(alongside)).lattice);
 }
 
-TEST(LatticeResidual, TheFileKeepsIt) {
+TEST(LatticeResidual, RoundTrips) {
   auto grid = lattice();
   grid.points.erase(grid.points.begin() + 17);
   const CompensationMap map = fitted_lattice(grid);
@@ -133,7 +133,7 @@ TEST(LatticeResidual, TheFileKeepsIt) {
   }
 }
 
-TEST(LatticeResidual, AFileWhoseNodesDoNotRiseIsRefused) {
+TEST(LatticeResidual, RefusesUnorderedNodes) {
   std::string text = grid::files::write_map(fitted_lattice(lattice()));
   const std::size_t at = text.find("-850", text.find("\"lattice\""));
   ASSERT_NE(at, std::string::npos);

@@ -72,7 +72,7 @@ TEST_P(Plan, HoldsEveryCrossingOfChebyshevLobattoLines) {
   }
 }
 
-TEST_P(Plan, WalksNoFartherThanRowsAndTheStepsBetweenThem) {
+TEST_P(Plan, WalksNoFartherThanRowByRow) {
   const MeasurementPlan plan = planned({.points = GetParam()});
   const model::Bed bed;
   double walk = 0.0;

@@ -48,7 +48,7 @@ CompensationMap map_of(const grid::MeasuredGrid& grid, Outside way) {
 
 class OutsideTheMap : public testing::TestWithParam<bool> {};
 
-TEST_P(OutsideTheMap, EveryWayIsContinuousItsSlopesTrueAndItsSigmaNoSmaller) {
+TEST_P(OutsideTheMap, EveryPolicyIsContinuousWithTrueSlopes) {
   const CompensationMap own = map_of(middle_grid(GetParam()), Outside::continued);
   for (const Outside way : kWays) {
     SCOPED_TRACE(static_cast<int>(way));
@@ -74,7 +74,7 @@ TEST_P(OutsideTheMap, EveryWayIsContinuousItsSlopesTrueAndItsSigmaNoSmaller) {
   }
 }
 
-TEST_P(OutsideTheMap, WithinThePointsAllWaysAreOne) {
+TEST_P(OutsideTheMap, AllPoliciesAgreeWithinThePoints) {
   const CompensationMap own = map_of(middle_grid(GetParam()), Outside::continued);
   for (const Outside way : kWays) {
     const CompensationMap map = own.with_outside({way, 150.0});
@@ -92,7 +92,7 @@ TEST_P(OutsideTheMap, DerivativesAreDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(NoisyAndLattice, OutsideTheMap, testing::Bool());
 
-TEST(OutsideTheMapByName, FarOutFadeIsTheBareMachineAndRefuseAnswersNothing) {
+TEST(OutsideTheMapByName, FadesToTheMachineOrRefuses) {
   const grid::MeasuredGrid measured = middle_grid(true);
   const MarkPoint far{1210.0, 0.0};
   const CompensationMap faded = map_of(measured, Outside::fade);
@@ -110,7 +110,7 @@ TEST(OutsideTheMapByName, FarOutFadeIsTheBareMachineAndRefuseAnswersNothing) {
   EXPECT_EQ(refusing.inverse(faded.lengths(far)->lengths).error(), grid::MapReason::outside_map);
 }
 
-TEST(OutsideTheMapByName, MapFilesKeepTheWay) {
+TEST(OutsideTheMapByName, MapFilesKeepThePolicy) {
   const grid::MeasuredGrid measured = middle_grid(true);
   for (const Outside way : kWays) {
     const CompensationMap map = map_of(measured, way);
@@ -123,7 +123,7 @@ TEST(OutsideTheMapByName, MapFilesKeepTheWay) {
   }
 }
 
-TEST(OutsideTheMapByName, WhatADirectMapAnswersItsInverseFinds) {
+TEST(OutsideTheMapByName, DirectMapsInvert) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
   const auto direct = grid::fit(middle_grid(false), options);
@@ -148,7 +148,7 @@ TEST(OutsideTheMapByName, WhatADirectMapAnswersItsInverseFinds) {
   }
 }
 
-TEST(OutsideTheMapByName, ADirectMapHasNothingToFadeTo) {
+TEST(OutsideTheMapByName, DirectMapsRefuseToFade) {
   auto measured = middle_grid(false);
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;

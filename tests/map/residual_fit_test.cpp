@@ -51,7 +51,7 @@ TEST(ResidualFit, PlacesASheetThatWasLaidByHand) {
               1e-9);  // rounding of a rotation there and back
 }
 
-TEST(ResidualFit, SetsBadPointsAside) {
+TEST(ResidualFit, RejectsBadPoints) {
   auto spec = usual_spec(40);
   spec.bad = {2, 10.0};
   const auto made = session(spec);
@@ -67,7 +67,7 @@ TEST(ResidualFit, SetsBadPointsAside) {
   EXPECT_THAT(map.contents().notes, testing::Contains(testing::HasSubstr("was left out")));
 }
 
-TEST(ResidualFit, WithoutNoiseItMeetsThePointsAndTheTruth) {
+TEST(ResidualFit, MeetsPointsAndTruthWithoutNoise) {
   auto spec = usual_spec(5);
   spec.noise = {};
   spec.repeats = 0;
@@ -77,7 +77,7 @@ TEST(ResidualFit, WithoutNoiseItMeetsThePointsAndTheTruth) {
             0.01);  // the model class contains the truth exactly
 }
 
-TEST(ResidualFit, TakesTheNoiseFromRepeatsWhereNobodyStatedIt) {
+TEST(ResidualFit, EstimatesMissingNoiseFromRepeats) {
   auto spec = usual_spec(11);
   spec.repeats = 20;
   auto made = session(spec);
@@ -125,7 +125,7 @@ TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
               0.4);  // four of its sigmas
 }
 
-TEST(ResidualFit, SaysThatTheMirrorClaimFailsOnAMachineThatIsNotSymmetric) {
+TEST(ResidualFit, ReportsAnAsymmetricMachine) {
   auto spec = usual_spec(6);
   spec.draw_settings = false;
   const auto symmetric = fitted(session(spec).grid);
@@ -137,7 +137,7 @@ TEST(ResidualFit, SaysThatTheMirrorClaimFailsOnAMachineThatIsNotSymmetric) {
   EXPECT_THAT(tilted.contents().mirror->sentence, testing::HasSubstr("does not mirror the left one"));
 }
 
-TEST(ResidualFit, TakesWhatIsStatedWithoutUncertaintyAsKnown) {
+TEST(ResidualFit, TakesNumbersWithoutSigmaAsExact) {
   auto spec = usual_spec(13);
   spec.sheet = grid::SheetUncertainty{0.0, 0.0};
   auto made = session(spec);
@@ -152,7 +152,7 @@ TEST(ResidualFit, TakesWhatIsStatedWithoutUncertaintyAsKnown) {
   }
 }
 
-TEST(ResidualFit, SaysThatAReadingLeavesNoMachine) {
+TEST(ResidualFit, RefusesAnImpossibleReading) {
   auto grid = session(usual_spec(1)).grid;
   grid.readings = {{grid::ReadingOf::link_pitch, "left", 12.7, 0.001}};
   const auto map = grid::fit(grid);
@@ -190,7 +190,7 @@ TEST(ResidualFit, NamesAPointThatTheMachineCannotReach) {
   EXPECT_THAT(map.error().sentence(), testing::HasSubstr("point 4 at (0.0, 1200.0)"));
 }
 
-TEST(MapFile, SaysTheSameAfterReadingAndWritesTheSameBytes) {
+TEST(MapFile, RoundTripsToTheByte) {
   auto spec = usual_spec(4);
   spec.sheet = grid::SheetUncertainty{};
   const CompensationMap map = fitted(session(spec).grid);
@@ -203,7 +203,7 @@ TEST(MapFile, SaysTheSameAfterReadingAndWritesTheSameBytes) {
   EXPECT_NEAR(a->sigma.left_mm, b->sigma.left_mm, 1e-6 * a->sigma.left_mm);  // kept to seven digits
 }
 
-TEST(QueryPoints, GivesWhatEachPointGivesAlone) {
+TEST(QueryPoints, EqualsSingleQueries) {
   const CompensationMap map = fitted(session(usual_spec(4)).grid);
   const std::vector<model::MarkPoint> marks = {{0.0, 0.0}, {-700.0, 333.0}, {1e5, 0.0}, {0.0, 0.0}};
   std::vector<grid::MapAnswerOrFailure> answers(marks.size());

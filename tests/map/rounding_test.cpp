@@ -33,7 +33,7 @@ TEST(Rounding, IsFoundFromTheReadingsDigits) {
   EXPECT_EQ(rounding_sigma_mm({}), 0.0);
 }
 
-TEST(Rounding, IsOfWhatWasRead) {
+TEST(Rounding, IsThatOfTheReadings) {
   MeasuredGrid commanded, lengths;
   for (const double reading : rounded_readings(0.5, 1)) {
     commanded.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});
@@ -45,7 +45,7 @@ TEST(Rounding, IsOfWhatWasRead) {
   EXPECT_EQ(rounding_noise(lengths).position_mm, 0.0);
 }
 
-TEST(Rounding, IsAFloorOfWhatIsStated) {
+TEST(Rounding, IsALowerLimitOfStatedNoise) {
   MeasuredGrid grid;
   for (const double reading : rounded_readings(0.5, 1))
     grid.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});

@@ -21,7 +21,7 @@ class SecondVisits : public testing::TestWithParam<Asked> {
   }
 };
 
-TEST_P(SecondVisits, EveryMarkComesInItsOrderAndSoManyComeAgain) {
+TEST_P(SecondVisits, RepeatTheRequestedMarks) {
   const auto all = visits();
   EXPECT_EQ(all.size(), GetParam().marks + GetParam().second);
   std::vector<std::size_t> first;
@@ -33,7 +33,7 @@ TEST_P(SecondVisits, EveryMarkComesInItsOrderAndSoManyComeAgain) {
   for (const std::size_t mark : first) EXPECT_LE(std::count(all.begin(), all.end(), mark), 2);
 }
 
-TEST_P(SecondVisits, WhateverMovesAtAVisitLiesBetweenTwoVisitsOfOneMark) {
+TEST_P(SecondVisits, EveryVisitLiesBetweenTwoVisitsOfAMark) {
   const auto all = visits();
   for (std::size_t moved = 1; moved < all.size(); ++moved) {
     const auto at = all.begin() + static_cast<std::ptrdiff_t>(moved);
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Lists,
                                   std::to_string(asked.param.second);
                          });
 
-TEST(SecondVisitsOfNone, EachMarkComesOnce) {
+TEST(SecondVisitsOfNone, VisitEachMarkOnce) {
   EXPECT_EQ(with_second_visits(3, 0), (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_THROW((void)with_second_visits(11, 4), std::invalid_argument);
 }

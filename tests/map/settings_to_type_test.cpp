@@ -54,7 +54,7 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   return grid;
 }
 
-TEST(SettingsToType, OfAMachineThatIsRightStayAsTheyAre) {
+TEST(SettingsToType, OfASoundMachineDoNotChange) {
   const Machine machine = imported_machine();
   const auto map = fit(grid_of(machine, machine.controller.settings));
   ASSERT_TRUE(map) << map.error().sentence();
@@ -153,7 +153,7 @@ std::vector<std::string> names_of(const std::vector<Lacking>& lacking) {
 }
 
 // The same result from a machine and from a map of it.
-TEST(SettingsToType, OfAMachineAreThoseOfItsMap) {
+TEST(SettingsToType, EqualTheMachineOfTheMap) {
   Machine machine = imported_machine();
   machine.motors.left.x_mm -= 3.0;
   machine.motors.right.x_mm += 4.0;
@@ -185,7 +185,7 @@ TEST(SettingsToType, OfAMachineAreThoseOfItsMap) {
 
 // A beam that bends and a beam that is not level have no number in the stock firmware: its tilt is
 // unchanged, and their contribution is reported.
-TEST(SettingsToType, SayWhatTheFirmwareLacks) {
+TEST(SettingsToType, ReportWhatTheFirmwareLacks) {
   Machine machine = imported_machine();
   machine.controller.settings.top_beam_tilt_deg = 0.0;
   machine.motors.right.y_mm += 8.0;

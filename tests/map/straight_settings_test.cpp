@@ -53,7 +53,7 @@ double tool_rms_mm(const CompensationMap& map, const StraightSettings& s) {
   return std::sqrt(sum / count);
 }
 
-TEST(StraightSettings, LeaveWhatTheySay) {
+TEST(StraightSettings, LeaveTheErrorTheyReport) {
   for (const Anchors anchors : {Anchors::free, Anchors::level}) {
     const auto nearest = straight_settings(sagging_map(), anchors);
     ASSERT_TRUE(nearest) << nearest.error().sentence();
@@ -64,7 +64,7 @@ TEST(StraightSettings, LeaveWhatTheySay) {
   }
 }
 
-TEST(StraightSettings, NoOtherLinesLeaveLess) {
+TEST(StraightSettings, AreOptimal) {
   const auto nearest = straight_settings(sagging_map(), Anchors::free);
   ASSERT_TRUE(nearest);
   const double least = tool_rms_mm(sagging_map(), *nearest);

@@ -68,7 +68,7 @@ TEST(LeverRule, GapsShrinkFromPassToPass) {
     EXPECT_LT(gap(i), 0.9 * gap(i - 10));
 }
 
-TEST(LeverRule, NamesWhatItCannotDo) {
+TEST(LeverRule, RefusesUnsupportedMachines) {
   Machine machine;
   EquilibriumParameters m = equilibrium_parameters(machine);
   EXPECT_EQ(lever_rule_pose(m, {900.0, 900.0}).error(), PoseReason::too_short);

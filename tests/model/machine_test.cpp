@@ -26,7 +26,7 @@ TEST(Machine, SprocketsRadiusIsThePitchLinesUnlessStated) {
 }
 
 // What no file can hold. Slips in files are in tests/cli/cases/machine_files.cases.
-TEST(Machine, WhatIsNoNumberIsNamedWithItsPlace) {
+TEST(Machine, NamesNonFiniteNumbersWithTheirPlace) {
   const auto places = [](const std::function<void(Machine&)>& spoil) {
     Machine machine;
     spoil(machine);

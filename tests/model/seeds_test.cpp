@@ -38,7 +38,7 @@ TEST(Seeds, WrapExampleIsReproducedWithTheFirmwaresRadiusOfItsTime) {
   EXPECT_NEAR(arccos_form(975.0, 930.0, 63.5 / (2.0 * kPi)).arc_mm, 7.77, 0.005);
 }
 
-TEST(Seeds, ArccosArcsinAndArctangentAreOneWrap) {
+TEST(Seeds, WrapFormulasAgree) {
   constexpr std::uint64_t kSeed = 5;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   testing_support::Random random(kSeed);
@@ -164,7 +164,7 @@ TEST(Controllers, BeamTiltTurnsTheMotorsAboutTheirMiddle) {
   EXPECT_NEAR(lengths.right_mm, expected(1.0), 2e-12);
 }
 
-TEST(Controllers, WhatTheSettingsLeaveOutIsTheStatedMachines) {
+TEST(Controllers, MissingSettingsComeFromTheMachine) {
   Machine machine;
   machine.chain_zero = {3.0, -2.0};
   const BedPoint p{-700.0, 250.0};
@@ -213,7 +213,7 @@ TEST(Controllers, HoleyStepByStep) {
   EXPECT_NEAR(lengths.right_mm, chain(s2, a2, t2, 0.22163), 5e-12);
 }
 
-TEST(Controllers, UnreachableCommandsAreNamed) {
+TEST(Controllers, NameUnreachableCommands) {
   Machine machine = with_settings(Feed::over_top);
   const auto controller = make_controller_kinematics(machine);
   EXPECT_EQ(controller->lengths({0.0, 1200.0}).error(), PoseReason::above_sprockets);

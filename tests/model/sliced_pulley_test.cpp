@@ -88,7 +88,7 @@ TEST(SlicedPulley, PublishedLineDoesNotFollowFromThePublishedDimensions) {
               0.001);  // published as the ratio: -0.38296
 }
 
-TEST(SlicedPulley, LineIsTheCataloguesAngularKink) {
+TEST(SlicedPulley, LineHasTheCataloguesAngularKink) {
   const effects::Effect* effect = effects::find_effect("angular_kink");
   ASSERT_NE(effect, nullptr);
   const LinearKink line = firepick_delta_pulley().fit_line(-54.0 * kDegree, -72.0 * kDegree, 181);
@@ -99,7 +99,7 @@ TEST(SlicedPulley, LineIsTheCataloguesAngularKink) {
   }
 }
 
-TEST(SlicedPulley, RefusesWhatDoesNotFit) {
+TEST(SlicedPulley, RefusesImpossibleDimensions) {
   EXPECT_THROW(SlicedPulley({47.5, 60.0, 92.0, 0.0}),
                std::invalid_argument);  // gear larger than the pulley
   EXPECT_THROW(SlicedPulley({47.5, 5.0, 50.0, 0.0}), std::invalid_argument);  // axes too close

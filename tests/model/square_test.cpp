@@ -118,7 +118,7 @@ TEST(Square, AControllerWithoutWrapBendsTheUpperSquare) {
   EXPECT_LT(worst(*wrapped), 0.5 * worst(*straight));
 }
 
-TEST(Square, NamesThePointThatCannotBeCut) {
+TEST(Square, NamesAnUncuttablePoint) {
   const auto square =
       predict_square(Machine{}, Machine{}, {.size_mm = 100.0, .corner = {-50.0, 1040.0}});
   ASSERT_FALSE(square);
@@ -127,7 +127,7 @@ TEST(Square, NamesThePointThatCannotBeCut) {
   EXPECT_GE(square.error().place.commanded.y_mm, 1072.6);
 }
 
-TEST(Square, RefusesASizeThatIsNone) {
+TEST(Square, RefusesInvalidSizes) {
   for (const double size : {0.0, -5.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(std::ignore = predict_square(Machine{}, Machine{}, {.size_mm = size}),
                  std::invalid_argument);

@@ -25,7 +25,7 @@ PlotterMachine machine_of(PlotterFirmware firmware) {
   return machine;
 }
 
-TEST(PlotterController, CommandsComeBack) {
+TEST(PlotterController, CommandsRoundTrip) {
   for (const PlotterFirmware firmware : model::kPlotterFirmwares) {
     SCOPED_TRACE(name(firmware));
     const PlotterMachine machine = machine_of(firmware);
@@ -60,7 +60,7 @@ KnownPlotter known_plotter() {
   return plotter;
 }
 
-TEST(PlotterMap, IsThePlotterAsFoundOnAPageWhereItsCrossesWereDrawn) {
+TEST(PlotterMap, EqualsTheFittedPlotterOnItsPage) {
   const KnownPlotter plotter = known_plotter();
   const PlotterMap map(plotter);
   const auto mechanism = model::make_plotter_mechanism(machine_found(plotter.set, *plotter.found));

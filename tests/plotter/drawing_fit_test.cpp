@@ -79,7 +79,7 @@ PlotterMachine mural_with_zero_off() {
   return truth;
 }
 
-TEST(DrawingFit, FindsTheZeroOfAMuralThatIsOffAndDrawsStraightLinesNext) {
+TEST(DrawingFit, FindsAMuralsZeroAndStraightensItsLines) {
   const TestDrawing drawing =
       measured(model::mural(1500.0), PlotterFirmware::mural, mural_with_zero_off(), 0.5, 1);
   const auto fit = fit_drawing(drawing);
@@ -95,7 +95,7 @@ TEST(DrawingFit, FindsTheZeroOfAMuralThatIsOffAndDrawsStraightLinesNext) {
 }
 
 
-TEST(DrawingFit, FindsNothingOffOnASoundMachine) {
+TEST(DrawingFit, ReportsNothingOnASoundMachine) {
   const PlotterMachine stated = model::mural(1400.0);
   const auto fit = fit_drawing(measured(stated, PlotterFirmware::mural, stated, 0.5, 1));
   ASSERT_TRUE(fit) << fit.error().sentence();
@@ -113,7 +113,7 @@ void scale_all(TestDrawing& drawing, double factor) {
   for (DrawnMeasure& m : drawing.measures) m.value_mm *= factor;
 }
 
-TEST(DrawingFit, SlipsAreNamedAndNothingIsFound) {
+TEST(DrawingFit, NamesSlipsWithoutAFit) {
   const auto reason_of = [](const std::function<void(TestDrawing&)>& slip) {
     const auto fit = fit_drawing(slipped(slip));
     EXPECT_FALSE(fit);
@@ -178,7 +178,7 @@ TEST(DrawingFit, SlipsOfAPartAndOfAFewPercentAreNamedOnEveryPlotter) {
   }
 }
 
-TEST(DrawingFit, OneMeasureThatFitsNothingIsSetAside) {
+TEST(DrawingFit, RejectsAnInconsistentMeasure) {
   const TestDrawing drawing = slipped([](TestDrawing& d) { d.measures[9].value_mm += 12.0; });
   const auto fit = fit_drawing(drawing);
   ASSERT_TRUE(fit) << fit.error().sentence();

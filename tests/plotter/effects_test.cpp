@@ -60,7 +60,7 @@ TEST(PlotterEffects, EachOfTheCordByHand) {
   EXPECT_NEAR(added(machine, shift, after)[0], 1.515, kRounding);
 }
 
-TEST(PlotterEffects, EachOfTheMachineIsTheMachineThatItNames) {
+TEST(PlotterEffects, EachMachineEffectEqualsAChangedMachine) {
   const PlotterMachine stated = mural(1500.0);
   const auto lengths_of = [](const PlotterMachine& machine) {
     return make_plotter_mechanism(machine)->predict(kPlace, {})->lengths_mm;
@@ -115,7 +115,7 @@ TEST(PlotterEffects, APenThatRubsCarriesAPartOfAGondolaThatMovesDown) {
   EXPECT_GT(change[0], 0.0);
 }
 
-TEST(PlotterEffects, WhatCannotBeIsReported) {
+TEST(PlotterEffects, ReportImpossibleValues) {
   const auto problem_of = [](const PlotterMachine& machine, const AppliedEffect& effect) {
     const auto problems = make_plotter_mechanism(machine)->problems_of_effects({effect});
     return problems.empty() ? std::string() : problems.front().parameter;

@@ -20,7 +20,7 @@ TestDrawing drawing_of(PlotterFirmware firmware, const model::PlotterMachine& st
   return drawing;
 }
 
-TEST(SettingsToPaste, AMuralsZeroIsItsHomedOffset) {
+TEST(SettingsToPaste, HomedOffsetIsAMuralsZero) {
   const model::PlotterMachine stated = model::mural(1500.0);
   model::PlotterMachine truth = stated;
   truth.pin_spacing_mm = 1503.2;
@@ -56,7 +56,7 @@ TEST(SettingsToPaste, FluidncHasBothPinsAndBothScales) {
                           "    steps_per_mm: 79.8400"));
 }
 
-TEST(SettingsToPaste, MarlinIsToldWhereThePenIs) {
+TEST(SettingsToPaste, SetThePenPositionInMarlin) {
   const model::PlotterMachine stated;
   model::PlotterMachine truth = stated;
   truth.zero_mm = {5.0, 5.0};
@@ -82,7 +82,7 @@ TEST(SettingsToPaste, PolargraphHasOneScale) {
                           "machine.motors.mmPerRev=<the present value times 0.998004>"));
 }
 
-TEST(SettingsToPaste, OnceTypedInTheControllerCountsTheCordsRight) {
+TEST(SettingsToPaste, MakeTheControllerCountCordsRight) {
   const model::PlotterMachine stated;
   model::PlotterMachine truth = stated;
   truth.pin_spacing_mm = 1204.0;
@@ -111,7 +111,7 @@ TEST(SettingsToPaste, OnceTypedInTheControllerCountsTheCordsRight) {
 
 /// With its settings typed in, the fitted machine draws correctly, except for what the controller
 /// cannot store.
-TEST(SettingsToPaste, TypedInTheMachineDrawsWhereItIsSent) {
+TEST(SettingsToPaste, MakeTheMachineDrawTrue) {
   model::PlotterMachine truth;
   truth.pin_spacing_mm = 1207.0;
   truth.pin_rise_mm = 5.0;

@@ -41,7 +41,7 @@ PlotterMachine machine_of(const nlohmann::json& kind) {
   return machine;
 }
 
-TEST(PlotterStatics, LengthsAreThoseOfTheTables) {
+TEST(PlotterStatics, LengthsMatchTheTables) {
   int poses = 0;
   for (const nlohmann::json& kind : kinds_of_table()) {
     const PlotterMachine machine = machine_of(kind);
@@ -65,7 +65,7 @@ TEST(PlotterStatics, LengthsAreThoseOfTheTables) {
   EXPECT_EQ(poses, 15);
 }
 
-TEST(PlotterStatics, PositionsAreThoseOfTheTables) {
+TEST(PlotterStatics, PositionsMatchTheTables) {
   for (const nlohmann::json& kind : kinds_of_table()) {
     const auto mechanism = make_plotter_mechanism(machine_of(kind));
     for (const nlohmann::json& pose : kind.at("poses")) {
@@ -119,7 +119,7 @@ TEST(PlotterStatics, ABodyOnTheWallsMotorsIsASledOnBrackets) {
   }
 }
 
-TEST(PlotterStatics, WhatHasNoEquilibriumIsNamed) {
+TEST(PlotterStatics, NamesPosesWithoutEquilibrium) {
   const plotter::Statics mural_bot = plotter::statics_of(mural(1500.0));
   const auto failure = [&](double x, double y) {
     const auto cords = plotter::cords_at(mural_bot, {x, y, 1500.0, 0.0});
@@ -138,7 +138,7 @@ TEST(PlotterStatics, WhatHasNoEquilibriumIsNamed) {
   EXPECT_EQ(nowhere.error().reason.name, "cords_do_not_meet");
 }
 
-TEST(PlotterController, AMuralPaysOutWhatItsFirmwareCalculates) {
+TEST(PlotterController, AMuralPaysOutTheLengthsOfItsFirmware) {
   int poses = 0;
   for (const nlohmann::json& pose : of_table("mural_firmware_1500")) {
     const auto lengths =
@@ -153,7 +153,7 @@ TEST(PlotterController, AMuralPaysOutWhatItsFirmwareCalculates) {
   EXPECT_EQ(poses, 5);
 }
 
-TEST(PlotterController, CountsWithWhatIsSet) {
+TEST(PlotterController, UsesItsSettings) {
   PlotterMachine set;
   set.zero_mm = {5.0, -3.0};
   set.scale_mm_per_m = {2.0, 0.0};
@@ -185,7 +185,7 @@ TEST(PlotterMachine, PinsCloserThanTheGondolaIsWideAreRefused) {
   EXPECT_THROW((void)make_plotter_mechanism(inches), std::invalid_argument);
 }
 
-TEST(PlotterMachine, EveryRangeIsChecked) {
+TEST(PlotterMachine, ChecksEveryRange) {
   PlotterMachine machine = mural(1500.0);
   EXPECT_TRUE(problems_of(machine).empty());
   machine.gondola.mass_kg = std::nan("");

@@ -39,7 +39,7 @@ std::set<std::string> colours_in(const std::string& text) {
   return found;
 }
 
-TEST(Colours, OfEveryChartAreOnTheOneList) {
+TEST(Colours, OfChartsAreOnTheList) {
   std::set<std::string> used;
   for (const EmbeddedFile& chart : embedded_files("chart")) {
     for (const std::string& colour : colours_in(std::string(chart.text))) {
@@ -53,12 +53,12 @@ TEST(Colours, OfEveryChartAreOnTheOneList) {
   for (const std::string& colour : kScales) EXPECT_TRUE(used.contains(colour)) << colour;
 }
 
-TEST(Colours, OfThePagesStyleAreThoseOfTheCharts) {
+TEST(Colours, OfThePageMatchTheCharts) {
   const std::string style(embedded_text("asset", "page.css"));
   EXPECT_THAT(style, ::testing::HasSubstr(std::string("--blue: ") + kAfterColor));
 }
 
-TEST(Colours, OfPythonsPlotsAreThoseOfTheCharts) {
+TEST(Colours, OfPythonPlotsMatchTheCharts) {
   const std::string text =
       testing_support::read_text(CHAINTRUE_FIXTURES "/../tools/python/chaintrue/_plots.py");
   ASSERT_FALSE(text.empty());

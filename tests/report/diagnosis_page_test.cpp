@@ -20,7 +20,7 @@ using grid::testing::sample_diagnosis;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(DiagnosisPage, OfNothingHasNoWhy) {
+TEST(DiagnosisPage, HasNoReasonsWithoutAFinding) {
   EXPECT_THAT(page_of(quiet_diagnosis()), Not(HasSubstr("Why this cause")));
 }
 
@@ -29,7 +29,7 @@ TEST(DiagnosisPage, FoldsALawIntoOnePeriod) {
   EXPECT_THAT(page_of(diagnosis_with_laws()), HasSubstr("full period of 63.5"));
 }
 
-TEST(DiagnosisPage, OfHolesTellsOfDistances) {
+TEST(DiagnosisPage, OfHolesShowsDistances) {
   const Diagnosis found = diagnosis_of_holes();
   EXPECT_EQ(found.outliers.size(), 1U);
   const std::string html = page_of(found);

@@ -54,7 +54,7 @@ Document sample() {
   return document;
 }
 
-TEST(Document, TheTerminalHasItsLines) {
+TEST(Document, RendersForTheTerminal) {
   EXPECT_EQ(render_text(sample()),
             "The verdict is 1 +- 0.1 mm.\n"
             "\nWhat to do now\n"
@@ -75,7 +75,7 @@ TEST(Document, TheTerminalHasItsLines) {
             "  a paragraph\n");
 }
 
-TEST(Document, WhatTheTerminalSaysIsOnThePage) {
+TEST(Document, PageContainsTheTerminalText) {
   const std::string html = render_html(sample());
   for (const char* text : {"The verdict is",
                            "Do this.",
@@ -105,7 +105,7 @@ TEST(Document, WhatTheTerminalSaysIsOnThePage) {
   EXPECT_THAT(html, HasSubstr(">\u2013<")) << "an unknown number is a dash";
 }
 
-TEST(Document, DetailSaysWhoIsShownWhat) {
+TEST(Document, DetailSelectsTheSections) {
   const std::string brief = render_text(sample());
   const std::string verbose = render_text(sample(), Detail::verbose);
   for (const char* text : {"a detail", "For those who ask\n  all of it"}) {
@@ -152,7 +152,7 @@ TEST(Document, ASectionWithoutLinesHasNoTitleOnTheTerminal) {
   EXPECT_THAT(render_html(document), HasSubstr("<tbody>\n</tbody>"));
 }
 
-TEST(Document, TextsStayTexts) {
+TEST(Document, KeepsTextCells) {
   const std::string bad = "<b>&\"x\"</b>";
   Document document{.verdict = {bad}, .remarks = {"r", {Paragraph{bad}}}};
   document.sections = {{bad,
@@ -165,7 +165,7 @@ TEST(Document, TextsStayTexts) {
   EXPECT_THAT(render_text(document), HasSubstr(bad)) << "a terminal has no markup to escape";
 }
 
-TEST(Document, RefusesNumbersThatAreNoneAndRowsThatAreTooLong) {
+TEST(Document, RefusesNonFiniteNumbersAndLongRows) {
   const auto document = [](Row row) {
     Document made;
     made.sections = {{"s", {Table{{{"a", true}}, {std::move(row)}, ""}}}};

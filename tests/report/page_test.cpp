@@ -46,7 +46,7 @@ std::string message_of(Call call) {
   return "no error";
 }
 
-TEST(Page, AsksForNothingFromTheNetwork) {
+TEST(Page, NeedsNoNetwork) {
   std::string html = render_html(sample_document());
   // The embedded programs are checked in the browser test, which has no network.
   html.resize(html.find("<script"));
@@ -56,7 +56,7 @@ TEST(Page, AsksForNothingFromTheNetwork) {
   }
 }
 
-TEST(Page, TextCannotBecomeMarkup) {
+TEST(Page, EscapesText) {
   MapPictures map = sample_pictures();
   map.points[0].name = "</script><script>alert(1)</script>";
   Document document = sample_document(map);
@@ -68,7 +68,7 @@ TEST(Page, TextCannotBecomeMarkup) {
 }
 
 /// File names are bytes; a page is UTF-8 in every case.
-TEST(Page, BytesThatAreNoTextAreReplaced) {
+TEST(Page, ReplacesInvalidBytes) {
   const std::string bad[] = {
       "\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82"};
   for (const std::string& bytes : bad) {
@@ -158,14 +158,14 @@ TEST(Page, EveryFieldThatAChartReadsIsGiven) {
       ElementsAre("x_mm"));
 }
 
-TEST(Page, CarriesTheNoticesOfWhatItEmbeds) {
+TEST(Page, IncludesTheLicencesOfEmbeddedCode) {
   const std::string html = render_html(sample_document());
   EXPECT_THAT(html, HasSubstr("UW Interactive Data Lab"));
   EXPECT_THAT(html,
               HasSubstr("THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS AND CONTRIBUTORS"));
 }
 
-TEST(Page, AFlaggedSettingStandsOut) {
+TEST(Page, HighlightsAFlaggedSetting) {
   const std::string html = render_html(sample_document());
   EXPECT_THAT(html,
               HasSubstr("<tr class=\"flagged\"><td data-heading=\"setting\">right motor, y</td>"));
@@ -179,7 +179,7 @@ TEST(Page, WithoutChartsThereIsNoScript) {
   EXPECT_THAT(html, Not(HasSubstr("<script")));
 }
 
-TEST(Page, RefusesNumbersThatAreNone) {
+TEST(Page, RefusesNonFiniteNumbers) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_THAT(message_of([bad] { (void)render_html(page_with_value(bad)); }), HasSubstr("rms_mm is"));
@@ -227,7 +227,7 @@ TEST(MapPictures, RefuseASheetWithoutExtent) {
               HasSubstr("a sheet with an extent"));
 }
 
-TEST(MapPictures, LeaveOutWhatIsNotKnown) {
+TEST(MapPictures, OmitUnknownValues) {
   EXPECT_TRUE(picture_sections(MapPictures{.sheet = {0.0, 1000.0, 0.0, 1000.0}}).empty());
 }
 

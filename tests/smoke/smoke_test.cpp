@@ -46,7 +46,7 @@ std::string name_of(const testing::TestParamInfo<Set>& info) {
 
 class SealedSmoke : public testing::TestWithParam<Set> {};
 
-TEST_P(SealedSmoke, DiagnosisSaysWhatIsHidden) {
+TEST_P(SealedSmoke, DiagnosisFindsTheHiddenCause) {
   const Outcome outcome = run_set({GetParam().kind, GetParam().seed});
   EXPECT_EQ(outcome.hidden, GetParam().hidden) << line_of(outcome);
   EXPECT_THAT(outcome.facts, IsSupersetOf(GetParam().facts)) << line_of(outcome);
@@ -104,7 +104,7 @@ struct Drawing {
   HiddenCause cause;
 };
 
-TEST(PlotterSmoke, DiagnosisNamesWhatIsHiddenAndNothingOfASoundOne) {
+TEST(PlotterSmoke, DiagnosisNamesTheHiddenCauseAndNothingOnASoundOne) {
   for (const Drawing& drawing : {Drawing{PlotterKind::mural, {"pen_off_centre", ""}},
                                  Drawing{PlotterKind::body, {"gondola_width", ""}},
                                  Drawing{PlotterKind::light_pen, {"cord_weight", "both"}},
@@ -116,7 +116,7 @@ TEST(PlotterSmoke, DiagnosisNamesWhatIsHiddenAndNothingOfASoundOne) {
   }
 }
 
-TEST(LawSmoke, LawIsClaimedWithItsVariableAndAFieldIsNot) {
+TEST(LawSmoke, ClaimsALawWithItsVariableAndNoField) {
   constexpr std::uint64_t kSeed = 4;
   const LawsTrial law = run_laws_trial("laws", kSeed);
   EXPECT_TRUE(law.claimed && law.leads) << line_of("laws", law);

@@ -61,7 +61,7 @@ TEST(SweepSpec, NumbersCellsWithTheRepetitionFastest) {
   EXPECT_EQ(level_name(spec, 4, levels_of(spec, 2)[4]), "chebyshev");
 }
 
-TEST(SweepSpec, AllFixturesAreSound) {
+TEST(SweepSpec, AcceptsAllFixtures) {
   for (const auto& entry : fs::directory_iterator(kSpecs)) {
     SCOPED_TRACE(entry.path().string());
     EXPECT_GT(cells(files::read_sweep(entry.path()).spec), 0U);
@@ -74,7 +74,7 @@ TEST(Sweep, IsTheSameBytesForAnyNumberOfThreads) {
 }
 
 // A run that ends at any byte of its part can be resumed with the same results.
-TEST(Sweep, GoesOnFromAPartTornAnywhere) {
+TEST(Sweep, ResumesFromAnyTruncation) {
   const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
   const std::string whole = whole_run(read, "untorn", 2);
   const fs::path part = fs::path("parts") / "shard-1-of-1.csv";
@@ -114,7 +114,7 @@ TEST(Sweep, ComputesADamagedCellAgain) {
 }
 
 // Without noise and with the true machine stated, the error of a map is that of the fit's surface.
-TEST(RunCell, AKnownMachineWithoutNoiseIsMappedTrue) {
+TEST(RunCell, MapsAKnownMachineExactly) {
   SweepSpec spec = files::read_sweep(kSpecs + "quick.json").spec;
   spec.draw_settings = false;
   spec.noises = {{0.0, 0.0}};
@@ -126,7 +126,7 @@ TEST(RunCell, AKnownMachineWithoutNoiseIsMappedTrue) {
   EXPECT_LT(result.tool_max_mm, 1e-3);
 }
 
-TEST(RunCell, UsedOnAnotherMachineTheMapIsWorse) {
+TEST(RunCell, MapIsWorseOnAnotherMachine) {
   SweepSpec spec = files::read_sweep(kSpecs + "another_machine.json").spec;
   spec.evaluation_columns = 13;
   spec.evaluation_rows = 7;

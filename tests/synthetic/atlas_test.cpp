@@ -276,7 +276,7 @@ TEST(AtlasOf, EachMechanismHasItsSettingsAndItsCatalogue) {
   }
 }
 
-TEST(AtlasOf, AnchorsThatAreNotKnownAreRefused) {
+TEST(AtlasOf, RefusesUnknownAnchors) {
   EXPECT_THROW((void)atlas_of(model::BeltMachine{}), std::invalid_argument);
 }
 

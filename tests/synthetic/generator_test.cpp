@@ -32,7 +32,7 @@ double distance(const auto& a, const auto& b) {
   return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
 }
 
-TEST(Design, RegularGridStandsOnRoundNumbers) {
+TEST(Design, RegularGridHasRoundCoordinates) {
   Random random(1, 0);
   const auto pattern = marks(model::Bed{}, Design{}, random);
   ASSERT_THAT(pattern, SizeIs(28));
@@ -86,7 +86,7 @@ TEST(Design, RandomMarksStayWithinTheBed) {
   }
 }
 
-TEST(Design, RefusesWhatIsNoDesign) {
+TEST(Design, RefusesInvalidDesigns) {
   Random random(1, 0);
   Design design;
   design.columns = 1;
@@ -305,7 +305,7 @@ TEST(Generator, WritesThePaperInTheSheetsFrame) {
   }
 }
 
-TEST(Generator, AddsADisturbanceThatNoModelHas) {
+TEST(Generator, AddsAnUnmodelledDisturbance) {
   SyntheticSpec spec;
   const SyntheticSession plain = session_of(spec);
   spec.unmodelled_mm = 0.8;
@@ -332,7 +332,7 @@ TEST(Generator, NamesTheMarkThatCannotBeReached) {
   EXPECT_EQ(session.error().reason, model::PoseReason::above_sprockets);
 }
 
-TEST(ReadPlaces, LeavesOutWhatCannotBeReachedAndCountsTheVisitsOn) {
+TEST(ReadPlaces, SkipsUnreachablePlacesAndNumbersVisits) {
   const std::vector<AppliedEffect> drift = {{"drift", "left", {{"rate_mm_per_visit", 1.0}}}};
   const std::vector<model::Visit> visits = {{{0.0, 0.0}, 0}, {{0.0, 1500.0}, 1}, {{0.0, 0.0}, 2}};
   const PlacesRead read = read_places(Machine{}, drift, visits);

@@ -137,7 +137,7 @@ TEST(Random, DrawsUniformsThatAreNeverTheEnds) {
   EXPECT_NEAR(mean, 0.5, 4.0 / std::sqrt(12.0 * kCount));  // four standard errors
 }
 
-TEST(Random, ChoosesEachNumberAlike) {
+TEST(Random, ChoosesNumbersUniformly) {
   Random random(8, 0);
   SCOPED_TRACE("seed 8");
   constexpr int kCount = 70000, kKinds = 7;
@@ -150,7 +150,7 @@ TEST(Random, ChoosesEachNumberAlike) {
   EXPECT_THROW(static_cast<void>(random.below(0)), std::invalid_argument);
 }
 
-TEST(Random, StreamsAreStrangers) {
+TEST(Random, StreamsAreIndependent) {
   Random a(1, 2), b(2, 1), c(1, 3);
   const auto first = a.bits();
   EXPECT_NE(first, b.bits());

@@ -22,7 +22,7 @@ StatedNoise noise_of(double length_mm, double position_mm) {
   return noise;
 }
 
-TEST(Signature, OfAPaperEffectIsWhereTheMapWouldSendTheTool) {
+TEST(Signature, OfAPaperEffectIsTheShiftOfTheMap) {
   const Machine machine;
   const std::vector<model::Visit> visits = regular_session(machine, 5, 4);
   const auto shift =
@@ -36,7 +36,7 @@ TEST(Signature, OfAPaperEffectIsWhereTheMapWouldSendTheTool) {
   }
 }
 
-TEST(Signature, OfAMachineEffectIsWhereTheToolGoes) {
+TEST(Signature, OfAMachineEffectIsTheShiftOfTheTool) {
   const Machine machine;
   const std::vector<model::Visit> visits = regular_session(machine, 5, 4);
   const model::AppliedEffect stretch{"chain_stretch", "", {{"compliance_per_n", 1e-7}}};

@@ -27,7 +27,7 @@ Eigen::VectorXd anchors_error(const BeltsFit& fit, const SimulatedBelts& set) {
 
 class AnchorCoverage : public testing::TestWithParam<model::BeltLengths> {};
 
-TEST_P(AnchorCoverage, AnchorsPlacesAndScatterAreAsStated) {
+TEST_P(AnchorCoverage, CoversAnchorsPlacesAndScatter) {
   Squares anchors(5.0), place(2.0), scatter(157.0);
   for (const std::uint64_t seed : seeds(150)) {
     const SimulatedBelts set = simulate({.seed = seed, .lengths = GetParam()});
@@ -85,7 +85,7 @@ TEST(ScaleCoverage, OfHoles) {
   scale.expect_unit();
 }
 
-TEST(BadBeltReadings, AreNamedAndGoodOnesKept) {
+TEST(BadBeltReadings, AreNamedAndGoodOnesAreKept) {
   Rate named, kept;
   for (const std::uint64_t seed : seeds(60)) {
     SimulatedBelts set = simulate({.seed = 500 + seed});

@@ -26,7 +26,7 @@ using coverage::seeds;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
-TEST(PValues, AreUniformWhereNothingIsHidden) {
+TEST(PValues, AreUniformOnSoundMachines) {
   std::vector<double> remainder, family_wise;
   for (const std::uint64_t seed : seeds(120)) {
     DiagnosisOptions options = verdict_alone();
@@ -40,7 +40,7 @@ TEST(PValues, AreUniformWhereNothingIsHidden) {
 }
 
 /// Few positions, where noise, anchors and causes have the fewest checks.
-TEST(PValues, AreUniformWhereNothingIsHiddenInFourBelts) {
+TEST(PValues, AreUniformOnSoundBeltMachines) {
   std::vector<double> family_wise;
   Rate tail;
   for (const std::uint64_t seed : seeds(120)) {
@@ -117,7 +117,7 @@ double probability_of_step(const std::vector<Law>& laws) {
   return p;
 }
 
-TEST(NextForLaws, MakesTheRightLawLikelier) {
+TEST(NextForLaws, RaisesTheProbabilityOfTheTrueLaw) {
   Rate likelier;
   for (const std::uint64_t seed : seeds(40)) {
     const auto step = [](const model::MarkPoint& mark, const auto&) { return mark.x_mm >= 250.0 ? 1.0 : 0.0; };

@@ -27,7 +27,7 @@ double spacing(const model::Machine& machine) {
   return machine.motors.right.x_mm - machine.motors.left.x_mm;
 }
 
-TEST(HolesCoverage, SpacingAndScalesAreAsStated) {
+TEST(HolesCoverage, CoversSpacingAndScales) {
   Squares of_spacing(1.0), scales(2.0);
   double spacing2 = 0.0;
   const auto all = seeds(500);
@@ -55,7 +55,7 @@ TEST(HolesCoverage, SpacingAndScalesAreAsStated) {
   EXPECT_LT(std::sqrt(spacing2 / static_cast<double>(all.size())), 1.15) << "mm, as docs/holes.md states";
 }
 
-TEST(HolesCoverage, TapeZeroIsAsStated) {
+TEST(HolesCoverage, CoversTheTapeZero) {
   constexpr double kSigmaMm = 0.8;
   Random random(21);
   Squares zero(1.0);

@@ -20,7 +20,7 @@ using coverage::seeds;
 using coverage::Squares;
 using testing_support::usual_spec;
 
-TEST(MapCoverage, SettingsAndTheToolsErrorAreAsStated) {
+TEST(MapCoverage, CoversSettingsAndTheToolsError) {
   // Six settings of one bed go together, worth two; a bed's errors are worth about nine.
   Squares settings(2.0), tool(9.0);
   for (const std::uint64_t seed : seeds(40)) {
@@ -88,7 +88,7 @@ TEST(MapCoverage, LengthsOfAMachineThatBendsAreWithinTheirIntervals) {
   EXPECT_GT(covered / static_cast<double>(all.size()), 0.90);
 }
 
-TEST(DrawingCoverage, SettingsAreAsStatedAndSoundOnesAreNotOff) {
+TEST(DrawingCoverage, CoversSettingsAndAcceptsSoundOnes) {
   const model::PlotterMachine stated = model::mural(1500.0);
   // Six settings of one drawing go together, worth two.
   Squares settings(2.0);

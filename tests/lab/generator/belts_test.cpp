@@ -52,7 +52,7 @@ grid::MeasuredBelts measured(const BeltSession& session) {
   return belts;
 }
 
-TEST(HiddenBelts, StiffBeltsAreAsLongAsTheKinematicsHasThem) {
+TEST(HiddenBelts, StiffBeltsMatchTheKinematics) {
   BeltFrame stiff = frame();
   stiff.stiffness_n = 1e8;
   for (const auto& [x, y] : places()) {
@@ -116,7 +116,7 @@ TEST(HiddenBelts, AnchorsAreFoundFromStiffHiddenReadings) {
   EXPECT_NEAR(square / kSets, 1.0, 4.0 * std::sqrt(2.0 / kSets)) << "seeds 1 to " << kSets;
 }
 
-TEST(HiddenBelts, ElasticBeltsLeaveWhatRealOnesLeave) {
+TEST(HiddenBelts, ElasticBeltsLeaveResidualsLikeRealOnes) {
   BeltSession session{frame(), places()};
   const auto fit = grid::fit_belts(measured(session));
   ASSERT_TRUE(fit) << "seed " << session.seed;

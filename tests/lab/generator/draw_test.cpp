@@ -93,7 +93,7 @@ TEST(Draw, TextsAreGridFilesWithoutAFault) {
 }
 
 // Written less exact numbers are noise of the stated size.
-TEST(Draw, NoiseIsAsLargeAsSaid) {
+TEST(Draw, NoiseHasTheListedSize) {
   for (const Mix mix : {Mix::nothing, Mix::heavy}) {
     double length = 0.0, position = 0.0;
     int count = 0;
@@ -116,7 +116,7 @@ TEST(Draw, NoiseIsAsLargeAsSaid) {
   }
 }
 
-TEST(Draw, CausesOfAPairAreDifferentAndTold) {
+TEST(Draw, CausesOfAPairDifferAndAreListed) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     const SealedSet set = draw_set(recipe(Mix::two), seed);
     ASSERT_EQ(set.answer.hidden.size(), 2u);
@@ -189,7 +189,7 @@ TEST(HiddenMachine, CanBeMeasuredAgain) {
   EXPECT_FALSE(set.machine.read("colour", "", dice));
 }
 
-TEST(Draw, PatternsStandBesideCausesAsTheRulesHaveThem) {
+TEST(Draw, PatternsAndCausesFollowTheRules) {
   for (const Mix mix : {Mix::alongside, Mix::two_alongside, Mix::pattern, Mix::near}) {
     for (const PatternGroup group :
          {PatternGroup::smooth, PatternGroup::short_scale, PatternGroup::other}) {

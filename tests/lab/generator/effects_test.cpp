@@ -110,7 +110,7 @@ TEST(Cards, AreTheCatalogueOfTheProduct) {
   }
 }
 
-TEST(Readings, EveryEffectAloneIsTheSameNumberTwice) {
+TEST(Readings, EveryEffectIsReproducible) {
   const auto visits = session(3, 28);
   for (const CauseCard& c : cards()) {
     for (const Where where : c.sides) {
@@ -125,7 +125,7 @@ TEST(Readings, EveryEffectAloneIsTheSameNumberTwice) {
 
 // The order of additions, the sign of hysteresis and the division at the end matter only in
 // combination.
-TEST(Readings, EffectsTogetherAreTheSameNumberTwice) {
+TEST(Readings, EffectsTogetherAreReproducible) {
   const auto visits = session(4, 60);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -141,7 +141,7 @@ TEST(Readings, EffectsTogetherAreTheSameNumberTwice) {
   }
 }
 
-TEST(MarkFrame, IsTheSameMarkTwiceAndTurnsBack) {
+TEST(MarkFrame, RoundTrips) {
   for (const Where where : {Where::x, Where::y, Where::both}) {
     const std::vector<Hidden> effects{{Cause::tape_scale, where, 0.002, 0.0},
                                       {Cause::axes_skew, Where::nowhere, -0.003, 0.0}};

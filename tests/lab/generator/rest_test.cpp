@@ -73,7 +73,7 @@ Worst worst_of(TrueMachine m, const nlohmann::json& bed, const char* key) {
 
 class Tables : public testing::TestWithParam<const char*> {};
 
-TEST_P(Tables, WholeLinksAreWithinTheirDiscreteness) {
+TEST_P(Tables, WholeLinksAgreeToTheirDiscreteness) {
   const auto json = load(GetParam());
   TrueMachine m = machine_of(json.at("params"));
   const Worst elastic = worst_of(m, json.at("bed"), "d_elastic");
@@ -169,7 +169,7 @@ TEST(Rest, MirroredMachinesSwapTheirChains) {
   }
 }
 
-TEST(Rest, RefusesWhatCannotHang) {
+TEST(Rest, RefusesImpossiblePoses) {
   const TrueMachine m;
   EXPECT_FALSE(come_to_rest(m, {-1600.0, 0.0}));  // beyond the left sprocket
   EXPECT_FALSE(come_to_rest(m, {0.0, 1200.0}));   // above both

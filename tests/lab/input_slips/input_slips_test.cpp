@@ -27,13 +27,13 @@ INSTANTIATE_TEST_SUITE_P(Slips, EveryKind, ::testing::Range(std::size_t{0}, kind
 
 class CleanSession : public ::testing::TestWithParam<int> {};
 
-TEST_P(CleanSession, IsReadWithoutAWord) {
+TEST_P(CleanSession, IsReadWithoutMessages) {
   constexpr std::uint64_t kFirst = 500;
   const auto seed = kFirst + static_cast<std::uint64_t>(GetParam());
   EXPECT_THAT(false_alarms(kWays[GetParam() % 4], seed), IsEmpty());
 }
 
-TEST(NumberSlips, OfferWhatMayHaveBeenMeant) {
+TEST(NumberSlips, SuggestTheLikelyNumber) {
   const auto question_for = [](double written, double meant) {
     for (const auto& slip : grid::input_checks::number_errors(written, true)) {
       if (slip.value == meant) return slip.question;

@@ -33,7 +33,7 @@ TEST(Claim, IsAWord) {
   EXPECT_EQ(message_of([] { (void)parse_claim("drift:left=0.5x"); }), "\"0.5x\" is not a number");
 }
 
-TEST(Claim, IsHeldAgainstTheClassThatHasAMemberInCommon) {
+TEST(Claim, IsScoredAgainstTheClassThatSharesAMember) {
   const std::vector<Claim> whole = {{{"a:-", "b:-"}, 0.7}, {{"c:-"}, 0.2}};
   EXPECT_EQ(probability_in(whole, {{"b:-"}, 1.0}), 0.7);
   EXPECT_EQ(probability_in(whole, {{"c:-", "a:-"}, 1.0}), 0.7);
@@ -91,7 +91,7 @@ TEST(Facts, FollowFromTheClaims) {
               testing::StartsWith("no outcome of the plain readings of \"C:planted 1 60"));
 }
 
-TEST(ClusteredBounds, AreThoseOfTheRatioEstimate) {
+TEST(ClusteredBounds, EqualThoseOfTheRatioEstimate) {
   // By hand: rate 1/2; squares 4, 0, 4 about it; sigma sqrt(3/2 8) / 60 = 0.05774; t of 2 is 4.303.
   const sealed::RateBounds three = clustered_bounds({{12, 20}, {10, 20}, {8, 20}});
   EXPECT_NEAR(three.lower, 0.5 - 4.303 * 0.057735, 1e-6);

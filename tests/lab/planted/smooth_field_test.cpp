@@ -48,7 +48,7 @@ generator::Signature signature_of(const CalibratedSession& session, const Hidden
 
 const Hidden kEccentric{Cause::sprocket_eccentricity, Where::left, 0.4, 1.0};
 
-TEST(SmoothField, AWhiteOneIsNoise) {
+TEST(SmoothField, TreatsWhiteFieldsAsNoise) {
   // A field that changes within a millimetre is another error of each reading.
   constexpr double kFieldMm = 0.5;
   const NoiseLevel small{0.1, 0.3}, large{std::hypot(0.1, kFieldMm), 0.3};
@@ -62,7 +62,7 @@ TEST(SmoothField, AWhiteOneIsNoise) {
   EXPECT_LT(with_field, 0.7 * strength_given(kNone, session, signature_of(session, kEccentric)));
 }
 
-TEST(SmoothField, WhatSettingsOrSheetDoHasNoStrength) {
+TEST(SmoothField, ExcludesSettingsAndSheet) {
   const CalibratedSession session = calibrate({}, exact_marks(), {});
   for (Eigen::Index k = 0; k < session.free.cols(); ++k) {
     const Eigen::VectorXd own = session.free.col(k);
@@ -71,7 +71,7 @@ TEST(SmoothField, WhatSettingsOrSheetDoHasNoStrength) {
   }
 }
 
-TEST(SmoothField, TakesFromASmoothCauseAndLeavesAWave) {
+TEST(SmoothField, AbsorbsASmoothCauseAndNoWave) {
   const CalibratedSession session = calibrate({}, exact_marks(), {});
   const SmoothField field{600.0, 1.0, 1.0, 0.0, 1.0};
   const auto share = [&](const Hidden& hidden) {
@@ -98,7 +98,7 @@ TEST(Calibrate, FindsSettingsAndSheet) {
   EXPECT_LT(session.residual.norm(), 1.5);
 }
 
-TEST(SmoothField, IsFoundWhereOneWasDrawn) {
+TEST(SmoothField, IsFoundIfOneWasDrawn) {
   std::vector<ReadMark> marks = exact_marks();
   const auto n = static_cast<Eigen::Index>(marks.size());
   constexpr double kLeftMm = 1.5, kLengthMm = 400.0;

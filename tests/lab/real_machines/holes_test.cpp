@@ -233,7 +233,7 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
   }
 }
 
-TEST_F(RealSets, WhatTheFrameDoesBeyondItsSettingsIsSeenAndNotNamed) {
+TEST_F(RealSets, AFrameBeyondItsSettingsIsReportedNotNamed) {
   // Sets a to d together support a smooth pattern by odds of twenty to one and more; with it
   // neither the chains' scales nor the motors' positions are known better than by their priors.
   const auto fit = joint_fit(first_frame(kHoleSigmaMm));

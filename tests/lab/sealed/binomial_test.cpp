@@ -27,7 +27,7 @@ TEST(Binomial, TailsOfFewTrialsAreTheirSums) {
 
 // A tool with 10 % false alarms has at most three in 20 sets in 87 of 100 runs: why no test of a few
 // dozen sets can guarantee a rate.
-TEST(Binomial, AFewDozenSetsDoNotHoldARate) {
+TEST(Binomial, BoundsOfFewTrialsAreWide) {
   EXPECT_NEAR(1.0 - probability_of_at_least(4, 20, 0.1), 0.8670, kPrinted);
 }
 

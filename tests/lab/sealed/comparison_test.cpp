@@ -22,7 +22,7 @@ const std::string kLine =
     "two 1010000 28 15.50 chain_stretch:-,tooth_skip:left several_causes "
     "chain_stretch:-,tooth_skip:left~link_miscount:left leads,held,all";
 
-TEST(Outcomes, ALineIsReadAsItWasWritten) {
+TEST(Outcomes, LinesRoundTrip) {
   const Outcome outcome = parse_outcome(kLine);
   EXPECT_EQ(outcome.seed, 1010000u);
   EXPECT_EQ(outcome.hidden.size(), 2u);
@@ -33,13 +33,13 @@ TEST(Outcomes, ALineIsReadAsItWasWritten) {
   EXPECT_EQ(line_of(parse_outcome(nothing)), nothing);
 }
 
-TEST(Outcomes, WhatIsNoOutcomeIsRefused) {
+TEST(Outcomes, RefuseInvalidLines) {
   EXPECT_THROW((void)parse_outcome("two 1010000 28"), std::invalid_argument);
   EXPECT_THROW((void)parse_outcome("two 1x 28 15.50 - named - -"), std::invalid_argument);
   EXPECT_THROW((void)parse_outcomes("two 1010000\n"), std::invalid_argument);
 }
 
-TEST(Outcomes, ALineThatWasCutOffIsRunAgain) {
+TEST(Outcomes, ATruncatedLineRunsAgain) {
   EXPECT_EQ(parse_outcomes("# made by\n\n" + kLine + "\ntwo 10100").size(), 1u);
   EXPECT_TRUE(parse_outcomes("two 10100").empty());
 }
@@ -52,7 +52,7 @@ TEST(Outcomes, OneSetHasOneOutcome) {
   EXPECT_THROW((void)sorted({one, other}), std::invalid_argument);
 }
 
-TEST(SealedPlan, ShardsAreTheList) {
+TEST(SealedPlan, ShardsCoverTheList) {
   const std::vector<PlannedSet> list = plan();
   for (const std::size_t shards : {1u, 7u, 16u}) {
     std::vector<PlannedSet> all;
@@ -80,7 +80,7 @@ TEST(SealedPlan, EachShardHoldsEachKindInItsShare) {
   }
 }
 
-TEST(SealedPlan, NoSetIsTwiceInIt) {
+TEST(SealedPlan, HasNoDuplicates) {
   std::set<std::pair<std::string, std::uint64_t>> sets;
   for (const PlannedSet& set : plan()) EXPECT_TRUE(sets.emplace(set.kind, set.seed).second);
 }
@@ -120,7 +120,7 @@ const RowComparison& names_row(const Comparison& comparison) {
   });
 }
 
-TEST(Compared, TheSameIsNotWorse) {
+TEST(Compared, EqualRatesAreNotWorse) {
   const Comparison same = compare(with_names(300, 3), with_names(300, 3));
   EXPECT_EQ(same.sets, 300);
   EXPECT_EQ(names_row(same).both, 297);
@@ -128,7 +128,7 @@ TEST(Compared, TheSameIsNotWorse) {
   EXPECT_FALSE(same.worse());
 }
 
-TEST(Compared, WhatWasGainedIsSetAgainstWhatWasLost) {
+TEST(Compared, NetsGainsAgainstLosses) {
   const Comparison moved = compare(with_names(300, 6, 0), with_names(300, 6, 3));
   const RowComparison& row = names_row(moved);
   EXPECT_EQ(row.lost, 3);
@@ -148,13 +148,13 @@ TEST(Compared, WorseIsMoreThanAPointAndMoreThanChance) {
 }
 
 // A tool with 10 % false alarms is rejected on the sets of the frozen list.
-TEST(Compared, TenPercentOfFalseAlarmsAreRefused) {
+TEST(Compared, RefusesTenPercentFalseAlarms) {
   const Comparison worse = compare(with_names(300, 2), with_names(300, 30));
   EXPECT_TRUE(worse.worse());
   EXPECT_THAT(comparison_table(worse), HasSubstr("WORSE"));
 }
 
-TEST(Compared, OtherSetsAreRefused) {
+TEST(Compared, RefusesOtherSets) {
   std::vector<Outcome> other = with_names(3, 0);
   other.back().hidden = {"drift:left"};
   EXPECT_THROW((void)compare(with_names(3, 0), other), std::invalid_argument);

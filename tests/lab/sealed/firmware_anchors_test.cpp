@@ -36,7 +36,7 @@ TEST(FirmwareAnchors, ExactSpansGiveTheFrameBack) {
   for (const double off : lower_off_mm(found, exact_spans())) EXPECT_NEAR(off, 0.0, kConvergedMm);
 }
 
-TEST(FirmwareAnchors, FewerThanFivePlacesAreRefused) {
+TEST(FirmwareAnchors, RefuseFewerThanFivePlaces) {
   EXPECT_THROW((void)firmware_anchors(std::vector<Spans>(4)),
                std::invalid_argument);
 }

@@ -43,7 +43,7 @@ TEST(SealedLaws, AreClaimedAndRightInBeltsAndHoles) {
   }
 }
 
-TEST(SealedLaws, FieldsCausesAndNothingAreNoLaw) {
+TEST(SealedLaws, AreNotClaimedForFieldsCausesOrNoise) {
   for (const std::string_view kind : {"gaussian", "matern", "uneven", "causes", "nothing", "belts_gaussian",
                                       "belts_causes", "belts_nothing", "holes_gaussian", "holes_nothing"}) {
     for (const std::uint64_t seed : {3, 4}) {

@@ -89,7 +89,7 @@ TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
 }
 
 // Effects in the machine file are not found again.
-TEST(Metamorphic, AnEffectThatTheModelHasIsNothingNew) {
+TEST(Metamorphic, AModelledEffectIsNotFound) {
   const std::vector<Hidden> known[] = {{{Cause::chain_pitch_error, Where::left, 0.0012, 0.0}},
                                        {{Cause::beam_flex, Where::nowhere, 0.015, 0.0}},
                                        {{Cause::sprocket_eccentricity, Where::right, 1.0, 0.4}},
@@ -110,7 +110,7 @@ TEST(Metamorphic, AnEffectThatTheModelHasIsNothingNew) {
 }
 
 // With the named causes in the model, nothing remains to be named.
-TEST(Metamorphic, OnceNamedAndInTheModelItIsGone) {
+TEST(Metamorphic, AddingTheNamedCauseRemovesIt) {
   for (std::uint64_t seed = 11; seed <= 15; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto grid = read(drawn(seed));

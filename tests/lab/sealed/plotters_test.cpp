@@ -14,7 +14,7 @@ namespace {
 constexpr double kRare = 1e-3;
 
 // 230 sets: fails in 93 of 100 runs where 80 % are right.
-TEST(SealedPlotters, NinetyPercentOfCausesOfStrength8AreNamedAloneOrInASet) {
+TEST(SealedPlotters, NameNinetyPercentOfStrongCauses) {
   constexpr std::uint64_t kSeeds = 10;
   int sets = 0, right = 0;
   for (const PlotterKind kind : kPlotterKinds) {
@@ -31,7 +31,7 @@ TEST(SealedPlotters, NinetyPercentOfCausesOfStrength8AreNamedAloneOrInASet) {
 }
 
 // 300 sets a kind: fails in 93 of 100 runs where 5 % are named.
-TEST(SealedPlotters, NothingIsNamedInNinetyNinePercentOfSoundOnes) {
+TEST(SealedPlotters, NameNothingInNinetyNinePercentOfSoundOnes) {
   constexpr int kSets = 300;
   for (const PlotterKind kind : kPlotterKinds) {
     int named = 0;

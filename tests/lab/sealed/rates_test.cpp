@@ -35,7 +35,7 @@ TEST(Rates, TheFrozenTableIsOfTheFrozenOutcomes) {
 }
 
 // A nearly certain entry of the table is among the causes, for every verdict.
-TEST(Rates, TheTableNeverContradictsTheSentence) {
+TEST(Rates, TableAgreesWithTheSentence) {
   for (const Mix mix : {Mix::alongside, Mix::two_alongside, Mix::unlisted, Mix::near}) {
     TrialOptions options;
     options.recipe.kind = mix;

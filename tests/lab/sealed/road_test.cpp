@@ -55,7 +55,7 @@ Road road_of(std::vector<Hidden> hidden,
   return {std::move(set), *std::move(plain), *std::move(own)};
 }
 
-TEST(Road, WornChainAndBendingBeamMakeATruerMapOnceTheyAreFound) {
+TEST(Road, FindingWearAndBeamFlexLowersTheError) {
   double plain_mm2 = 0.0;
   double own_mm2 = 0.0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
@@ -70,7 +70,7 @@ TEST(Road, WornChainAndBendingBeamMakeATruerMapOnceTheyAreFound) {
   EXPECT_LT(own_mm2, plain_mm2);
 }
 
-TEST(Road, ASkippedToothIsTakenOutOfTheReadingsAndNotFitted) {
+TEST(Road, ASkippedToothIsRemovedFromTheReadings) {
   for (const std::uint64_t seed : {1, 2}) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
     ASSERT_THAT(road.own.built_on, SizeIs(1)) << "seed " << seed;
@@ -108,7 +108,7 @@ TEST(Road, ASessionWithAnotherZeroDoesNotPullTheMap) {
   }
 }
 
-TEST(Road, WhatHappenedInOneSessionIsTakenOutOfThatOneAlone) {
+TEST(Road, AnEventOfOneSessionIsRemovedFromThatSession) {
   const generator::SealedSet set = set_of_start({Cause::zero_shift, Where::left, 10.0, 17.0}, 2);
   const auto first = grid::files::parse_grid(set.grid_text, "first.json").grid;
   const auto second = grid::files::parse_grid(another_session(set, 5.0, 2), "second.json").grid;
@@ -133,7 +133,7 @@ grid::diagnosis::Diagnosis named_in(const generator::SealedSet& set) {
   return *std::move(found);
 }
 
-TEST(Road, AShiftOfWholeLinksIsSaidAsBothAndAnotherIsNot) {
+TEST(Road, OnlyAShiftOfWholeLinksMayBeASkippedTooth) {
   const auto links = [](double count) { return 6.35 * count; };
   struct Case {
     Hidden hidden;
@@ -166,7 +166,7 @@ std::string without_notes(const grid::CompensationMap& map) {
   return grid::files::write_map(grid::CompensationMap(std::move(contents)));
 }
 
-TEST(Road, WhereNothingIsHiddenTheMapIsThePlainOneToTheByte) {
+TEST(Road, ASoundMachineGetsThePlainMap) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Road road = road_of({}, 28, seed);
     EXPECT_THAT(road.own.built_on, IsEmpty()) << "seed " << seed;
@@ -177,7 +177,7 @@ TEST(Road, WhereNothingIsHiddenTheMapIsThePlainOneToTheByte) {
   }
 }
 
-TEST(Road, ACauseThatStaysOutsideIsInTheExpectedError) {
+TEST(Road, AnUncorrectedCauseEntersTheExpectedError) {
   int open = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     const Road road = road_of(
@@ -195,7 +195,7 @@ TEST(Road, ACauseThatStaysOutsideIsInTheExpectedError) {
 }
 
 // The fit treats a skipped tooth as noise: it expected 0.7 mm when the tool was 4 mm off.
-TEST(Road, WhatIsLeftOutIsStatedWhereItContradictsTheFit) {
+TEST(Road, OmittedNumbersAreReportedIfTheyContradictTheFit) {
   for (const std::uint64_t seed : {1, 2}) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
     const grid::MapContents& plain = road.plain.map.contents();
@@ -207,7 +207,7 @@ TEST(Road, WhatIsLeftOutIsStatedWhereItContradictsTheFit) {
   }
 }
 
-TEST(Road, WhatMayBeTheTapeIsOfferedUntilItsOwnerDecides) {
+TEST(Road, APossibleTapeErrorIsOfferedForDecision) {
   const std::vector<Hidden> both = {{Cause::chain_pitch_error, Where::both, 0.002}};
   const Road asked = road_of(both, 60, 1);
   EXPECT_THAT(asked.own.built_on, IsEmpty());
@@ -221,14 +221,14 @@ TEST(Road, WhatMayBeTheTapeIsOfferedUntilItsOwnerDecides) {
     EXPECT_EQ(offered.reason, OfferedCause::Reason::gains_nothing);
 }
 
-TEST(Road, ATapeThatIsOffAlongOneAxisChangesNoMap) {
+TEST(Road, ATapeErrorAlongOneAxisChangesNoMap) {
   const Road road = road_of({{Cause::tape_scale, Where::x, 0.0015}}, 60, 1);
   EXPECT_THAT(road.own.built_on, IsEmpty());
   ASSERT_THAT(road.own.offered, Not(IsEmpty()));
   EXPECT_EQ(road.own.offered.front().reason, OfferedCause::Reason::is_paper);
 }
 
-TEST(Road, BeyondWhatWasMeasuredSigmasAreMultipliedAndNowhereElse) {
+TEST(Road, SigmasAreMultipliedOutsideThePointsOnly) {
   generator::Recipe recipe;
   recipe.points = 60;
   recipe.kind = generator::Mix::nothing;

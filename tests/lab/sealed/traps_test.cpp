@@ -34,7 +34,7 @@ bool not_testable(const Diagnosis& found, const std::string& effect) {
 }
 
 // 1 mm on the wheel's radius: motors and zeros absorb all of it except a delta of 1.
-TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
+TEST(Traps, EffectsTheSettingsAbsorbAreBoundedNotNamed) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto set = posed({{Cause::sprocket_radius, Where::nowhere, 1.0, 0.0}}, Order::rows, seed);
@@ -54,7 +54,7 @@ TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
 
 // The left motor is 15 mm from its taped position, five of its sigmas: an error of a setting, not a
 // cause.
-TEST(Traps, ASettingFarOffIsASetting) {
+TEST(Traps, ABadSettingIsNamedAsASetting) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
@@ -69,7 +69,7 @@ TEST(Traps, ASettingFarOffIsASetting) {
 }
 
 // The second effect cancels the first; alone, either would be named.
-TEST(Traps, EffectsThatCancelAreNotSeen) {
+TEST(Traps, CancellingEffectsAreNotNamed) {
   const auto blank = posed({}, Order::random, 3);
   const auto yardstick =
       generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
@@ -87,7 +87,7 @@ TEST(Traps, EffectsThatCancelAreNotSeen) {
 }
 
 // One reading a link too long: a miscount or a bad point, not an effect of the machine.
-TEST(Traps, OnePointIsNotAMachine) {
+TEST(Traps, OneBadPointIsNoMachineCause) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto set =
@@ -105,7 +105,7 @@ TEST(Traps, OnePointIsNotAMachine) {
 
 // Columns visited from left to right: time increases with x. Drift of the right chain then
 // resembles that chain's pitch; in random order it is unique.
-TEST(Traps, DriftIsOwnedUpToWhenTheOrderIsARaster) {
+TEST(Traps, ReportDriftInARaster) {
   const std::vector<Hidden> drift{{Cause::drift, Where::right, 0.06, 0.0}};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -118,7 +118,7 @@ TEST(Traps, DriftIsOwnedUpToWhenTheOrderIsARaster) {
 }
 
 // A serpentine order shows; a random one does not.
-TEST(Traps, WithoutAnOrderHysteresisIsTestableWhereTheReadingsSayTheOrder) {
+TEST(Traps, HysteresisIsTestableIfTheReadingsShowTheOrder) {
   const std::vector<Hidden> friction{{Cause::direction_hysteresis, Where::both, 0.8, 0.0}};
   const auto without_order = [&](Order order) {
     grid::MeasuredGrid grid = read(posed(friction, order, 2));
@@ -139,7 +139,7 @@ TEST(Traps, WithoutAnOrderHysteresisIsTestableWhereTheReadingsSayTheOrder) {
   }
 }
 
-TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
+TEST(Traps, SwappedPointsAreTheTwoBadOnes) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
@@ -154,7 +154,7 @@ TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
 
 // Effects of the paper are corrected in the data. A machine with the tape's error would cut it into
 // every part.
-TEST(Traps, TheTapesErrorStaysOutOfTheMachine) {
+TEST(Traps, ATapeErrorDoesNotEnterTheMachine) {
   for (const Where where : {Where::x, Where::y}) {
     const double scale = where == Where::x ? 0.0016 : 0.004;
     const auto set = posed({{Cause::tape_scale, where, scale, 0.0}}, Order::columns, 5);

@@ -85,18 +85,18 @@ TEST(Sealed, OrdersThereAndBackAreFound) {
   }
 }
 
-TEST(Sealed, NoOrderIsFoundWhereMarksWereVisitedAtRandom) {
+TEST(Sealed, NoOrderIsFoundForRandomVisits) {
   const Counts counts = count(Order::random, Cause::direction_hysteresis, kSets, 7400);
   EXPECT_GT(probability_of_at_least(counts.wrong, kSets, 0.02), 1e-3) << counts.wrong << ", seeds from 7400";
 }
 
-TEST(Sealed, NoOrderIsFoundWhereNothingDependsOnIt) {
+TEST(Sealed, NoOrderIsFoundWithoutAnEffectOfTheVisit) {
   const Counts counts = count(Order::serpentine_columns, std::nullopt, kSets, 7600);
   const int found = counts.right + counts.wrong;
   EXPECT_GT(probability_of_at_least(found, kSets, 0.02), 1e-3) << found << ", seeds from 7600";
 }
 
-TEST(Sealed, CausesAreOfTheOrderThatWasFound) {
+TEST(Sealed, CausesFollowTheFoundOrder) {
   generator::Recipe recipe;
   recipe.points = 60;
   recipe.order = Order::serpentine_columns;
