@@ -27,7 +27,7 @@ struct Output {
 };
 
 struct Table {
-  /// c += scale a b, of which not both are transposed
+  /// c += scale a b, at most one of them transposed
   void (*add_product)(Output c, double scale, Input a, Input b);
   /// The lower triangle of c += scale a a'
   void (*add_square)(Output c, double scale, Input a);

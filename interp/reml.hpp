@@ -109,7 +109,7 @@ struct FitFailure {
   [[nodiscard]] const std::string& sentence() const { return text; }
 };
 
-/// The fitted model. Covariances are of the Bayesian posterior (2).
+/// The fitted model. Covariances are those of the Bayesian posterior (2).
 struct PenalisedFit {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known

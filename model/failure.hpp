@@ -22,7 +22,7 @@ struct Nowhere {
   friend bool operator==(const Nowhere&, const Nowhere&) = default;
 };
 
-/// `ReasonType` is a scoped enum or, where each mechanism has reasons of its own, model::MechanismReason.
+/// `ReasonType` is a scoped enum or, if mechanisms differ in their reasons, model::MechanismReason.
 /// `PlaceType` says which of many points, visits or marks. A failure by its reason alone allocates
 /// nothing.
 template <typename ReasonType, typename PlaceType = Nowhere>
@@ -31,7 +31,7 @@ struct Failure {
 
   /// The sentence is sentence_of(reason).
   constexpr Failure(Reason why) : reason(std::move(why)) {}  // NOLINT: an error is made of its reason
-  /// With a sentence of its own, for a whole task.
+  /// With its own sentence, for a whole task.
   Failure(Reason why, std::string words) : reason(std::move(why)), text(std::move(words)) {}
 
   Failure(Reason why, PlaceType where) : reason(std::move(why)), place(std::move(where)) {}

@@ -95,7 +95,7 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
 
 namespace {
 
-/// Drops the few points whose lengths meet nowhere about these anchors: one reading with a lost
+/// Drops the few points whose lengths do not intersect: one reading with a lost
 /// digit would end the estimate before it begins.
 Counting without_nowhere_points(const MeasuredBelts& belts,
                                 const AnchorVector& start,

@@ -117,7 +117,7 @@ struct BeltsFit {
   BeltPrediction one_left_out;
   std::optional<BeltPrediction>
       half_left_out;  ///< either half by the other; with ten places and more
-  /// Residuals, places and predictions are of readings corrected for these; rms_mm is of the
+  /// Residuals, places and predictions belong to readings corrected for these; rms_mm is of the
   /// readings as read.
   std::vector<CauseInAnchorFit> causes;
 };

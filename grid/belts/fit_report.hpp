@@ -16,7 +16,7 @@
 namespace chaintrue::grid::belts {
 
 /// Everything except the predictions of each half of the places by the other. `belts` and `view`
-/// are of the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
+/// use the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
 /// logarithm too.
 [[nodiscard]] BeltsFit fit_report(const MeasuredBelts& belts,
                                   const FitDiagnostics& view,

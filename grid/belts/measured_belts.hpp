@@ -20,7 +20,7 @@
 
 namespace chaintrue::grid {
 
-/// How hard the pulled belts were pulled at a place. A motor's current stands for its force, net of
+/// How hard the pulled belts were pulled at a place. A motor's current measures its force, net of
 /// the idle current.
 struct BeltPull {
   enum class Unit { relative, newton, milliampere };

@@ -14,7 +14,7 @@
 /// the bed: single readings drawn at random would all repeat it. The probability of a pattern and
 /// of every model without one stay as with all readings.
 ///
-/// Each part's probabilities are of the models that the whole comparison holds (downdating.hpp): averaged over the
+/// Each part's probabilities cover the models of the whole comparison (downdating.hpp): averaged over the
 /// parts within 0.03 of comparisons made anew in 41 of 50 sets, the worst 0.18 off (tests/diagnosis/bed_parts_test.cpp).
 ///
 /// Sources: J. Huggins and J. Miller, Bayesian Analysis 18 (2023), 79; on blocks P. Hall, J. Horowitz and

@@ -49,7 +49,7 @@ namespace chaintrue::grid::diagnosis {
 
 struct Naming;
 
-/// Probability from which on a cause may enter a map.
+/// Least probability of a cause that may enter a map.
 inline constexpr double kSureOfCause = 0.9;
 
 struct CausesFitOptions {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The coordinates of a place where readings were taken, of which a pattern, a law or a residual
+/// The coordinates of a place where readings were taken, on which a pattern, a law or a residual
 /// may be a function.
 ///
 /// \code

@@ -3,7 +3,7 @@
 /// The result of a session for declared effects, such as a law that an earlier session found.
 ///
 ///   confirmed     named, at kLawClaimed and more
-///   denied        no more than 1 - kLawClaimed, and it would have shown as it stands in the file: its size
+///   denied        no more than 1 - kLawClaimed, and it would have been detected with the file's size: its size
 ///                 lies below the usual one at 95 %, or the readings are likelier without it than with its
 ///                 usual values, by the odds of kLawClaimed
 ///   open          neither

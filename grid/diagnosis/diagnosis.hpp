@@ -105,7 +105,7 @@ struct Unexplained {
   double signal_to_noise = 0.0;  ///< of the pattern as it is estimated
   double rms_mm = 0.0;           ///< of the tool, at the points (or of the distances)
   double share = 0.0;            ///< of the mean square of what the settings leave
-  /// The coordinate that it is a function of, as LeftOver has it; empty where it is of the place.
+  /// The coordinate that it is a function of, as in LeftOver; empty for a function of the place.
   std::string follows;
   double length_mm = 0.0;  ///< over which it changes; of an angle or a pull what that is on the bed
   Enters enters = Enters::mixed;

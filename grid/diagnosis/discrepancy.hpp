@@ -12,7 +12,7 @@
 ///   k(t, u) = exp(-|t - u|^2 / (2 length^2)),  t what the field is a function of
 ///   T  identity where it enters the chains, J = d(L, R)/d(mark) where it moves the tool
 ///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none; of
-///      the border d = (1, 1), and either component has a t and a weight of its own
+///      the border d = (1, 1), and either component has its own t and weight
 ///
 /// Of a mechanism that has other lengths than two chains each length is disturbed by itself, equal in
 /// variance: T and D are identities over its lengths (LengthEntry).

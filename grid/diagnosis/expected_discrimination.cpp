@@ -100,7 +100,7 @@ void predict(const Analysis& a,
              Alternative& h) {
   const Estimate fitted =
       estimate(a.system, marginalised_system(a), h.regressors, h.discrepancy);
-  // Holes that are not cut yet have columns of their own, after all others.
+  // Holes not yet cut have their own columns, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
   h.mean = linear::product(system.by_setting.leftCols(settings), fitted.setting_change);

@@ -91,7 +91,7 @@ LawModel::Expected LawModel::expected_of(const RegressorSystem& next,
   }
   Eigen::MatrixXd across = linear::product(there, linear::transposed(here));
   Eigen::MatrixXd own = linear::outer(there);
-  // Holes that are not cut yet have columns of their own, after all others.
+  // Holes not yet cut have their own columns, after all others.
   const Eigen::Index to_come = next.by_setting.cols() - settings;
   linear::add_outer(
       own,

@@ -13,7 +13,7 @@
 namespace chaintrue::grid::diagnosis {
 
 inline constexpr std::size_t kMostNextMeasurements = 8;
-/// Probability from which on nothing more is proposed.
+/// Nothing is proposed from this probability on.
 inline constexpr double kEnough = 0.97;
 
 /// Empty if fewer than two hypotheses remain.

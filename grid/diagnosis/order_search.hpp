@@ -30,7 +30,7 @@ namespace chaintrue::grid::diagnosis {
 
 /// The order of a grid without visit numbers, if its probability is at least kOrderFound; with its
 /// corner only if no mark was repeated, since a repeat may come between any two visits. Empty if
-/// the grid has an order or its marks are not in lines. \pre `analysis` is of this one file.
+/// the grid has an order or its marks are not in lines. \pre `analysis` covers this file only.
 [[nodiscard]] std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
                                                                     const Analysis& analysis);
 

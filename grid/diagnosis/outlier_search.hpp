@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Finds sets of readings that some hypothesis would reject, by mean shifts: each group of rows'
-/// directions that one slip spoils has a shift of its own, the groups are added one after the
+/// directions that one slip spoils has its own shift, the groups are added one after the
 /// other, and the nested set with the best evidence is used.
 ///
 /// Notation, in addition to evidence.hpp

@@ -4,7 +4,7 @@
 /// residual surface from any mix of observations of one machine.
 ///
 /// Each stated setting enters as a datum with its stated sigma; the chains' scales and the
-/// surfaces' polynomials have weak priors of their own, so that settings explain what they can.
+/// surfaces' polynomials have their own weak priors, so that settings explain what they can.
 /// Nuisances that belong to the noise (a hole's own error) are as large with the readings' noise as
 /// was stated, whatever the noise turns out to be; the others (a tape's zero, a sheet's size) are
 /// data of known sigma, and so are readings that cannot be outliers.
@@ -89,7 +89,7 @@ enum class SurfaceUse {
   on_evidence,  ///< if the readings support it (kSurfaceEvidence)
 };
 
-/// Units to be left out together for their residuals.
+/// Units that are left out together.
 using UnitGroup = std::vector<std::size_t>;
 
 /// When a single reading of a unit is rejected whose readings may be outliers one by one (reading_shifts.hpp), the

@@ -14,7 +14,7 @@
 ///   off = d~' r~ / (d~' M d~)                                                               (1)
 ///   t   = d~' r~ / (s_out sqrt(d~' M d~)),   s_out^2 = (s^2 n - off d~' r~) / (n - 1)          (2)
 ///
-/// and of one that is rejected off = d~' r~ / d~' d~ with variance s^2 / d~' d~ + d~' S d~ / (d~' d~)^2.
+/// and, for a rejected reading, off = d~' r~ / d~' d~ with variance s^2 / d~' d~ + d~' S d~ / (d~' d~)^2.
 /// What counts is the normal deviate of the same chance as t.
 ///
 /// Sources: R. Cook and S. Weisberg, Residuals and Influence in Regression (1982), sections 2.2 and

@@ -6,7 +6,7 @@
 ///   scales        of either chain; none of a mechanism of more lengths
 ///   polynomials   of either chain's surface, as the places observe it (observed_subspace.hpp)
 ///   penalised     the same
-///   the rest      of each observation: its sheet and its zeros where it has some of its own, its
+///   the rest      of each observation: its sheet and its zeros if it has its own, its
 ///                 nuisances
 ///
 /// What comes before the rest is what a map is made of. Settings of the machine and placements of

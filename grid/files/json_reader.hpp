@@ -77,7 +77,7 @@ class Member {
   virtual ~Member() = default;
   /// A wrong value is reported.
   virtual void read(const Cursor& at, void* member) const = 0;
-  /// Empty if the key is to be left out.
+  /// Empty omits the key.
   [[nodiscard]] virtual std::optional<Json> write(const void* member) const = 0;
 };
 

@@ -39,7 +39,7 @@ void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pro
 /// Leaves out and reports a few places whose lengths do not meet.
 void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems);
 
-/// Runs whose places are of two frames become two.
+/// Runs with places in two frames are split.
 void part_frames(const model::BeltMachine& machine,
                  std::vector<ScannedRun>& runs,
                  Problems& problems);

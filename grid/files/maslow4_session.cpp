@@ -107,7 +107,7 @@ Maslow4Import one_session(std::vector<Maslow4Import> runs, const std::vector<Bel
     session.warnings.insert(session.warnings.end(), run.warnings.begin(), run.warnings.end());
     session.is_enough = session.is_enough || run.is_enough;
     if (run.stopped) session.stopped = std::move(run.stopped);
-    // The machine's own figures are of one run.
+    // The machine's own figures cover one run.
     session.belts.firmware_fit.reset();
   }
   return session;

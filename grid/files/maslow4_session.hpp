@@ -23,7 +23,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option);
 
 /// `pulls`: one of each run; empty: as the logs have them. Of one run the run itself, with its pull.
-/// \throws InputError where runs are of different frames, or if the pull of each is unknown.
+/// \throws InputError if runs have different frames, or if the pull of each is unknown.
 /// \throws std::logic_error without runs.
 [[nodiscard]] Maslow4Import one_session(std::vector<Maslow4Import> runs,
                                         const std::vector<BeltPull>& pulls);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The unit that stands for mm in a file whose lengths are all too small, inferred from its bed.
+/// The actual unit of a file whose lengths are all too small, inferred from its bed.
 #pragma once
 
 namespace chaintrue::grid::files {

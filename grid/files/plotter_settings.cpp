@@ -25,7 +25,7 @@ using model::PlotterMachine;
 constexpr Range kOnTheWall{"mm", -20000.0, 20000.0};
 constexpr Range kPositive{"", 1e-6, 1e6};
 
-// A mural's: the numbers of its own page, by their names there.
+// The numbers on a mural's own page, by their names.
 constexpr const char* kTopDistance = "top distance";
 constexpr const char* kPulleyDiameter = "effective pulley diameter";
 constexpr const char* kHomedOffset = "homed step offset";

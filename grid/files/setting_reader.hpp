@@ -63,7 +63,7 @@ class SettingReader {
 /// colon. "kinematics/WallPlotter/left_anchor_x". Reports keys that occur twice at one place.
 [[nodiscard]] SettingTexts yaml_texts(const std::string& text, Problems& problems);
 
-/// Settings each on a line of its own, "key=12", "key: 12 mm"; `before` is the text before a key;
+/// Settings, one a line, "key=12", "key: 12 mm"; `before` is the text before a key;
 /// other lines are ignored.
 [[nodiscard]] SettingTexts line_texts(const std::string& text,
                                       char separator,

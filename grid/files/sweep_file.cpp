@@ -289,7 +289,7 @@ void check_effects(const SweepSpec& spec, Problems& problems) {
   for (std::size_t i = 0; i < spec.uses.size(); ++i) check("used_on", i, spec.uses[i].effects);
 }
 
-/// Input that acts nowhere is a mistake.
+/// Unused input is a mistake.
 void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& problems) {
   const auto remove = [&](const std::vector<model::AppliedEffect>& effects) {
     for (const model::AppliedEffect& own : effects) given.erase(own.effect);

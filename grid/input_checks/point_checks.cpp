@@ -140,7 +140,7 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// How far apart the marks are of this row and of the one nearest to it by its reading.
+/// Distance between the marks of this row and of the row with the nearest reading.
 std::optional<double> apart_from_its_repeat(const Points& points,
                                             const Places& places,
                                             std::size_t row) {

@@ -4,7 +4,7 @@
 /// typed in, or were not, explain the result instead of a change of the machine?
 ///
 /// The points' chain lengths are what the controller has paid out for their commands, so each set of
-/// settings makes readings of its own. All are compared with the same map; with n readings and
+/// settings predicts its own readings. All are compared with the same map; with n readings and
 ///
 ///   chi2 = sum_i (r_i / sigma_i)^2                                                          (1)
 ///

@@ -4,7 +4,7 @@
 /// and one map: the machine, its chains' scales and the residual surface are estimated from all of
 /// them.
 ///
-/// The map's frame is that of the first file's marks; every other file has a sheet of its own, whose
+/// The map's frame is that of the first file's marks; every other file has its own sheet, whose
 /// placement is estimated and belongs to it alone. A chain's zero may have been reset between two
 /// grids: each but the first has separate zeros. The map's zeros are those of the first grid, so
 /// give the most recent one first. A hole is where its chain lengths put it, so each set's

@@ -10,7 +10,7 @@
 /// places, same bound.
 ///
 /// S is averaged over the size of the noise, which few repeats leave uncertain (interp/reml.hpp). Normal z of that
-/// variance stand for Student's t: with 12 degrees of freedom 2.15 for 2.18 at 95 %.
+/// variance replace Student's t: with 12 degrees of freedom 2.15 for 2.18 at 95 %.
 ///
 /// \code
 ///   LargestError largest;

@@ -47,7 +47,7 @@ class LatticeSplines {
     return {left_.get(), right_.get()};
   }
   /// Of both corrections, two columns a node, `node` being the covariance of one measured node. The
-  /// bicubic's weights stand for the quintic's. Inside the lattice the interpolation's own error
+  /// bicubic's weights approximate the quintic's. Inside the lattice the interpolation's own error
   /// counts in full; beyond it, it grows with the weights.
   [[nodiscard]] Eigen::Matrix2Xd spread(model::MarkPoint mark, const Eigen::Matrix2d& node) const;
 

@@ -98,7 +98,7 @@ std::optional<Eigen::VectorXd> errors_with(const Machine& machine,
   return controller_errors(paid_out_by(with_settings), places);
 }
 
-/// One step of Gauss and Newton from `now`; `weight` is of an error's square relative to the priors'.
+/// One step of Gauss and Newton from `now`; `weight` multiplies squared errors relative to the priors.
 std::optional<ControllerSettings> improved(const Machine& machine,
                                            const ControllerSettings& now,
                                            const std::vector<FreeSetting>& free,

@@ -67,7 +67,7 @@ double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
   return std::sqrt(area_mm2 / as_double(marks.size()));
 }
 
-/// Sorted across; empty where the marks stand in none.
+/// Sorted across; empty if the marks are not in lines.
 std::vector<std::vector<MarkInLine>> lines_of(std::vector<MarkInLine> marks) {
   stable_sort(marks, ascending(&MarkInLine::across_mm));
   const double gap_mm = kLineGapShare * usual_spacing_mm(marks);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Orders in which marks that stand in lines are visited: line by line from a corner.
+/// Orders in which marks in lines are visited: line by line from a corner.
 ///
 /// \code
 ///   for (const VisitingOrder& order : line_by_line_orders()) {

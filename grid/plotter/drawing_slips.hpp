@@ -22,7 +22,7 @@ using DrawnValues = std::function<std::optional<Eigen::VectorXd>(const model::Me
                                                             const DrawnValues& drawn,
                                                             const model::Mechanism& machine);
 
-/// Two measures that fit once they are exchanged, against `found`, of which each is rejected.
+/// Two rejected measures that fit `found` once exchanged.
 [[nodiscard]] std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
                                                            const Eigen::VectorXd& found,
                                                            const std::vector<bool>& rejected);

@@ -8,7 +8,7 @@
 /// A drawing does not show where on the wall it is. t therefore places the page so that its
 /// crosses, as a whole, are drawn where they were commanded: a program that is compensated moves no
 /// farther than its lines are wrong. The page is not turned, since the fitted plotter's level is as
-/// accurate as the stated height of its pins. Sigmas are of the drawing's shape: plotters one sigma
+/// accurate as the stated height of its pins. Sigmas describe the drawing's shape: plotters one sigma
 /// away have the page where its crosses come nearest to those of the fit, turned and moved as a
 /// whole.
 ///

@@ -109,7 +109,7 @@ TEST(BeltsAndHoles, TheSheetsEdgesFixTheFrame) {
   ASSERT_TRUE(laid && laid->holes.sheet);
   const BeltMap map(laid->belts, &laid->holes);
   const BedPoint moved = *map.tool(*unlaid.lengths({100.0, -50.0}));
-  // Half a millimetre of the sheet's size, which readings to its edges include.
+  // Half a millimetre for the sheet's size, which affects readings to its edges.
   EXPECT_NEAR(moved.x_mm, 103.0, 1.0);
   EXPECT_NEAR(moved.y_mm, -45.0, 1.0);
 }

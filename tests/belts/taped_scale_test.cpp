@@ -41,7 +41,7 @@ TEST(BeltsDiagnosis, CountsAStretchInTheScaleOnce) {
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->belts && found->belts->scale);
   const BeltScale& scale = *found->belts->scale;
-  // The tape is of the true frame, so the scale is 1; three of its sigmas.
+  // The tape measures the true frame, so the scale is 1; three sigmas.
   EXPECT_NEAR(scale.factor, 1.0, 3.0 * scale.sigma);
   // A stretch of 0.4 % counted a second time is far outside.
   EXPECT_LT(scale.sigma, 0.001);

@@ -93,7 +93,7 @@ TEST_F(Limits, ApplyToEveryKindOfFile) {
     if (flood.file.ends_with(".json")) text += flood.file == "points.json" ? "]}" : "}";
     write(flood.file, text);
     expect_refused_soon(flood.command + " " + flood.file);
-    // Twelve times as much, of which no more is read.
+    // Twelve times as much; no more of it is read.
     if (&flood != &floods().front()) continue;
     std::filesystem::resize_file(folder_ / flood.file, kFarTooLarge);
     for (const char* command : {"fit ", "import groundcontrol ", "import plotter "})

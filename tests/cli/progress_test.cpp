@@ -59,7 +59,7 @@ std::string text_of(std::FILE* file) {
   return {buffer, std::fread(buffer, 1, sizeof buffer, file)};
 }
 
-TEST(RepeatedLine, IsWrittenOverAndOverAndErasedAtTheEnd) {
+TEST(RepeatedLine, RewritesItselfAndIsErasedAtTheEnd) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   std::promise<void> twice;
   int count = 0;

@@ -25,7 +25,7 @@ struct Seen {
 
 class Terminal : public testing_support::CommandFixture {
  protected:
-  /// Runs the command on a terminal of its own; types Ctrl-C once `words` are there.
+  /// Runs the command on its own terminal; types Ctrl-C once `words` are there.
   [[nodiscard]] Seen stopped_after(const std::string& words, const std::string& arguments) const {
     int terminal = -1;
     const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
@@ -60,7 +60,7 @@ TEST_F(Terminal, ControlCStopsAndClearsTheProgress) {
     EXPECT_THAT(entry.path().filename(), testing::AnyOf("b.nc", "m.json", "out.txt", "err.txt"));
 }
 
-TEST_F(Terminal, ASweepSaysHowLongItWillTake) {
+TEST_F(Terminal, ASweepShowsTheTimeLeft) {
   const Seen screen = stopped_after(
       "s left", "sweep " CHAINTRUE_FIXTURES "/sweeps/ten_thousand.json -o sweep --threads 1");
   EXPECT_THAT(screen.text, ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));

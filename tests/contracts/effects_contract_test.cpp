@@ -158,7 +158,7 @@ TEST_P(EffectContract, HasExactlyOneStation) {
   EXPECT_EQ(depends_on_visit(e), e.needs == DataNeed::order);
 }
 
-TEST_P(EffectContract, SaysWhetherItActsAtOneVisitAlone) {
+TEST_P(EffectContract, TellsWhetherItActsAtOneVisitOnly) {
   const std::vector<double> usual = seen_with({with(nominal_values(effect()))});
   const std::vector<double> without = seen_with({});
   ASSERT_EQ(usual.size(), without.size());

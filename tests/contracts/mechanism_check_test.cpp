@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A calibrated mechanism of any kind gives a map that answers both ways, and a check by new
 /// readings. Two chains, four belts and a toy that no product code knows are fitted from readings
-/// at positions that are known and, where their lengths check each other, at some that nobody
+/// at known positions and, if their lengths check each other, at some that nobody
 /// measured.
 #include <gtest/gtest.h>
 

@@ -117,7 +117,7 @@ TEST_P(MechanismEffectsContract, EffectsAreFiniteAtTheirBounds) {
   }
 }
 
-TEST_P(MechanismEffectsContract, AnEffectOfOneSideChangesItsLengthAlone) {
+TEST_P(MechanismEffectsContract, AnEffectOfOneSideChangesOnlyItsLength) {
   const MechanismPtr mechanism = GetParam().make();
   const auto lengths = mechanism->lengths();
   for (const AppliedEffect& effect : nominal_effects(*mechanism)) {

@@ -127,7 +127,7 @@ Taped taped() {
   return set;
 }
 
-TEST(TapedDistances, JoinPlacesToABlockWithARowMoreThanTheyLeaveAlone) {
+TEST(TapedDistances, AddARowToABlockOfPlaces) {
   const Taped set = taped();
   const BeltLengthReadings alone(set.places, false, {.length_mm = 0.5}, 15.0);
   const BeltLengthReadings with(set.places, false, {.length_mm = 0.5}, 15.0, set.distances);
@@ -184,7 +184,7 @@ double change_about(const Taped& set, double off_mm) {
   return (squares(moved) - squares(found)).cwiseAbs().maxCoeff();
 }
 
-TEST(GivenPositions, ToLineariseAboutChangeTheResidualsToSecondOrderAlone) {
+TEST(GivenPositions, ChangeTheResidualsToSecondOrderOnly) {
   const Taped set = taped();
   const double near = change_about(set, 2.0);
   EXPECT_GT(near, 0.0);

@@ -183,7 +183,7 @@ TEST(Averaging, EqualsComparisonsOfEachPart) {
   for (const auto& [cause, p] : by_cause) EXPECT_NEAR(p.first, p.second, 0.03) << cause;
 }
 
-TEST(Averaging, SaysWhichQuarterDisagrees) {
+TEST(Averaging, NamesTheQuarterThatDisagrees) {
   Diagnosis d;
   d.verdict = Verdict::named;
   const Hypothesis named{"chain_sag", "", 0.7};

@@ -40,7 +40,7 @@ TestDrawing drawn_with(const model::PlotterMachine& set,
   return drawing;
 }
 
-TEST(DrawingDiagnosis, AZeroThatIsOffIsASettingAndNoCause) {
+TEST(DrawingDiagnosis, TreatsABadZeroAsASetting) {
   const std::string path = std::string(CHAINTRUE_FIXTURES) + "/plotter/mural_drawing.json";
   const auto found = diagnose(files::parse_drawing(files::read_whole_file(path), "drawing.json"));
   ASSERT_TRUE(found) << found.error().sentence();

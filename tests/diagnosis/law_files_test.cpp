@@ -114,7 +114,7 @@ struct Written {
 class EveryLaw : public testing::TestWithParam<Written> {};
 
 // The formula, the compared columns and value_of() are the same function.
-TEST_P(EveryLaw, IsTheSameAsAFileAsColumnsAndAsAFunction) {
+TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
   const Law law = law_of(GetParam().of, GetParam().shape, GetParam().enters);
   const MeasuredGrid grid = session_of({}, 31);
   const Analysis a = analysed(grid);
@@ -194,7 +194,7 @@ TEST(LawFiles, RefuseLawsNoFormulaCanExpress) {
 }
 
 // From one session to the next: found, written, and then a cause like the others.
-TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
+TEST(LawFiles, AreConfirmedByTheirMachineAndDeniedByAnother) {
   const std::vector<Law> laws = laws_found(analysed(with_half_turns(11))).laws;
   const auto written = declaration_of(laws, model::Bed{});
   ASSERT_TRUE(written) << written.error();

@@ -85,7 +85,7 @@ double most_waves(const RegressorSystem& system, Coordinate of, LawShape shape) 
   return most;
 }
 
-// Nine columns: eight gaps, of which a wave takes two at least (the sampling theorem); its second harmonic
+// Nine columns: eight gaps; a wave needs at least two (the sampling theorem); its second harmonic
 // as well. The lengths of a chain are not evenly spaced.
 TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
   MeasuredGrid grid = testing_support::session_of({}, 5, 9, 6);

@@ -44,7 +44,7 @@ TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
   EXPECT_THAT(hints.front(), HasSubstr("half a turn of the sprocket (31.8 mm)"));
 }
 
-// Two sizes and one period; the second is not a wave of its own.
+// Two sizes and one period; the second is not a separate wave.
 TEST(Laws, AWaveAndItsSecondHarmonicAreOneLaw) {
   const std::vector<Law> laws = laws_found(analysed(with_two_harmonics(14))).laws;
   ASSERT_FALSE(laws.empty());

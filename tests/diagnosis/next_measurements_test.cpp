@@ -290,7 +290,7 @@ std::vector<std::size_t> ends_of_kinds(const NextCandidates& next,
 // For points and distances together, the first of the list lowers the confusion more than the best
 // of any other kind, when the reading predicted by each alternative is added to the files and
 // everything is estimated again.
-TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
+TEST(NextMeasurements, ChooseTheMostDecisiveOfAMix) {
   int sets = 0;
   for (std::uint64_t seed = 2; seed <= 3; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));

@@ -119,7 +119,7 @@ void expect_width_of_profile(const PlacedCause& own) {
   EXPECT_NEAR(width / place.sigma, 1.0, 0.2);
 }
 
-TEST(PlaceSigma, IsTheWidthOfTheProfileLikelihood) {
+TEST(PlaceSigma, EqualsTheWidthOfTheProfileLikelihood) {
   expect_width_of_profile(
       {"sprocket_eccentricity",
        "phase_rad",

@@ -38,7 +38,7 @@ Both both(std::uint64_t seed) {
   return result;
 }
 
-TEST(RegressorColumns, AreTheMatrixThatHoldsEach) {
+TEST(RegressorColumns, EqualTheFullMatrix) {
   const auto [shared, dense] = both(1);
   ASSERT_EQ(shared.cols(), dense.cols());
   EXPECT_EQ(shared.distinct().cols(), 40);
@@ -56,7 +56,7 @@ TEST(RegressorColumns, AreTheMatrixThatHoldsEach) {
   EXPECT_LT((shared.column(rows, 5) - dense.col(5)(rows)).norm(), kRounding);
 }
 
-TEST(RegressorColumns, SomeOfThemAndAMapOfAll) {
+TEST(RegressorColumns, SelectAndMap) {
   const auto [shared, dense] = both(7);
   const std::vector<Eigen::Index> some = {0, 2, 3, 9, 10, 30};
   const RegressorColumns chosen = shared.subset(some);
@@ -74,7 +74,7 @@ TEST(RegressorColumns, SomeOfThemAndAMapOfAll) {
   }
 }
 
-TEST(RegressorColumns, RefuseWhatDoesNotFit) {
+TEST(RegressorColumns, RefuseWrongSizes) {
   RegressorColumns columns(3);
   EXPECT_THROW(columns.add_multiple(2.0), std::invalid_argument);
   EXPECT_THROW(columns.add(Eigen::VectorXd::Zero(4)), std::invalid_argument);

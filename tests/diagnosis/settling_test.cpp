@@ -35,7 +35,7 @@ TEST(Settling, ReportsNonConvergence) {
   EXPECT_THAT(not_converged.notes, Contains(HasSubstr(kNotConverged)));
 }
 
-TEST(Settling, MeasuresATurnOfTheSheetAtItsEdge) {
+TEST(Settling, MeasuresATurnAtTheSheetsEdge) {
   // A rotation of 1e-4 rad is 0.12 mm at the edge of the bed: at convergence it is far below that.
   MeasuredGrid grid = session_of({}, 2, 5, 4);
   grid.sheet = SheetUncertainty{20.0, 10.0};

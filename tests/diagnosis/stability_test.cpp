@@ -150,7 +150,7 @@ TEST(Stability, IsAbsentWithoutAName) {
 
 // One reading off by two millimetres, in a corner where a bent chain would have the same signature:
 // an effect of one point is not named.
-TEST(Stability, OnePointMakesNoName) {
+TEST(Stability, OnePointDecidesNoName) {
   synthetic::SyntheticSpec spec;
   spec.repeats = 6;
   spec.order = synthetic::VisitingOrder::random;

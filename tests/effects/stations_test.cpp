@@ -53,7 +53,7 @@ Pose pose_at(const EquilibriumParameters& parameters, BedPoint p) {
   return pose.value_or(Pose{});
 }
 
-TEST(MarkFrame, ScalesAndSkewsWhatIsWritten) {
+TEST(MarkFrame, ScalesAndSkewsMarks) {
   const MarkFrame x_long(machine_with({{"tape_scale", "x", {{"scale", 0.001}}}}));
   EXPECT_NEAR(x_long.written({1000.0, 500.0}).x_mm, 1001.0, kRoundingMm);
   EXPECT_NEAR(x_long.written({1000.0, 500.0}).y_mm, 500.0, kRoundingMm);
@@ -109,7 +109,7 @@ TEST(SidePull, TakesItsForceFromTheBalanceOfTheSled) {
 }
 
 // A yielding beam equals the rigid machine with its motors moved along the chains' pulls.
-TEST(BeamFlex, IsTheRigidMachineWithItsMotorsPulledIn) {
+TEST(BeamFlex, EqualsARigidMachineWithItsMotorsPulledIn) {
   constexpr double k = 0.01;
   const ReadingModel flexing(machine_with({{"beam_flex", "", {{"flexibility_mm_per_n", k}}}}));
   for (const BedPoint p : kPlaces) {

@@ -169,7 +169,7 @@ TEST(Cholesky, RefusesIndefiniteMatrices) {
   EXPECT_TRUE(Cholesky().is_positive_definite());
 }
 
-TEST(PivotedCholesky, SolvesWhatIsSemidefinite) {
+TEST(PivotedCholesky, SolvesSemidefiniteSystems) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   for (const Index n : {Index{0}, Index{1}, Index{5}, Index{20}}) {

@@ -32,7 +32,7 @@ EstimationInput input_of(int points) {
   return input;
 }
 
-TEST(LocalDesign, IsTheDenseOne) {
+TEST(LocalDesign, EqualsTheDenseDesign) {
   const EstimationInput input = input_of(300);
   JointProblem problem(input, true);
   ASSERT_TRUE(problem.linearise(problem.stated()));

@@ -14,7 +14,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-TEST(ArcExtents, AreExact) {
+TEST(ArcExtents, MatchTheExactCurve) {
   constexpr unsigned kSeed = 53;
   SCOPED_TRACE(fmt::format("seed {}", kSeed));
   std::mt19937_64 random(kSeed);

@@ -36,7 +36,7 @@ std::vector<Point> chords(ControllerKind kind, const std::string& program) {
   return ends;
 }
 
-TEST(FirmwareArc, MaslowsCutStraightWhereTheirChordHeightSaysSo) {
+TEST(FirmwareArc, MaslowsCutChordsByTheirChordHeight) {
   const Firmware& classic = firmware(ControllerKind::maslow_classic);
   // r - sqrt(r^2 - c/4) < 0.01 <=> sin(sweep / 2) < 0.04 - 0.0002 / r: 0.0800 rad for a wide arc,
   // 0.0796 at 1 mm; in float the height of a wide arc is known to one part in 160. Where c > 4 r^2

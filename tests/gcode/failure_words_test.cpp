@@ -15,7 +15,7 @@ using model::PoseFailure;
 using model::PoseReason;
 using ::testing::HasSubstr;
 
-/// A machine that can hold the tool nowhere.
+/// A machine without any reachable position.
 class NoPose final : public grid::LengthMap {
  public:
   explicit NoPose(PoseReason why) : failure_(grid::unreachable(model::mechanism_failure(why))) {}

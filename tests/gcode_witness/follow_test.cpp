@@ -22,7 +22,7 @@ namespace {
 using follower::Place;
 using follower::within;
 
-TEST(Follower, CompensatedProgramsKeepToTheirPathsAndVerifySaysSo) {
+TEST(Follower, CompensatedProgramsFollowTheirPaths) {
   FollowOptions options;
   const FollowRun run = follow(CHAINTRUE_FIXTURES, options);
   for (const std::string& failure : run.failures) ADD_FAILURE() << failure;
@@ -32,7 +32,7 @@ TEST(Follower, CompensatedProgramsKeepToTheirPathsAndVerifySaysSo) {
   EXPECT_GE(run.judged_moved, run.compensated);  // two of each, where it has three commands
 }
 
-TEST(PathDistance, IsThatOfParallelLines) {
+TEST(PathDistance, IsExactForParallelLines) {
   const std::vector<Place> a = {{0, 0, 0}, {10, 0, 0}};
   const std::vector<Place> b = {{0, 2, 0}, {3, 2, 0}, {10, 2, 0}};
   EXPECT_TRUE(within(a, b, 2.0 + 1e-12));
@@ -48,7 +48,7 @@ TEST(PathDistance, CountsWayBack) {
   EXPECT_NEAR(follower::path_distance_mm(a, b, 100.0), 2.0, 0.005);  // a part in 500
 }
 
-TEST(PathDistance, SeesATurnThatIsMissing) {
+TEST(PathDistance, DetectsAMissingTurn) {
   std::vector<Place> once;
   std::vector<Place> twice;
   for (int i = 0; i <= 720; ++i) {

@@ -21,7 +21,7 @@ TEST(Output, IsReadAlikeByStrictReadersAndKeepsTheValuesOfItsWords) {
   EXPECT_GE(run.outputs, 60U);
 }
 
-TEST(StrictReader, RefusesWhatGrblRefuses) {
+TEST(StrictReader, RefusesWordsThatGrblRefuses) {
   std::string objection;
   for (const char* line : {"S2e-05", "G4 P1e-05", "G1 X--1", "g1 X2", "G1 X1 X2", "G1 X", "G1 X1,5",
                            "G1 X1.2.3", "(a(b)c)", "(open"}) {

@@ -79,14 +79,14 @@ INSTANTIATE_TEST_SUITE_P(
                     "12,7\n",
                     "\"My machine, on Sunday\";\n;\nx_mm;y_mm\n-1112,8375;508\n635;-12,7\nMean;\n"));
 
-TEST(CsvTable, ALineAboveTheHeaderIsANote) {
+TEST(CsvTable, SkipsNotesAboveTheHeader) {
   EXPECT_THAT(read("My machine\n\nx_mm,y_mm\n1,2\n3,4\n").warnings,
               ElementsAre("t.csv: line 1, column 1: a note, no reading: left out (My machine)"));
   // A line of units below the header is a line of the table.
   EXPECT_THAT(read("x_mm,y_mm\nmm,mm\n1,2\n").refusals, ElementsAre(HasSubstr("found mm"), HasSubstr("found mm")));
 }
 
-TEST(CsvTable, ADashIsNoReading) {
+TEST(CsvTable, TreatsADashAsMissing) {
   const Read found = read("x_mm,y_mm\n1,-\n2,n/a\n3,?\n4,\xE2\x80\x94\n5,6\n");
   EXPECT_THAT(found.refusals, IsEmpty());
   ASSERT_EQ(found.rows.size(), 5U);
@@ -125,7 +125,7 @@ TEST(CsvTable, RefusesTextThatMayBeAReading) {
               ElementsAre(HasSubstr("found a note above")));
 }
 
-TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
+TEST(LengthText, AcceptsOtherUnitsAndInchFractions) {
   EXPECT_DOUBLE_EQ(length_with_unit_mm("43 13/16").value(), 43.8125 * 25.4);
   EXPECT_DOUBLE_EQ(length_with_unit_mm("-43-13/16\"").value(), -43.8125 * 25.4);
   EXPECT_DOUBLE_EQ(length_with_unit_mm("5/8 in").value(), 0.625 * 25.4);

@@ -62,7 +62,7 @@ TEST_P(Damage, AnotherByteAnywhere) {
   }
 }
 
-TEST_P(Damage, WordsOfNoNumberAnywhere) {
+TEST_P(Damage, NonNumbersAnywhere) {
   SCOPED_TRACE(::testing::Message() << "seed " << kDamageSeed);
   const std::string words[] = {"NaN",
                                "1e999",

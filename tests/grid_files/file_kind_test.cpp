@@ -12,7 +12,7 @@ namespace {
 
 FileKind kind(const std::string& text) { return kind_of(text, "file"); }
 
-TEST(FileKind, OfJsonIsItsType) {
+TEST(FileKind, OfJsonFollowsFromItsType) {
   EXPECT_EQ(kind(R"({"file_type": "chaintrue_map"})"), FileKind::map);
   EXPECT_EQ(kind(R"({"name": "chaintrue_map", "file_type": "chaintrue_grid"})"), FileKind::grid);
   EXPECT_EQ(kind(R"({"machine": {"file_type": "chaintrue_machine"}, "file_type": "chaintrue_belts"})"),
@@ -24,7 +24,7 @@ TEST(FileKind, OfJsonIsItsType) {
   EXPECT_EQ(kind("[1, 2]"), FileKind::other);
 }
 
-TEST(FileKind, OfHolesIsThatOfTheirMachine) {
+TEST(FileKind, OfHolesFollowsFromTheirMachine) {
   const std::string begin = R"({"file_type": "chaintrue_holes", )";
   EXPECT_EQ(kind(begin + R"("machine": {"anchors": {}}})"), FileKind::belt_holes);
   EXPECT_EQ(kind(begin + R"("holes": [{"name": "anchors"}]})"), FileKind::holes);
@@ -32,14 +32,14 @@ TEST(FileKind, OfHolesIsThatOfTheirMachine) {
             FileKind::holes);
 }
 
-TEST(FileKind, OfOtherTextIsCsv) {
+TEST(FileKind, DefaultsToCsv) {
   EXPECT_EQ(kind("x_mm,y_mm,left_mm,right_mm\n0,0,1700,1700\n"), FileKind::grid);
   EXPECT_EQ(kind("hole,x_mm,y_mm\nA,0,0\n"), FileKind::holes);
   EXPECT_EQ(kind("from,to,distance_mm\nA,B,100\n"), FileKind::holes);
   EXPECT_EQ(kind(""), FileKind::grid);
 }
 
-TEST(FileKind, OfJsonThatBreaksOffIsKnownWhereItsTypeStandsBefore) {
+TEST(FileKind, IsKnownForTruncatedJsonWithAType) {
   EXPECT_EQ(kind(R"({"file_type": "chaintrue_map", "points": [)"), FileKind::map);
   EXPECT_THROW((void)kind(R"({"points": [)"), InputError);
 }

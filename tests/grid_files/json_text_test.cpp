@@ -150,7 +150,7 @@ TEST(Problems, ValuesAreShortenedAndPrintable) {
   EXPECT_EQ(shortened(umlauts), umlauts.substr(0, 2 * 57) + "...");
 }
 
-TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
+TEST(Problems, ListTheFirstHundredAndCountTheRest) {
   Problems problems("file");
   for (int i = 0; i < 140; ++i)
     problems.add("/x", "1", std::to_string(i), ProblemKind::out_of_range);
@@ -164,7 +164,7 @@ TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
   }
 }
 
-TEST(Problems, OfAKindFiveAreListedAndTheRestCounted) {
+TEST(Problems, ListFiveOfAKindAndCountTheRest) {
   Problems problems("file");
   for (int i = 0; i < 101; ++i)
     problems.add("/x", "1", "a whole number", ProblemKind::not_a_number);

@@ -85,7 +85,7 @@ TEST(MarlinDefines, CountWhereTheirConditionHolds) {
   EXPECT_EQ(value_of("#if ENABLED(POLARGRAPH)\n#define X_BED_SIZE 1\n#endif"), "1");
 }
 
-TEST(MarlinDefines, OfAShippedConfigurationAreThePlotters) {
+TEST(MarlinDefines, OfAShippedConfigurationGiveThePlotter) {
   const std::string text = R"(
 #define POLARGRAPH
 #if ENABLED(POLARGRAPH)

@@ -13,7 +13,7 @@
 namespace chaintrue::grid::files::every_line {
 namespace {
 
-TEST(EveryLine, OfTheFixtureCutDeletedDoubledOrGarbledGetsAnAnswerOrARefusal) {
+TEST(EveryLine, IsReadOrRefusedWhenDamaged) {
   const std::string log = read_whole_file(CHAINTRUE_FIXTURES "/good/maslow4_log.txt");
   const auto whole = diagnosis::fit_with_causes(parse_maslow4(log, "log.txt").belts);
   ASSERT_TRUE(whole);

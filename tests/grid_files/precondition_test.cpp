@@ -41,7 +41,7 @@ TEST(Precondition, ReportsItsValues) {
                "3 of nan mm, -inf");
 }
 
-TEST(Precondition, NothingHasNoExtremes) {
+TEST(Precondition, RefusesExtremesOfAnEmptySet) {
   const std::vector<double> nothing;
   EXPECT_THAT(words_of([&] { (void)max_element(nothing); }), ::testing::HasSubstr("0 values"));
   EXPECT_THAT(words_of([&] { (void)min_element(nothing, std::greater<>()); }), ::testing::HasSubstr("0 values"));

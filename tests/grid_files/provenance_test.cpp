@@ -68,7 +68,7 @@ class Sources : public testing::Test {
       (std::string("chaintrue_sources_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-TEST_F(Sources, AreNamedWithoutFoldersAndHashedByTheirBytes) {
+TEST_F(Sources, HaveBareNamesAndHashesOfTheirBytes) {
   // UTF-16 is read as UTF-8; the hash is of the bytes on disk.
   const std::string bytes(
       "\xFF\xFE"

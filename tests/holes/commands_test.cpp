@@ -69,7 +69,7 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   EXPECT_LT(testing_support::tool_rms_mm(map, made->truth, spec.sheet), 1.5);
 }
 
-TEST_F(HolesCommands, SimulateMeasuresToTheEdgesOfASheetThatLiesAskew) {
+TEST_F(HolesCommands, SimulateMeasuresToTheEdgesOfASkewedSheet) {
   ASSERT_EQ(run("simulate --machine " + classic_ +
                 " --holes 9 --edges --offset sheet_x_mm=20 --tape-sigma-mm 0.01 --hole-sigma-mm 0 "
                 "-o holes.json")

@@ -90,7 +90,7 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   }
 }
 
-TEST(HolesFit, ASheetThatIsLargerMovesEachEdgeByHalfOfThat) {
+TEST(HolesFit, ALargerSheetMovesEachEdgeByHalfTheDifference) {
   MeasuredHoles set = with_edges();
   set.sheet.width_mm = 2440.0;
   set.sheet.height_mm = 1220.0;

@@ -42,7 +42,7 @@ MeasuredGrid five_points(const model::Machine& truth, Random& random) {
   return read_at(kFive, truth, random);
 }
 
-TEST(MapCheck, FindsWhatChangedFromThePlannedPoints) {
+TEST(MapCheck, FindsChangesFromThePlannedPoints) {
   for (const testing_support::MachineChange& change : testing_support::machine_changes()) {
     SCOPED_TRACE(testing::Message() << change.name << ", seeds 1 and 40");
     Random random(1, 40);

@@ -50,7 +50,7 @@ TEST(BsplineBasis, PenaltyIsTheIntegralOfTheSquaredSecondDerivatives) {
       ours / integral, 1.0, 1e-4);  // the mid-point rule with 80 points or more a knot interval
 }
 
-TEST(BsplineBasis, PenaltyVanishesForPlanesAndForNothingElse) {
+TEST(BsplineBasis, PenaltyVanishesForPlanesOnly) {
   const BsplineBasis basis(truths::kBed, 8, 4);
   const Eigen::MatrixXd p = basis.bending_penalty(2);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(p);

@@ -174,7 +174,7 @@ TEST(MeasuredRegion, FadesToZero) {
   EXPECT_EQ(evaluate(surface, hull, fade, {NAN, 0.0}).value, 0.0);
 }
 
-TEST(PlannerNodes, AreChebyshevLobattoAndSymmetric) {
+TEST(PlannerNodes, FollowChebyshevLobatto) {
   const auto nodes = chebyshev_lobatto(-1219.2, 1219.2, 7);
   ASSERT_EQ(nodes.size(), 7U);
   for (std::size_t i = 0; i < 7; ++i) {

@@ -249,7 +249,7 @@ TEST(Reml, AnAbsentFieldStaysUncertain) {
   EXPECT_GT(fit_penalised(problem).value().edf, 3.05);
 }
 
-TEST(Reml, WithoutARidgeIsLeastSquaresWithAPrior) {
+TEST(Reml, EqualsLeastSquaresWithAPriorWithoutARidge) {
   const Sample sample = sample_of(40, 0.3, true);
   PenalisedProblem problem = sample.problem;
   problem.ridge = {};

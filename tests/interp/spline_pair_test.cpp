@@ -15,7 +15,7 @@ using truths::kBed;
 constexpr std::uint64_t kPairSeed = 97;
 
 // On even lines and on lines so uneven that a mean interval spans several.
-TEST(SplinePair, IsTheTwoSplinesAlsoOutsideForOneAndForMany) {
+TEST(SplinePair, EqualsTwoSplinesInsideAndOutside) {
   SCOPED_TRACE(kPairSeed);
   truths::Random random(kPairSeed);
   const std::vector<double> uneven = {kBed.x_min, -1200.0, -1190.0, 0.0, 900.0, 910.0, kBed.x_max};

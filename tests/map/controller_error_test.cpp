@@ -52,7 +52,7 @@ struct Session {
 
 class ErrorInUse : public testing::TestWithParam<Session> {};
 
-TEST_P(ErrorInUse, IsThatOfTheMachine) {
+TEST_P(ErrorInUse, EqualsTheMachinesError) {
   const Session& session = GetParam();
   const auto map = fit(session.readings());
   ASSERT_TRUE(map) << map.error().sentence();

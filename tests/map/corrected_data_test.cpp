@@ -49,7 +49,7 @@ synthetic::SyntheticSession session(const model::Machine& machine) {
 }
 
 // The truth is the generator's: the tool's position, and the repeatable reading there.
-TEST(CorrectedData, AreTheTruePlacesAndTheRepeatableReadings) {
+TEST(CorrectedData, EqualTruePlacesAndRepeatableReadings) {
   const auto measured = session(machine_with({kOfThePaper, kOfTheMachine, kOfTheVisit}));
   const auto corrected = corrected_data(measured.grid);
   ASSERT_TRUE(corrected) << corrected.error().sentence();

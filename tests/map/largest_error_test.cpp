@@ -41,7 +41,7 @@ TEST(LargestError, UsesTheCorrelations) {
 }
 
 // Far from zero only the component along the error counts, to one side: 1.645 sigmas.
-TEST(LargestError, AddsToWhatIsExpected) {
+TEST(LargestError, AddsToTheExpectedError) {
   LargestError largest;
   largest.add({1000.0, 0.0}, Eigen::Matrix2d::Identity());
   EXPECT_NEAR(largest.bound_mm(), 1001.645, tolerance(0.1031));

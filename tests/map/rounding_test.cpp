@@ -33,7 +33,7 @@ TEST(Rounding, IsFoundFromTheReadingsDigits) {
   EXPECT_EQ(rounding_sigma_mm({}), 0.0);
 }
 
-TEST(Rounding, IsThatOfTheReadings) {
+TEST(Rounding, MatchesTheReadings) {
   MeasuredGrid commanded, lengths;
   for (const double reading : rounded_readings(0.5, 1)) {
     commanded.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});

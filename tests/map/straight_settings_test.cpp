@@ -58,7 +58,7 @@ TEST(StraightSettings, LeaveTheErrorTheyReport) {
     const auto nearest = straight_settings(sagging_map(), anchors);
     ASSERT_TRUE(nearest) << nearest.error().sentence();
     const double rms = tool_rms_mm(sagging_map(), *nearest);
-    // The stated error is of the first order: a millimetre is wrong by a micrometre.
+    // The stated error is first order: a millimetre is wrong by a micrometre.
     EXPECT_NEAR(nearest->left_over.rms_mm, rms, 2e-3 * rms + 2e-3);
     EXPECT_GE(nearest->left_over.maximum_mm, nearest->left_over.rms_mm);
   }

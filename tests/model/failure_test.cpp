@@ -24,7 +24,7 @@ TEST(Failure, WithoutATextHasTheReasonsText) {
   EXPECT_NE(failure, Why::outside);
 }
 
-TEST(Failure, OfATaskNamesItsSubject) {
+TEST(Failure, NamesTheSubjectOfATask) {
   const Failure<TaskWhy> failure(TaskWhy::no_machine, "grid.csv names no machine");
   EXPECT_EQ(failure.sentence(), "grid.csv names no machine");
   EXPECT_EQ(failure, TaskWhy::no_machine);

@@ -43,7 +43,7 @@ TEST(Square, RunsClockwiseFromTheLowerLeftCorner) {
   EXPECT_EQ(square->commanded.back().x_mm, -1040.0);
 }
 
-TEST(Square, AMovedMachineMovesTheSquareAndNothingElse) {
+TEST(Square, AMovedMachineOnlyMovesTheSquare) {
   Machine moved;
   for (const Side side : kSides) {
     moved.motors[side].x_mm += 4.0;

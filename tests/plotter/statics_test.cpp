@@ -173,7 +173,7 @@ TEST(PlotterController, UsesItsSettings) {
   EXPECT_THROW((void)paid_out(PlotterFirmware::mural, set, {0.0, -800.0}), std::invalid_argument);
 }
 
-TEST(PlotterMachine, PinsCloserThanTheGondolaIsWideAreRefused) {
+TEST(PlotterMachine, RefusesPinsCloserThanTheGondolaIsWide) {
   const auto problems = problems_of(mural(60.0));
   ASSERT_FALSE(problems.empty());
   EXPECT_EQ(problems.front().parameter, "/pin_spacing_mm");

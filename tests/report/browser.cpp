@@ -250,7 +250,7 @@ int printed_sheets(const std::string& html) {
   const std::string options =
       fmt::format("--no-pdf-header-footer --print-to-pdf='{}'", folder / "page.pdf");
   if (std::system(browser_command(folder, options).c_str()) != 0) return 0;
-  // Skia writes each page as an object of its own, uncompressed.
+  // Skia writes each page as a separate, uncompressed object.
   const std::string pdf = read_text(folder / "page.pdf");
   return count(pdf, "/Type /Page\n");
 }

@@ -31,8 +31,8 @@ struct Opened {
   std::string probe = {};
 };
 
-/// Opens the pages together, each in a frame of its own, in one browser without network and with a new
-/// profile. What the browser itself wrote to the console is of every page.
+/// Opens the pages together, each in its own frame, in one browser without network and with a new
+/// profile. Console messages of the browser count for every page.
 [[nodiscard]] std::vector<Visit> visit_all(const std::vector<Opened>& pages);
 
 /// A4 (ISO 216) and Letter (ANSI Y14.1 size A). What fits on a sheet as narrow as the one and as short as

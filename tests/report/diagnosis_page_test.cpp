@@ -58,7 +58,7 @@ TEST(DiagnosisPage, DrawsWhereEachCauseAlonePutsTheTool) {
     const double x = arrow.at("x_mm"), y = arrow.at("y_mm");
     const model::BedPoint there{x + arrow.at("dx_mm").get<double>(),
                                 y + arrow.at("dy_mm").get<double>()};
-    // The shift is of first order: of some 3 mm the second is within 0.02 mm.
+    // The shift is first order: for some 3 mm the second-order term is below 0.02 mm.
     constexpr double kSecondOrderMm = 0.02;
     const auto sent = plain.at({x, y}).value().lengths;
     const auto reached = worn.at(there).value().lengths;

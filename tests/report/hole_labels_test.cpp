@@ -43,7 +43,7 @@ void expect_readable(const std::vector<DrawnHole>& holes) {
   }
 }
 
-TEST(HoleLabels, OfPlannedHolesCannotBeReadAsANeighbours) {
+TEST(HoleLabels, OfPlannedHolesAreUnambiguous) {
   for (const int holes : {4, 9, 16, grid::kMostPlannedHoles}) {
     SCOPED_TRACE(::testing::Message() << holes << " holes");
     const auto plan = grid::plan_holes(model::Machine{}, {.holes = holes});
@@ -62,7 +62,7 @@ TEST(HoleLabels, OfPlannedHolesCannotBeReadAsANeighbours) {
 }
 
 // Holes that a plan puts together are 150 mm apart and more: 55 units of a sheet of 2.4 m.
-TEST(HoleLabels, OfRandomHolesCannotBeReadAsANeighbours) {
+TEST(HoleLabels, OfRandomHolesAreUnambiguous) {
   constexpr double kApart = 55.0, kHigh = 450.0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
@@ -81,7 +81,7 @@ TEST(HoleLabels, OfRandomHolesCannotBeReadAsANeighbours) {
   }
 }
 
-TEST(HoleLabels, LeaveThePlaceOutRatherThanStandAtANeighbour) {
+TEST(HoleLabels, AreOmittedIfAmbiguous) {
   const std::vector<DrawnHole> holes = {drawn(300, 200, 0), drawn(340, 200, 1), drawn(380, 200, 2)};
   const auto labels = place_labels(holes, kLeft, kLeft + kWide);
   EXPECT_TRUE(std::any_of(

@@ -68,7 +68,7 @@ TEST(SweepSpec, AcceptsAllFixtures) {
   }
 }
 
-TEST(Sweep, IsTheSameBytesForAnyNumberOfThreads) {
+TEST(Sweep, GivesTheSameBytesForAnyNumberOfThreads) {
   const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
   EXPECT_EQ(whole_run(read, "one", 1), whole_run(read, "two", 2));
 }

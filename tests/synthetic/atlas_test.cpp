@@ -209,7 +209,7 @@ double share_drawn(const AtlasFrame& frame) {
   return drawn / all;
 }
 
-TEST_P(EveryPicture, IsDrawnWhereTheMachineWithTheCauseReadsWhatWasPaidOut) {
+TEST_P(EveryPicture, MatchesTheMachineWithTheCause) {
   const Atlas& atlas = atlas_of_kind(GetParam());
   const MechanismPointer set = mechanism_of_kind(GetParam());
   for (const AtlasPicture& picture : atlas.pictures) {

@@ -123,7 +123,7 @@ TEST(VisitingOrder, GoesAlongRowsAndColumnsAndTurns) {
       ::testing::UnorderedElementsAre(P{0, 0}, P{1, 0}, P{2, 0}, P{0, 1}, P{1, 1}, P{2, 1}));
 }
 
-TEST(Generator, WithoutNoiseIsTheReadingModelItself) {
+TEST(Generator, EqualsTheReadingModelWithoutNoise) {
   SyntheticSpec spec;
   spec.hidden = {{"chain_pitch_error", "left", {{"elongation", 0.0012}}}};
   const SyntheticSession session = session_of(spec);
@@ -140,7 +140,7 @@ TEST(Generator, WithoutNoiseIsTheReadingModelItself) {
   EXPECT_FALSE(session.grid.noise.has_value());
 }
 
-TEST(Generator, TellsTheGridOnlyWhatIsStated) {
+TEST(Generator, WritesOnlyStatedNumbersToTheGrid) {
   SyntheticSpec spec;
   spec.hidden = {{"drift", "both", {{"rate_mm_per_visit", 0.03}}}};
   spec.offsets = {{model::Setting::motor_left_x_mm, 2.5}};

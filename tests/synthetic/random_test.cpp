@@ -121,7 +121,7 @@ TEST(Random, DrawsHeavyTailsOfTheSameDeviation) {
   }
 }
 
-TEST(Random, DrawsUniformsThatAreNeverTheEnds) {
+TEST(Random, DrawsUniformsStrictlyBetweenTheEnds) {
   Random random(7, 0);
   SCOPED_TRACE("seed 7");
   constexpr int kCount = 100000;

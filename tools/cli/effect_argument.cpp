@@ -104,7 +104,7 @@ std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& 
     origin.push_back(&argument);
   }
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
-    // "/effects/3/side": the third number names the argument.
+    // "/effects/3/side": 3 is the argument's number.
     std::string_view place =
         std::string_view(problem.parameter).substr(std::string_view("/effects/").size());
     const std::string_view index_text = take_until(place, '/');

@@ -14,7 +14,7 @@ namespace chaintrue::cli {
 /// Numbered sentences, each with its expected probability.
 [[nodiscard]] std::string follow_up_list(const grid::diagnosis::Diagnosis& found);
 
-/// Whether any of it is of the kind.
+/// Whether any of it has this kind.
 [[nodiscard]] bool proposes(const grid::diagnosis::Diagnosis& found,
                             grid::diagnosis::MeasurementKind kind);
 

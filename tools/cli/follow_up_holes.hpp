@@ -14,7 +14,7 @@
 
 namespace chaintrue::cli {
 
-/// Whether the diagnosis is of exactly these holes and distances.
+/// Whether the diagnosis used exactly these holes and distances.
 [[nodiscard]] bool is_of_these(const grid::diagnosis::Diagnosis& found,
                                const std::vector<grid::MeasuredHoles>& sets);
 

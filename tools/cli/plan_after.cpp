@@ -78,7 +78,7 @@ Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
   return sources;
 }
 
-/// Whether the diagnosis is of the points of these grids. A CSV may round them.
+/// Whether the diagnosis used the points of these grids. A CSV may round them.
 bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids) {
   constexpr double kSamePlaceMm = 1e-3;
   std::vector<model::MarkPoint> marks;
@@ -95,7 +95,7 @@ bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids)
                     });
 }
 
-/// Empty if the diagnosis is of exactly these files.
+/// Empty if the diagnosis used exactly these files.
 std::string made_from_others(const PlanAfterOptions& options,
                              const Diagnosis& found,
                              const Sources& sources) {

@@ -39,7 +39,7 @@ struct FollowUpTexts {
   std::string json;
   std::string drawing;
 };
-/// Empty if the diagnosis is of other readings.
+/// Empty if the diagnosis used other readings.
 [[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(
     const grid::diagnosis::Diagnosis& found,
     const std::vector<grid::MeasuredGrid>& grids,

@@ -30,7 +30,7 @@ using grid::diagnosis::Diagnosis;
 using grid::diagnosis::MeasurementKind;
 using grid::diagnosis::NextMeasurement;
 
-/// Whether the diagnosis is of these places: in the same order, with lengths that anchors and
+/// Whether the diagnosis used these places: in the same order, with lengths that anchors and
 /// causes explain.
 bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
   // Larger than the effect of any cause, including an omitted arm.

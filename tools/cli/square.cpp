@@ -54,7 +54,7 @@ model::SquareTask task_of(const SquareOptions& options, model::BedPoint middle) 
   return {.size_mm = options.size_mm, .corner = corner, .below = options.below};
 }
 
-/// Why a square cannot be predicted; who fails, at which command.
+/// Why a square cannot be predicted: the mechanism's reason and the command.
 struct SquareRefusal {
   std::string who;
   model::BedPoint commanded;

@@ -42,7 +42,7 @@ inline constexpr std::size_t kHashDigits = 32;
 using ByteSink = std::function<void(std::string_view)>;
 
 inline constexpr std::size_t kMaxOutputLine = 60;
-/// The first words of the first comment of every file written here. The same comment stands at every
+/// The first words of the first comment of every file written here. The same comment is at every
 /// change of the tool and at the end, so that a file without its head, or the part of one tool alone,
 /// is still known.
 inline constexpr std::string_view kMarker = "compensated by chaintrue";

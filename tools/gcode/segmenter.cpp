@@ -134,7 +134,7 @@ Corrected<void> Segmenter::run(const Curve& curve,
     const double furthest =
         per_mm > 0.0 ? std::min(end, a.t + extent.longest_mm * per_mm * (1.0 + 1e-9)) : end;
     double reach = per_mm > 0.0 ? std::min(furthest, a.t + last_step_mm_ * per_mm) : end;
-    // A remainder this short after a sample does not get one of its own.
+    // A remainder this short after a sample is not sampled.
     PathSample best;
     double best_share = 0.0;
     for (int trial = 0; trial < kMostTrials; ++trial) {

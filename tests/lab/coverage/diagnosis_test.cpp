@@ -63,7 +63,7 @@ TEST(PValues, AreUniformOnSoundBeltMachines) {
   tail.expect_at_most(0.01);  // names depend on it
 }
 
-TEST(PlaceSigma, IsTheScatterOfThePlace) {
+TEST(PlaceSigma, EqualsTheScatterOfThePlace) {
   for (const auto& [hidden, place, unmodelled_mm] :
        {std::tuple(model::AppliedEffect{"sprocket_eccentricity", "left", {{"amplitude_mm", 2.0}, {"phase_rad", 1.3}}},
                    "phase_rad",

@@ -138,7 +138,7 @@ bool names(const diagnosis::Cause& cause, const model::AppliedEffect& hidden) {
          });
 }
 
-TEST(HolesVerdicts, NameNothingWhereNothingIsHidden) {
+TEST(HolesVerdicts, NameNothingOnSoundMachines) {
   Rate named;
   for (const std::uint64_t seed : seeds(200)) named.add(!diagnosed({}, seed).causes.empty());
   named.expect_at_most(0.01);

@@ -64,7 +64,7 @@ TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
   }
 }
 
-// 3 mm on a radius of 10 mm, of which zeros and motors absorb all but a delta of 3: no draw of the
+// 3 mm on a radius of 10 mm, absorbed by zeros and motors except for a delta of 3: no draw of the
 // mix can have it, and no data of this kind can identify it.
 TEST(Draw, SprocketRadiusStaysBelowSix) {
   for (const int points : {28, 60, 117}) {

@@ -161,7 +161,7 @@ TEST(MarkFrame, RoundTrips) {
 }
 
 // delta by the hidden side's own differences compared with the product's table of strengths.
-TEST(Strength, IsTheProductsDelta) {
+TEST(Strength, EqualsDelta) {
   const auto visits = session(5, 28);
   std::vector<model::Visit> theirs;
   for (const Visit& v : visits) theirs.push_back({{v.place.x, v.place.y}, v.number});

@@ -39,7 +39,7 @@ void expect_lowest(const model::PlotterMachine& machine) {
       const auto at = mechanism->predict({x, y}, {});
       ASSERT_TRUE(at) << x << " " << y << ": " << at.error().sentence();
       const PenAtRest rest = lowest_pose(hidden_of(machine), at->lengths_mm[0], at->lengths_mm[1]);
-      // 1e-8 rad of tilt, at which a height is least, over 150 mm of gondola.
+      // The lowest height fixes the tilt to 1e-8 rad, over 150 mm of gondola.
       EXPECT_NEAR(rest.x_mm, x, 2e-6) << x << " " << y << " tilt " << rest.tilt_rad;
       EXPECT_NEAR(rest.y_mm, y, 2e-6) << x << " " << y << " tilt " << rest.tilt_rad;
     }

@@ -24,7 +24,7 @@ std::string message_of(const std::function<void()>& action) {
   return "";
 }
 
-TEST(Claim, IsAWord) {
+TEST(Claim, HasAName) {
   const Claim claim{{"chain_pitch_error:both", "tape_scale:both"}, 0.125};
   EXPECT_EQ(word_of(claim), "chain_pitch_error:both~tape_scale:both=0.1250");
   EXPECT_EQ(parse_claim(word_of(claim)), claim);

@@ -79,7 +79,7 @@ TEST(SmoothField, AbsorbsASmoothCauseAndNoWave) {
     return strength_given(field, session, g) / strength_given(kNone, session, g);
   };
   const double smooth = share({Cause::chain_stretch, Where::nowhere, 1e-5, 0.0});
-  // The field changes over a quarter of the bed. A wave of 63 mm is scatter at such marks, of which a field
+  // The field changes over a quarter of the bed. A wave of 63 mm is scatter at such marks, and a field
   // takes no more than its part of the 56 readings.
   EXPECT_LT(smooth, 0.5);
   EXPECT_GT(share(kEccentric), 0.75);

@@ -186,7 +186,7 @@ TEST_F(RealSets, DistancesArePredictedLeftOut) {
   EXPECT_EQ(together.good, 64) << "all of them fit";
 }
 
-TEST_F(RealSets, HoleSigmaIsWhatTheReadingsPredictEachOtherWithBest) {
+TEST_F(RealSets, HoleSigmaMaximisesPredictiveAccuracy) {
   double best = -1e9;
   double best_mm = 0.0;
   for (const double hole_sigma_mm : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
@@ -217,7 +217,7 @@ TEST_F(RealSets, TheTapeOfTheLastSetIsNamedNotAReading) {
   EXPECT_GT(joint_fit(known)->distances.front().left_out_all.rms_mm, 1.5 * last->distances.front().left_out_all.rms_mm);
 }
 
-TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
+TEST_F(RealSets, WhatADiagnosisReports) {
   std::vector<Measured> all(sets_.begin(), sets_.end());
   all.push_back(first_frame(kHoleSigmaMm));
   for (const Measured& sets : all) {

@@ -90,7 +90,7 @@ TEST(Sealed, NoOrderIsFoundForRandomVisits) {
   EXPECT_GT(probability_of_at_least(counts.wrong, kSets, 0.02), 1e-3) << counts.wrong << ", seeds from 7400";
 }
 
-TEST(Sealed, NoOrderIsFoundWithoutAnEffectOfTheVisit) {
+TEST(Sealed, NoOrderIsFoundWithoutAnEffectOfTheVisits) {
   const Counts counts = count(Order::serpentine_columns, std::nullopt, kSets, 7600);
   const int found = counts.right + counts.wrong;
   EXPECT_GT(probability_of_at_least(found, kSets, 0.02), 1e-3) << found << ", seeds from 7600";

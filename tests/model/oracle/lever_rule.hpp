@@ -7,7 +7,7 @@
 ///   1  the sled with its ring is one lump of mass;
 ///   2  the lump is divided between the chains, at first by the lever rule from its position;
 ///   3  each part is replaced by a length of the same chain that weighs as much;
-///   4  each real chain with its substitute is a catenary of its own, both with the same horizontal
+///   4  each real chain with its substitute is its own catenary, both with the same horizontal
 ///      tension,
 ///   5  at first that of straight lines;
 ///   6  each catenary is flat where its substitute ends (its lowest point), and its arc from there

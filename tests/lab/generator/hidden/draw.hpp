@@ -177,7 +177,7 @@ struct SizedEffect {
 /// Positions over the rectangle of the marks, one at random in each cell of a grid.
 [[nodiscard]] std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);
 
-/// The text of another session of the same machine at marks of its own, `columns` by `rows` of them, one
+/// The text of another session of the same machine at other marks, `columns` by `rows` of them, one
 /// at random in each cell, in random order and with six second visits. \throws std::runtime_error if a
 /// mark cannot be reached.
 [[nodiscard]] std::string other_session(const SealedSet& set, int columns, int rows, std::uint64_t seed);

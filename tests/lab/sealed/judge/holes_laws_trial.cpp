@@ -129,7 +129,7 @@ class HolesDraw {
   [[nodiscard]] double strength() const { return strength_; }
 
  private:
-  /// The law is of the place where the hole would be without it: no place has the lengths within a step.
+  /// The law depends on the place where the hole would be without it: no place has the lengths within a step.
   std::vector<Vec2> cut(const HiddenMachine& machine, const HiddenLaw* law = nullptr) const {
     std::vector<Vec2> places;
     for (std::size_t i = 0; i < visits_.size(); ++i) {

@@ -27,7 +27,7 @@ struct LawsKind {
 /// The later use of a claimed law, written as a declared effect.
 struct LawInUse {
   using Says = grid::diagnosis::DeclaredAnswer::Says;
-  /// Of a second session of the same machine at marks of its own, and of the session of another machine with
+  /// A second session of the same machine at other marks, and the session of another machine with
   /// another law.
   std::optional<Says> second;
   std::optional<Says> foreign;

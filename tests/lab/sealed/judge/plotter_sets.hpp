@@ -9,7 +9,7 @@
 ///   (L + added(L)) (1 + scale / 1000) + zero = K                                           (1)
 ///
 /// where the effect of a cause is implemented a second time. Errors of the settings are drawn from
-/// their uncertainty. Causes that stretch or weigh down the cords are of the light pen alone.
+/// their uncertainty. Only the light pen has causes that stretch or weigh down the cords.
 #pragma once
 
 #include <Eigen/Core>
