@@ -85,7 +85,7 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                                         plan.expected_rms_mm);
   Svg svg(kSheetWide + 2.0 * kSheetLeft, high, "font-size=\"14\"", title);
   svg.fill();
-  svg.text(kSheetLeft, 32.0, title, "start", "font-size=\"18\"");
+  svg.text(kSheetLeft, 32.0, title, "start", " font-size=\"18\"");
   svg.rectangle(
       kSheetLeft, kSheetTop, kSheetWide, view.high(), "fill=\"#fff7ec\" stroke=\"#333333\"");
   for (const grid::HoleDistance& distance : plan.set.distances) {

@@ -128,7 +128,7 @@ std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
              y(visit.mark) + 0.35 * radius,
              fmt::format("{}", visit.number),
              "middle",
-             fmt::format("font-size=\"{:.1f}\"", radius));
+             fmt::format(" font-size=\"{:.1f}\"", radius));
   }
   return svg.finished();
 }

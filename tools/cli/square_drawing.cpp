@@ -100,7 +100,7 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
              middle_y,
              side(which),
              "middle",
-             fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", x, middle_y));
+             fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, middle_y));
   }
   line(kSquareTop + kSide + 90.0,
        fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",

@@ -66,12 +66,13 @@ class Svg {
   }
   void path(std::string_view d, std::string_view look) { add("<path d=\"{}\" {}/>\n", d, look); }
   /// \param anchor start, middle or end
+  /// \param look empty, or with a blank in front
   void text(double x,
             double y,
             std::string_view words,
             std::string_view anchor = "start",
             std::string_view look = "") {
-    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, anchor, look, report::escaped(words));
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, look, report::escaped(words));
   }
   [[nodiscard]] std::string finished() const { return text_ + "</svg>\n"; }
 
