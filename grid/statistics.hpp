@@ -20,7 +20,7 @@ namespace chaintrue::grid {
 /// Over all components; 0 for no values.
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& values);
 
-/// Of the vectors' lengths; 0 for no values.
+/// For the vectors' lengths; 0 for no values.
 [[nodiscard]] double rms_length(const std::vector<Eigen::Vector2d>& values);
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -43,7 +43,7 @@ class ToolDisplacement {
   /// \throws std::invalid_argument if `at_mm` does not fit the places.
   explicit ToolDisplacement(DisplacementParts parts);
   [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const;
-  /// Of each axis, in addition to the uncertainty at the places.
+  /// For each axis, in addition to the uncertainty at the places.
   [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const;
   [[nodiscard]] const DisplacementParts& parts() const { return parts_; }
 

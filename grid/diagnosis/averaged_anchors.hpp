@@ -9,7 +9,7 @@
 ///   a = sum_r w_r a_r / sum_r w_r,   C = sum_m w_m (C_m + (a_m - a)(a_m - a)')              (1)
 ///
 /// where r are the models of exactly the causes that are reported: anchors are used with these, and a mean over all would
-/// fit the readings with none of them. C is the expected square of what the anchors are then off by.
+/// fit the readings with none of them. C is the expected square of the anchors' error.
 ///
 /// w_m is the evidence of the comparison with another prior. A diagnosis treats each cause as rare;
 /// a sigma has to hold if one acts at its usual size, so each gets the weight that gives 95 %

@@ -101,7 +101,7 @@ ToolError tool_error(const FitGivenCauses& given,
   return error;
 }
 
-/// Of all readings, none set aside.
+/// For all readings, none set aside.
 double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   belts::AnchorFit from = given.frame;
   from.counting.assign(belts.points.size(), belts::kAllBelts);

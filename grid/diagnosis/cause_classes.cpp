@@ -119,7 +119,7 @@ bool one_class(const RegressorSystem& system,
                                         : is_whole(system, comparison, b.cause, a.cause));
 }
 
-/// Of a whole number and an arbitrary amount, the likelier first: the whole number has no free size
+/// A whole number and an arbitrary amount, the likelier first: the whole number has no free size
 /// and so leads if the amount fits it.
 void put_likelier_first(const RegressorSystem& system,
                         const ModelComparison& comparison,

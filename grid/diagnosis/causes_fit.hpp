@@ -25,7 +25,7 @@
 ///
 /// A step's or a bend's place is known to the gap between two marks. The map has the mean of such a cause over
 /// the places where it may stand, evenly within sqrt(3) sigmas of the likeliest: a single place that is wrong
-/// is worse there than a surface that knows no step. f_l and f_h have it one sigma to either side.
+/// is worse there than a surface without a step. f_l and f_h put it one sigma to either side.
 ///
 /// The sum is the variance between models: J. Hoeting et al., Bayesian model averaging: a tutorial,
 /// Statistical Science 14 (1999) 382, equation 3.

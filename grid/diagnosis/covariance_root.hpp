@@ -30,7 +30,7 @@ class CovarianceRoot {
   [[nodiscard]] Eigen::VectorXd times(const linear::VectorArgument& x) const;
   /// V^(-1/2), rows x rows.
   [[nodiscard]] Eigen::MatrixXd inverse() const;
-  /// Of V^(-1) the block of so many rows and columns from these on.
+  /// The block of V^(-1) with so many rows and columns from these on.
   [[nodiscard]] Eigen::MatrixXd precision_block(Eigen::Index row,
                                                 Eigen::Index rows,
                                                 Eigen::Index column,

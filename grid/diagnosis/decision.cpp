@@ -78,7 +78,7 @@ class Decider {
         result_.caused += p;
       }
     }
-    // Of thousands of addends, rounding.
+    // Rounding of thousands of addends.
     for (double* const sum : {&result_.caused,
                               &result_.discrepancy,
                               &result_.discrepancy_alone,
@@ -146,7 +146,7 @@ class Decider {
     }
   }
 
-  /// Of several causes those more likely than not are reported; a partner that could be any of many
+  /// For several causes those more likely than not are reported; a partner that could be any of many
   /// is dropped.
   const Grouped* without_doubtful(const Grouped* best_model) {
     if (best_key_.size() < 2) return best_model;

@@ -14,7 +14,7 @@
 ///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none; of
 ///      the border d = (1, 1), and either component has its own t and weight
 ///
-/// Of a mechanism that has other lengths than two chains each length is disturbed by itself, equal in
+/// In mechanisms other than two chains each length is disturbed separately, equal in
 /// variance: T and D are identities over its lengths (LengthEntry).
 ///
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
@@ -40,14 +40,14 @@ enum class FieldEntry {
 };
 
 struct DiscrepancyField {
-  /// Of the border: what drops over it moves the tool outwards, by one function of the distance from
+  /// For the border: a drop over it moves the tool outwards, by one function of the distance from
   /// the side for x and from the top or bottom for y.
   Coordinate of = Coordinate::place;
   double length = 0.0;  ///< in the unit of what it is a function of
   FieldEntry entry = FieldEntry::chains;
   std::optional<double> direction_rad{};  ///< of entry: of (left, right), or of (x, y)
   double across_rad = 0.0;                ///< from x, of Coordinate::across
-  /// Of FieldEntry::lengths the one length that it disturbs; absent: each of them.
+  /// For FieldEntry::lengths the one length that it disturbs; absent: each of them.
   std::optional<Eigen::Index> alone{};
   bool operator==(const DiscrepancyField&) const = default;
 };
@@ -107,7 +107,7 @@ struct FieldArgument {
                                            const SystemPlace& place,
                                            Eigen::Index component);
 
-/// Of the field's values at two arguments.
+/// For the field's values at two arguments.
 [[nodiscard]] double field_covariance(const DiscrepancyField& field,
                                       const FieldArgument& a,
                                       const FieldArgument& b);

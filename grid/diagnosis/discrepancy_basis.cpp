@@ -62,7 +62,7 @@ Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
   });
 }
 
-/// Of every place, first component first; only for the border the second component has its own arguments.
+/// For every place, first component first; only for the border the second component has its own arguments.
 std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
                                         const std::vector<SystemPlace>& places) {
   std::vector<FieldArgument> result;

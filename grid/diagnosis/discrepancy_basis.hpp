@@ -28,7 +28,7 @@ namespace chaintrue::grid::diagnosis {
 
 class DiscrepancyBasis {
  public:
-  /// Of these kernels (numbers in the system's family). Notes their traces in the marginalised
+  /// For these kernels (numbers in the system's family). Notes their traces in the marginalised
   /// system. Both references must outlive this.
   DiscrepancyBasis(const RegressorSystem& system,
                    MarginalisedSystem& marginalised,

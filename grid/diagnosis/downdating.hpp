@@ -59,7 +59,7 @@ class Downdating {
 
   /// The models followed, in the order of `probabilities_without`.
   [[nodiscard]] std::vector<const CandidateModel*> followed() const;
-  /// Of each model followed, given that one of them holds. Models that differ in nothing but in which of
+  /// For each model followed, given that one of them holds. Models that differ in nothing but in which of
   /// the points left out they reject share what they have by their weights with all points.
   [[nodiscard]] std::vector<double> probabilities_without(const std::vector<std::size_t>& units,
                                                           CountAs count_as) const;

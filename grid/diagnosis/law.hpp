@@ -35,7 +35,7 @@ namespace chaintrue::grid::diagnosis {
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 [[nodiscard]] std::string_view name(Enters enters);
 
-/// Of a law that enters a belt; null of all else.
+/// For a law that enters a belt; null of all else.
 [[nodiscard]] std::optional<model::Belt> belt_of(Enters enters);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };

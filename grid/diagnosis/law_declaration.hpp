@@ -21,7 +21,7 @@ namespace chaintrue::grid::diagnosis {
 /// Or a sentence with the reason.
 [[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
     const Law& law, const model::Bed& bed);
-/// Of the likeliest law of a list, which must be at least kLawClaimed.
+/// For the likeliest law of a list, which must be at least kLawClaimed.
 [[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
     const std::vector<Law>& laws, const model::Bed& bed);
 

@@ -15,7 +15,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Of the points that are kept whole, in the order of the files; `law` with the parameters of `weighed`.
+/// For the points that are kept whole, in the order of the files; `law` with the parameters of `weighed`.
 [[nodiscard]] std::vector<LawResidual> residuals_about(const Analysis& analysis,
                                                        const LawEvidence& evidence,
                                                        const WeighedLaw& weighed,

@@ -181,7 +181,7 @@ std::string given_law_words(const Diagnosis& d) {
     }
   }
   std::string text;
-  // Of causes that act together each is more likely than not; of an open set only one acts.
+  // For causes that act together each is more likely than not; of an open set only one acts.
   if (!named.empty()) {
     text += fmt::format(
         " Given this law, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));

@@ -42,7 +42,7 @@ void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   list.push_back(std::move(reading));
 }
 
-/// Of the most probable group.
+/// For the most probable group.
 double share_of_best(const std::vector<Alternative>& alternatives) {
   double sum = 0.0;
   for (const Alternative& one : alternatives) sum += one.group == 0 ? one.probability : 0.0;

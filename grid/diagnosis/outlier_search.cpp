@@ -28,7 +28,7 @@ struct FreeGroup {
   std::size_t group = 0;
   Eigen::Index at = 0;  ///< position of its first row among those kept
   Eigen::Index rows = 1;
-  /// Of length one, without what other groups of the same rows have taken; absent: all rows.
+  /// For length one, without what other groups of the same rows have taken; absent: all rows.
   std::optional<Eigen::Vector2d> direction;
 
   [[nodiscard]] Eigen::Index directions() const { return direction ? 1 : rows; }

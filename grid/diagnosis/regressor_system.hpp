@@ -56,7 +56,7 @@ struct Regressor {
   /// Range of the coefficient.
   double lowest = 0.0;
   double highest = 0.0;
-  /// Of a cause with whole numbers: visits at which it may be.
+  /// For a cause with whole numbers: visits at which it may be.
   double visits = 0.0;
   /// Share of this side, place and whole number within the effect (whole numbers: analysis.cpp).
   double log_prior = 0.0;
@@ -67,7 +67,7 @@ struct Regressor {
 struct OutlierGroup {
   Eigen::Index first_row = 0;
   Eigen::Index rows = 1;
-  /// Among two rows, of any length but zero; absent: all rows.
+  /// A direction between two rows, not zero; absent: all rows.
   std::optional<Eigen::Vector2d> direction{};
 };
 

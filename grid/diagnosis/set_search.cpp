@@ -142,7 +142,7 @@ class SetSearch::Search {
   [[nodiscard]] const std::vector<bool>& outliers() const { return marginalised_.outliers; }
 
  private:
-  /// Of any size, and set in at a visit.
+  /// For any size, and set in at a visit.
   [[nodiscard]] static bool at_a_visit(const Regressor& d) {
     const auto& parameters = d.cause.effect->parameters;
     return !d.fixed && parameters.size() > 1 && parameters.back().integer;

@@ -119,7 +119,7 @@ struct EstimationInput {
   /// The splines' intervals; 0: from the places' own spacing.
   int intervals_x = 0;
   int intervals_y = 0;
-  /// Of each unit, 0: rejected; no reweighting then, and settings converge to 1e-6 sigmas.
+  /// For each unit, 0: rejected; no reweighting then, and settings converge to 1e-6 sigmas.
   std::optional<Eigen::VectorXd> fixed_weights;
   /// Single readings are searched for outliers; with fixed_weights alone.
   std::optional<ReadingLimits> reading_limits;

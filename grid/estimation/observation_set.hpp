@@ -92,9 +92,9 @@ struct ObservationSet {
   /// With fewer units left, none is rejected.
   std::size_t fewest_units = 0;
 
-  /// Of the mechanism: the first columns.
+  /// For the mechanism: the first columns.
   [[nodiscard]] Eigen::Index parameters() const { return mechanism->values().size(); }
-  /// Of the mechanism's parameters and the sheets: the first columns.
+  /// For the mechanism's parameters and the sheets: the first columns.
   [[nodiscard]] Eigen::Index setting_columns() const { return parameters() + 3 * as_index(sheets); }
   [[nodiscard]] Eigen::Index nuisances() const {
     return stated_value.size() - setting_columns() - 2 * as_index(own_zeros);

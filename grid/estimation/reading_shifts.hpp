@@ -30,7 +30,7 @@
 
 namespace chaintrue::grid::estimation {
 
-/// Of each unit, the readings that are rejected.
+/// For each unit, the readings that are rejected.
 using RejectedReadings = std::vector<std::vector<Eigen::Index>>;
 
 /// N of these readings of a unit: rows x what they leave.

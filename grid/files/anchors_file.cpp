@@ -137,7 +137,7 @@ const Record<BeltsFit>& both_predictions_record() {
   return record;
 }
 
-/// Of the belts' table, with values that it may have.
+/// For the belts' table, with values that it may have.
 void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
   const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
   for (const model::MachineProblem& problem : model::effects::problems_in(model::belts::belt_effects(), applied))

@@ -9,9 +9,9 @@
 
 namespace chaintrue::grid::files {
 
-/// Of a compensation map: zeros and elongations by chain, a residual each.
+/// For a compensation map: zeros and elongations by chain, a residual each.
 [[nodiscard]] std::string write_map_check(const Check& check);
-/// Of anchors: the size of what has changed, a place each.
+/// For anchors: the size of what has changed, a place each.
 [[nodiscard]] std::string write_anchors_check(const Check& check);
 
 }  // namespace chaintrue::grid::files

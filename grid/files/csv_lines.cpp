@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostAboveHeader = 8;
 /// A hundred thousand lines of eight columns, five times the most points of any verb.
 constexpr std::size_t kMostCells = 800'000;
-/// Of a line, in bytes: more than any spreadsheet's row of columns that have a name here.
+/// For a line, in bytes: more than any spreadsheet's row of columns that have a name here.
 constexpr std::size_t kLongestLine = std::size_t{1} << 16U;
 
 bool is_skipped(std::string_view line) {

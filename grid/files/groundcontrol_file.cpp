@@ -109,7 +109,7 @@ void attach_sled(const SettingValues& numbers, bool has_brackets, Machine& machi
   }
 }
 
-/// Of the motors' gears and encoders, 28 x 289.78 (MaslowCNC/Firmware); the 8148 of the first releases
+/// For the motors' gears and encoders, 28 x 289.78 (MaslowCNC/Firmware); the 8148 of the first releases
 /// took the gears for 291 to 1.
 constexpr double kCountsOfATurn = 8113.73;
 

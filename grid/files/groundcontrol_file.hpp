@@ -70,7 +70,7 @@ struct GroundcontrolText {
   std::vector<std::string> remarks;
 };
 
-/// Of those measures. A setting of the controller that agrees with the machine is unchanged.
+/// For those measures. A setting of the controller that agrees with the machine is unchanged.
 [[nodiscard]] GroundcontrolText write_groundcontrol(const model::Machine& machine);
 
 /// Whether anything was measured since the import: false if the machine is what an import of its

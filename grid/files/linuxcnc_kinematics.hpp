@@ -29,7 +29,7 @@ struct LinuxcncKinematics {
   int columns = 0;
   int rows = 0;
   double spacing_mm = 0.0;        ///< the larger of both
-  /// Of a length, as it was looked for; above kTableErrorMm only where 5 mm from node to node do not do.
+  /// In a length, as sampled; above kTableErrorMm only if even 5 mm between nodes are too coarse.
   double largest_error_mm = 0.0;
 };
 

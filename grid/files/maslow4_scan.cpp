@@ -93,7 +93,7 @@ class Scanner {
     list_.clear();
   }
 
-  /// Of a list whose heading was lost several readings stand on a line.
+  /// In a list without its heading, several readings are on a line.
   void take_braces(std::string_view line, bool is_list) {
     const bool is_bare_list =
         !is_list && !is_open_list_ && std::count(line.begin(), line.end(), '{') > 1;

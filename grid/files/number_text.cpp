@@ -33,7 +33,7 @@ Parsed parse(std::string_view text) {
   return parsed;
 }
 
-/// Of the texts outside a double's range, those with a negative exponent are near zero; so are
+/// Among the texts outside a double's range, those with a negative exponent are near zero; so are
 /// those without an exponent, 0.000...
 bool is_near_zero(std::string_view text) {
   const std::size_t exponent = text.find_first_of("eE");

@@ -157,7 +157,7 @@ class OldFile {
   explicit OldFile(const fs::path& target)
       : target_(target), name_(unpredictable_name_next_to(target)), slot_(claim_slot(name_)) {
     has_name_ = ::link(target_.c_str(), name_.c_str()) == 0;
-    // Where the file system has no second names, what is replaced cannot come back.
+    // Without hard links a replaced file cannot be restored.
     is_new_ = !has_name_ && errno == ENOENT;
   }
   ~OldFile() {

@@ -17,7 +17,7 @@
 
 namespace chaintrue::grid::files {
 
-/// Of this program: "0.1.0".
+/// For this program: "0.1.0".
 [[nodiscard]] std::string_view version();
 
 /// A name without folders; "standard input" for "-".

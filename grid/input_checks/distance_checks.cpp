@@ -75,7 +75,7 @@ class HoleTransformations {
  public:
   explicit HoleTransformations(const MeasuredHoles& set) : set_(set) {}
 
-  /// Of the holes, which all distances share.
+  /// For the holes, which all distances share.
   Transformation& of_holes(ProblemKind kind,
                            std::string sentence,
                            const std::function<void(MeasuredHoles&)>& mend) {

@@ -34,7 +34,7 @@
 
 namespace chaintrue::grid {
 
-/// Of N places with m lengths each.
+/// For N places with m lengths each.
 struct CheckReadings {
   Eigen::VectorXd residual_mm;   ///< n
   ReadingCovariance covariance;  ///< K

@@ -36,7 +36,7 @@ struct Repeated {
 /// The new points of one file: their positions on the map, and their readings.
 struct CheckedPart {
   std::vector<model::MarkPoint> marks;  ///< on the map
-  /// Of a sheet that was laid anew: how well, and where the readings put it in the map's frame. All
+  /// For a sheet that was laid anew: how well, and where the readings put it in the map's frame. All
   /// is linearised there.
   std::optional<observation::SheetPrior> sheet;
   model::SheetPlacement placement;

@@ -60,7 +60,7 @@ Eigen::VectorXd end_slope(const std::array<double, 3>& t,
   return near - (far - near) * (t[1] - t[0]) / (t[2] - t[1]);
 }
 
-/// Of the lines that are the rows of `values`, at their first node or, reversed, at their last.
+/// For the lines that are the rows of `values`, at their first node or, reversed, at their last.
 Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
                               const Eigen::MatrixXd& values,
                               bool last) {

@@ -59,7 +59,7 @@ struct HeldOutError {
 struct MapAccuracy {
   HeldOutError leave_one_out;
   HeldOutError blocked;
-  /// Of the tool over the measured part of the bed (controller_error.hpp).
+  /// For the tool over the measured part of the bed (controller_error.hpp).
   ErrorSummary expected_tool;
   model::MarkPoint expected_worst_at;  ///< where it is largest
 };
@@ -189,7 +189,7 @@ struct MapContents {
 struct MapAnswer {
   model::ChainLengths lengths;
   model::ChainLengths sigma;
-  /// Of the two lengths, including their correlation.
+  /// For the two lengths, including their correlation.
   Eigen::Matrix2d covariance;
   /// d(left, right)/d(mark)
   Eigen::Matrix2d mark_jacobian;

@@ -60,7 +60,7 @@ using PaidOut = std::function<std::optional<model::ChainLengths>(model::BedPoint
 [[nodiscard]] std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
                                                                const std::vector<MeasuredPlace>& places);
 
-/// Of (1) with such a first part. \pre There is a place within the hull.
+/// For (1) with such a first part. \pre There is a place within the hull.
 [[nodiscard]] ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
                                              const Eigen::VectorXd& errors_mm);
 

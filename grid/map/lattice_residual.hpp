@@ -46,7 +46,7 @@ class LatticeSplines {
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const {
     return {left_.get(), right_.get()};
   }
-  /// Of both corrections, two columns a node, `node` being the covariance of one measured node. The
+  /// For both corrections, two columns a node, `node` being the covariance of one measured node. The
   /// bicubic's weights approximate the quintic's. Inside the lattice the interpolation's own error
   /// counts in full; beyond it, it grows with the weights.
   [[nodiscard]] Eigen::Matrix2Xd spread(model::MarkPoint mark, const Eigen::Matrix2d& node) const;

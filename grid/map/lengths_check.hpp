@@ -29,7 +29,7 @@ struct FittedMechanism {
   std::shared_ptr<const model::Mechanism> mechanism;
   Eigen::MatrixXd covariance;  ///< of its parameters
   double length_mm = 0.0;      ///< one sigma of a length that is read
-  /// Of the fit that found the noise; infinite: it is known.
+  /// For the fit that found the noise; infinite: it is known.
   double noise_dof = kInfinity;
   double position_mm = 0.0;  ///< one sigma of a known position, on each axis
 };

@@ -15,7 +15,7 @@ namespace chaintrue::grid {
 /// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 class MapField {
  public:
-  /// Of both lengths, a row each: one sigma of one direction of what is uncertain a column, the same
+  /// For both lengths, a row each: one sigma of one direction of what is uncertain a column, the same
   /// directions at every mark within the points.
   struct WithSpread {
     MapLengths here;

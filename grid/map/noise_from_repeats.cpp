@@ -47,7 +47,7 @@ void RepeatScatter::end_group() {
 
 std::optional<RepeatNoise> RepeatScatter::noise() const {
   constexpr double kFewestDof = 4.0;
-  // Of the noise that residuals are whitened by: repeats that agree so well are copies.
+  // For the noise that residuals are whitened by: repeats that agree so well are copies.
   constexpr double kNothing = 1e-6;
   if (dof_ < kFewestDof) return std::nullopt;
   const double factor = std::sqrt(std::max(squares_ / dof_, rounding_squares_ / rows_));

@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid {
 
-/// Of the marks of points that give a command, and of the lengths of those that give lengths.
+/// Of the marks of points that give a command, and for the lengths of those that give lengths.
 [[nodiscard]] observation::PointNoise rounding_noise(const MeasuredGrid& grid);
 /// The stated noise, but not below this floor.
 [[nodiscard]] StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid);

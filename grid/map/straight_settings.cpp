@@ -15,7 +15,7 @@ namespace {
 using model::BedPoint;
 using model::Side;
 
-/// Of a chain: its anchor and its count.
+/// For a chain: its anchor and its count.
 constexpr Eigen::Index kX = 0, kY = 1, kCount = 2, kOfChain = 3;
 
 /// (1) less the map, both chains, and its derivatives by both chains' unknowns.

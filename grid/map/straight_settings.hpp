@@ -34,7 +34,7 @@ struct StraightSettings {
   model::PerSide<double> more_steps;
   /// The straight distance from 0, 0 minus the map's length there, mm.
   model::ChainLengths longer_mm;
-  /// Of the tool, over the measured part.
+  /// For the tool, over the measured part.
   ErrorSummary left_over;
 };
 

@@ -105,7 +105,7 @@ struct View {
        model::SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr)
       : mechanism(std::move(what_hangs)), sheet(placement), correction(length_correction) {}
-  /// Of two chains.
+  /// For two chains.
   View(model::ReadingModel chains,
        model::SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr);
@@ -155,7 +155,7 @@ struct Linearisation {
   Eigen::VectorXd predicted;    ///< f, n
   Eigen::MatrixXd by_setting;   ///< A, n x p
   Eigen::MatrixXd by_nuisance;  ///< B, n x q
-  /// Of each place; empty of a kind whose lengths no LengthCorrection corrects.
+  /// For each place; empty of a kind whose lengths no LengthCorrection corrects.
   std::vector<ChainPlaceState> places;
   std::vector<UnitState> units;
 };

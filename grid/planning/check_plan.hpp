@@ -33,7 +33,7 @@ inline constexpr int kMostCheckPoints = 12;
 
 struct CheckPlanRequest {
   int points = 5;
-  /// Of a reading and of a mark, one sigma.
+  /// For a reading and for a mark, one sigma.
   double length_mm = 0.3;
   double position_mm = 0.0;
   /// From the bed's edge to the outermost marks.

@@ -73,7 +73,7 @@ struct DetectableEffect {
 struct HolesPlan {
   /// With commanded distances in place of readings.
   MeasuredHoles set;
-  /// Of the tool over the bed, one sigma; without edges, for the best placement of the sheet.
+  /// For the tool over the bed, one sigma; without edges, for the best placement of the sheet.
   double expected_rms_mm = 0.0;
   /// Before any measurement, for the best placement of the sheet.
   double expected_before_mm = 0.0;

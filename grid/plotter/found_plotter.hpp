@@ -33,7 +33,7 @@ struct FoundPlotter {
   /// Correlation of each with those after it, in this order, row by row: 15 numbers.
   std::vector<double> correlations;
 
-  /// Of all six.
+  /// For all six.
   [[nodiscard]] Eigen::MatrixXd covariance() const;
 };
 

@@ -55,7 +55,7 @@ struct AtlasPicture {
   /// Sizes rise; the usual one is among them.
   std::vector<AtlasFrame> frames{};
   std::size_t usual = 0;  ///< of the frames
-  /// Of the usual frame.
+  /// For the usual frame.
   double largest_shift_mm = 0.0;
 };
 
@@ -70,10 +70,10 @@ struct Atlas {
   std::vector<std::string> not_drawn;
 };
 
-/// Of two chains or a V-plotter; only for one cause, by the name of its setting or effect, if
+/// For two chains or a V-plotter; only for one cause, by the name of its setting or effect, if
 /// `cause` is not empty.
 [[nodiscard]] Atlas atlas_of(const model::Mechanism& mechanism, std::string_view cause = {});
-/// Of four belts. \throws std::invalid_argument for anchors that are not known.
+/// For four belts. \throws std::invalid_argument for anchors that are not known.
 [[nodiscard]] Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause = {});
 
 }  // namespace chaintrue::grid::synthetic

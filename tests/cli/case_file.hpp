@@ -7,7 +7,7 @@
 ///   from NAME              begins where that `given` ended
 ///   file PATH              holds the lines that follow and begin with "| "
 ///   $ LINE                 a shell line in the case's folder; $F are the fixtures; a case that uses
-///                          $D, the shared data, or $MPIRUN is skipped where there is none
+///                          $D, the shared data, or $MPIRUN is skipped if it is missing
 ///   exit CODE [CODE...]    of the last line; 0 by default
 ///   exists PATH...         absent PATH...        same PATH PATH
 ///   has PATH TEXT          lacks PATH TEXT       lines PATH COUNT

@@ -133,7 +133,7 @@ std::string drill_program() {
   return text + "M2\n";
 }
 
-/// Where a program plunges, in its own numbers.
+/// Where a program plunges, in program coordinates.
 std::vector<Vec2> plunges(const std::string& program) {
   std::vector<Vec2> places;
   Vec2 here;

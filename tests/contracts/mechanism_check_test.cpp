@@ -190,7 +190,7 @@ std::array<int, 3> verdicts(const Hung& hung,
   return count;
 }
 
-// Of 40 sets four may miss a verdict that is right nineteen times in twenty; more do in one run in
+// For 40 sets four may miss a verdict that is right nineteen times in twenty; more do in one run in
 // twenty.
 constexpr int kMostWrong = 4;
 

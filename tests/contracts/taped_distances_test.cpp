@@ -189,7 +189,7 @@ TEST(GivenPositions, ChangeTheResidualsToSecondOrderOnly) {
   const double near = change_about(set, 2.0);
   EXPECT_GT(near, 0.0);
   EXPECT_LT(near, 0.02);  // 2 mm squared over a metre of belt, a few times for lengths of different directions
-  // Of a second order a quarter is left at half the way; higher orders are 2 mm over a metre.
+  // A quarter of a second-order error is left at half the way; higher orders are 2 mm over a metre.
   EXPECT_NEAR(change_about(set, 1.0) / near, 0.25, 0.02);
 }
 

@@ -66,7 +66,7 @@ TEST(BedParts, EachHasAQuarterOfTheReadingsOnOneSide) {
   std::vector<int> times(a.system.units.size(), 0);
   for (const BedPart& part : parts) {
     for (const std::size_t u : part.units) ++times[u];
-    // Of 34 readings eight; the six repeats go with the marks that they repeat.
+    // For 34 readings eight; the six repeats go with the marks that they repeat.
     EXPECT_GE(part.units.size(), a.system.units.size() / 4);
     EXPECT_LE(part.units.size(), a.system.units.size() / 4 + 2);
     // All on one side of a line: the left-out part reaches farther towards it than the rest.
@@ -99,7 +99,7 @@ TEST(BedParts, NeedEnoughReadings) {
   EXPECT_TRUE(bed_parts(a.system, nothing_rejected(a.system), a.system.units.size()).empty());
 }
 
-// Of marks on two columns, what is left without one side is on one line for most of the directions.
+// For marks on two columns, what is left without one side is on one line for most of the directions.
 TEST(BedParts, NeverLeaveALine) {
   const Analysis a = analysed(session_of({}, 1, 2, 7));
   for (const BedPart& part : parts_of_all(a)) {
@@ -223,7 +223,7 @@ TEST(Sessions, RefuseACopy) {
             "two.json holds the same readings as one.json, to the last digit: a copy adds nothing. Leave it out");
 }
 
-// Of two files without numbers of visits, the first driven there and back in columns by a machine with friction.
+// For two files without numbers of visits, the first driven there and back in columns by a machine with friction.
 TEST(Sessions, TheOrderOfTheFirstIsFoundInItsReadings) {
   synthetic::SyntheticSpec spec;
   spec.design.columns = 9;

@@ -66,7 +66,7 @@ TEST_P(InPlaceOfTheCatalogue, DeclaredEffectsGiveTheSameVerdictAndSizes) {
     const Cause& b = with_built_in->causes[k];
     EXPECT_EQ(name_in_catalogue(a.cause), name_in_catalogue(b.cause));
     EXPECT_EQ(a.cause.side, b.cause.side);
-    // Sums in another order: 1e-6 of sizes and of probabilities, as issue and page promise.
+    // Sums in another order change sizes and probabilities by at most 1e-6.
     EXPECT_NEAR(a.probability, b.probability, 1e-6);
     ASSERT_EQ(a.parameters.size(), b.parameters.size());
     for (std::size_t i = 0; i < a.parameters.size(); ++i)

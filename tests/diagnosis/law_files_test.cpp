@@ -120,7 +120,7 @@ TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
   const Analysis a = analysed(grid);
   const auto written = declaration_of(law, grid.machine->bed);
   ASSERT_TRUE(written) << written.error();
-  // As it is read again.
+  // As read again.
   const Declaration own = files::parse_effect(files::write_effect(*written), "law.json");
   EXPECT_EQ(files::write_effect(own), files::write_effect(*written));
   EXPECT_THAT(model::effects::problems_on_bed(own, *grid.machine), IsEmpty());

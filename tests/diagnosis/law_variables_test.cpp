@@ -29,7 +29,7 @@ MeasuredBelts frame() {
   return files::read_belts(CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;
 }
 
-// Of every variable, belt by belt: the residuals of the readings with the law, less those without.
+// For every variable, belt by belt: the residuals of the readings with the law, less those without.
 TEST(BeltLaws, ColumnsAreTheDifferencesOfReadings) {
   const MeasuredBelts plain = frame();
   const belts::FrameState state = belts::fit_anchors_robustly(plain).value().state;

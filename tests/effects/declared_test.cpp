@@ -47,7 +47,7 @@ Declaration wave() {
   return own;
 }
 
-/// Of one problem: its place, then what was found, then what was expected.
+/// For one problem: its place, then what was found, then what was expected.
 std::string only_problem(const std::vector<DeclarationProblem>& problems) {
   if (problems.size() != 1) return testing::PrintToString(problems.size()) + " problems";
   const DeclarationProblem& p = problems.front();

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "x_mm,y_mm\n\xE2\x88\x92"
                     "1112.8375,508\n635,\xE2\x88\x92"
                     "12.7\n",
-                    // Of a spreadsheet with decimal commas, saved with commas between cells.
+                    // From a spreadsheet with decimal commas, saved with commas between cells.
                     "x_mm,y_mm\n\"-1112,8375\",508\n635,\"-12,7\"\n",
                     "x_mm,y_mm\n\"-1,112.8375\",508\n635,-12.7\n",
                     "x_mm;y_mm\n-1.112,8375;508\n635;-12,7\n",

@@ -95,7 +95,7 @@ Outcome drawing_outcome(const std::string& text, const std::string& name) {
   return {write_drawing(parse_drawing(text, name)), {}, {}};
 }
 
-/// Of the controller of a V-plotter.
+/// For the controller of a V-plotter.
 Outcome settings_outcome(const std::string& text, const std::string& name) {
   const ReadPlotter read = parse_plotter_settings(text, name);
   return {write_plotter(read.plotter), messages_of(read.warnings), {}};

@@ -205,7 +205,7 @@ bool is_said_again(const std::string& line) {
          line.find("Waypoints [") != std::string::npos || line.find("perAnchor") != std::string::npos;
 }
 
-/// Of lines that are no comments; not those within words.
+/// For lines that are no comments; not those within words.
 std::vector<FoundNumber> numbers_of(const std::string& text) {
   static const std::regex number(R"((^|[^\w.])([-+]?\d+(\.\d+)?)(?![\w.]))");
   std::vector<FoundNumber> found;

@@ -62,7 +62,7 @@ class Sources : public testing::Test {
     return (folder_ / name).string();
   }
 
-  /// Of the running test: others run at the same time.
+  /// For the running test: others run at the same time.
   std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) /
       (std::string("chaintrue_sources_") + testing::UnitTest::GetInstance()->current_test_info()->name());

@@ -25,7 +25,7 @@ void expect_near(double one, double other, const std::string& where) {
   EXPECT_NEAR(one, other, kNear * std::max(1.0, std::abs(one))) << where;
 }
 
-/// Of a list with an entry for each reading: the values of each key, in ascending order.
+/// For a list with an entry for each reading: the values of each key, in ascending order.
 std::map<std::string, std::vector<double>> sorted_values(const Document& list) {
   std::map<std::string, std::vector<double>> values;
   for (const Document& entry : list) {
@@ -85,7 +85,7 @@ Document shuffled(Document file) {
   return file;
 }
 
-/// Of JSON the document, of other text the whole of it.
+/// The document of JSON; other text as a whole.
 Document answer_of(const Ran& ran, const std::string& line) {
   EXPECT_LT(ran.code, 2) << line << "\n" << ran.err;
   const Document document = Document::parse(ran.out, nullptr, false);

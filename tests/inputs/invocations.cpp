@@ -13,7 +13,7 @@ namespace facts = cli::facts;
 
 namespace {
 
-/// Of names with "|" between.
+/// For names with "|" between.
 cli::Facts facts_of(const std::string& names) {
   static const std::map<std::string, cli::Facts> all = {
       {"anchors", facts::anchors}, {"any", facts::any}, {"belt_holes", facts::belt_holes},

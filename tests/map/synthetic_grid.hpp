@@ -49,7 +49,7 @@ double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& 
   return std::sqrt(squares / count);
 }
 
-/// Of a map's lengths, at places within the points.
+/// For a map's lengths, at places within the points.
 template <class Map>
 void expect_derivatives_are_differences(const Map& map) {
   constexpr double kStepMm = 0.01;

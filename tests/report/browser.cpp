@@ -121,7 +121,7 @@ std::vector<DrawnChart> charts_of(std::string_view dom) {
   return charts;
 }
 
-/// Of tables with a mark a row; a curve is one mark.
+/// For tables with a mark a row; a curve is one mark.
 std::size_t largest_table_rows(const nlohmann::json& chart) {
   std::size_t rows = 0;
   for (const auto& [name, table] : chart.at("data").items()) {

@@ -15,7 +15,7 @@ namespace chaintrue::report::testing {
 
 /// The likeliest law and its best rival among the sample's points.
 [[nodiscard]] grid::diagnosis::Diagnosis diagnosis_with_laws();
-/// Of holes with one bad distance, and two measurements to come.
+/// For holes with one bad distance, and two measurements to come.
 [[nodiscard]] grid::diagnosis::Diagnosis diagnosis_of_holes();
 inline constexpr int kSampleDistances = 20;
 

@@ -90,7 +90,7 @@ std::string name_of(const AtlasPicture& picture) {
   return std::string(id) + " " + std::string(name(picture.side));
 }
 
-/// Of each kind of machine; an atlas is made once a process.
+/// For each kind of machine; an atlas is made once a process.
 class EveryPicture : public ::testing::TestWithParam<const char*> {};
 
 /// The planar distance of an anchor, the length that a Maslow 4 prints.

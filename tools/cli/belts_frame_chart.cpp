@@ -19,7 +19,7 @@ using report::DataTable;
 
 namespace {
 
-/// Of Okabe and Ito's palette, distinguishable with every colour vision.
+/// From Okabe and Ito's palette, distinguishable with every colour vision.
 constexpr model::PerBelt<const char*> kColors = {
     report::kBeforeColor, report::kAfterColor, report::kFourthColor, report::kThirdColor};
 

@@ -26,7 +26,7 @@ struct ImprovementRow {
 [[nodiscard]] report::Section improvement_section(const grid::diagnosis::Diagnosis& found);
 /// On the points of another grid. Precondition: there is one.
 [[nodiscard]] report::Section transfer_section(const grid::diagnosis::Diagnosis& found);
-/// Of both; empty if there is no gain.
+/// For both; empty if there is no gain.
 [[nodiscard]] report::Light corrected_light(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] std::vector<report::Figure> figures_of_improvement(const grid::diagnosis::Diagnosis& found);
 

@@ -24,7 +24,7 @@ struct GcodeOptions {
   std::string program;
   std::string other;  ///< verify: the file that is run
   std::string map;
-  /// Of --map; opened before any verb begins.
+  /// For --map; opened before any verb begins.
   std::optional<InputFile> map_file;
   std::string machine;
   /// The word for the option of `machine` and its alternatives in messages.
@@ -51,7 +51,7 @@ struct GcodeOptions {
   bool json = false;
 
   [[nodiscard]] gcode::Dialect dialect() const;
-  /// Of --home. \throws InputError where it is no pair of numbers.
+  /// For --home. \throws InputError where it is no pair of numbers.
   [[nodiscard]] model::BedPoint home_mm() const;
 };
 

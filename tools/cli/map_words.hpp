@@ -61,7 +61,7 @@ using Residual = Eigen::Vector2d grid::MapPoint::*;
 /// The reference for the map, and its name: the machine as stated, on the fitted sheet.
 [[nodiscard]] Residual residual_before(const grid::MapContents& contents);
 [[nodiscard]] std::string_view machine_before(const grid::MapContents& contents);
-/// Of the machine and of the sheet.
+/// For the machine and for the sheet.
 [[nodiscard]] std::vector<SettingRow> settings_rows(const grid::CompensationMap& map);
 
 }  // namespace chaintrue::cli

@@ -15,7 +15,7 @@ struct CheckPlanOptions {
   /// The map to check later; empty for other plans.
   std::string map;
   grid::CheckPlanRequest request;
-  /// Of --measure.
+  /// For --measure.
   std::string measure;
 };
 

@@ -53,7 +53,7 @@ struct SimulateOptions {
 
 /// From --model; an unknown word becomes a problem.
 [[nodiscard]] model::Model parse_model(const std::string& word, OptionProblems& problems);
-/// Of --offset.
+/// For --offset.
 [[nodiscard]] std::vector<grid::synthetic::SettingOffset> parse_offsets(
     const std::vector<std::string>& arguments, OptionProblems& problems);
 /// Checks the options of a session or of places before any file is read.

@@ -102,7 +102,7 @@ struct PlaneAxes {
 /// Null if the code is unknown.
 [[nodiscard]] const KnownCode* find(Code code);
 
-/// Of coordinate system 1 (G54) to 9 (G59.3).
+/// For coordinate system 1 (G54) to 9 (G59.3).
 [[nodiscard]] constexpr int system_code(int system) {
   return system <= 6 ? g::system_1 + 10 * (system - 1) : g::system_7 + system - 7;
 }

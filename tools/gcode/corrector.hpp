@@ -30,7 +30,7 @@ enum class CorrectionReason {
 };
 /// A clause: "lies outside the map", ...
 [[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
-/// Of `unreachable` and `controller` with the cause, where it is known.
+/// For `unreachable` and `controller` with the cause, where it is known.
 using CorrectionFailure = Failure<CorrectionReason>;
 template <class T>
 using Corrected = tl::expected<T, CorrectionFailure>;

@@ -17,7 +17,7 @@ constexpr float kMaslowPi = 3.1415F;
 constexpr float kGrblArcToleranceMm = 0.002F;
 constexpr int kGrblArcCorrection = 12;
 constexpr float kGrblAngleEpsilon = 5e-7F;
-/// Of an arc that a controller follows itself.
+/// For an arc that a controller follows itself.
 constexpr double kFewestChords = 8.0;
 
 /// The point of the arc's plane at u, v from its centre, as a share of the way to its other end.

@@ -153,7 +153,7 @@ class Verification {
   [[nodiscard]] bool begins_here(const Move& move) const {
     return homed_ ? move.names_xy : begins(move);
   }
-  /// Whether both curves start at the end of this move: its way is not compensated.
+  /// Whether both curves start at the end of this move, whose path is not compensated.
   [[nodiscard]] bool starts_at_end(const Move& move) const {
     return move.kind == MoveKind::rapid || (homed_ && !move.arc);
   }

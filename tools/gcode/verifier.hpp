@@ -27,7 +27,7 @@ namespace chaintrue::gcode {
 
 struct VerifyOptions {
   double tolerance_mm = 0.05;
-  /// Of the file that is run: moves shorter than a few units of its last decimal may be missing.
+  /// For the file that is run: moves shorter than a few units of its last decimal may be missing.
   int decimals = 3;
   model::ChainLengths half_play_mm;
   /// Rapids are single commands: only their ends count.
@@ -35,7 +35,7 @@ struct VerifyOptions {
   /// Allowed relative deviation of the tool's speed: that of the steepest correction allowed by
   /// default (0.05 mm per mm), and the rounding of F.
   double speed_share = 0.06;
-  /// Of uncompensated(): called for every move of the original.
+  /// For uncompensated(): called for every move of the original.
   std::function<void(const Move&)> on_move;
 };
 

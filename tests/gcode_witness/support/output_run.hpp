@@ -17,7 +17,7 @@ struct OutputRun {
   std::vector<std::string> failures;
 };
 
-/// Of random programs with words of random values (S, F, T, and P, Q, E, H of G4, G43, G64, M50-M53,
+/// For random programs with words of random values (S, F, T, and P, Q, E, H of G4, G43, G64, M50-M53,
 /// M61-M68) between their moves, every output
 ///   is read by the strict reader, line by line, with the same moves as our interpreter finds;
 ///   holds the words of the program, in order, with equal values;

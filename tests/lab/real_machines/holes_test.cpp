@@ -116,7 +116,7 @@ struct Pool {
   [[nodiscard]] double all_mm() const { return std::sqrt(all2 / all); }
 };
 
-/// Of all files.
+/// For all files.
 std::vector<FittedDistance> distances_of(const JointFit& fit) {
   std::vector<FittedDistance> all;
   for (const FittedDistances& one : fit.distances)

@@ -15,7 +15,7 @@ TEST(SealedLaws, AreClaimedAndRight) {
     const LawsTrial trial = run_laws_trial("laws", seed);
     EXPECT_TRUE(trial.claimed) << line_of("laws", trial);
     EXPECT_TRUE(trial.leads) << line_of("laws", trial);
-    // Of the same rate as in the table: four in a thousand are further away.
+    // For the same rate as in the table: four in a thousand are further away.
     EXPECT_LT(trial.worst_sigmas.value_or(0.0), 3.0) << line_of("laws", trial);
   }
 }

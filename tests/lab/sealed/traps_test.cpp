@@ -74,7 +74,7 @@ TEST(Traps, CancellingEffectsAreNotNamed) {
   const auto yardstick =
       generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
   const Hidden first[] = {{Cause::tape_scale, Where::both, 0.001, 0.0}};
-  // Of both chains and of the tape along both axes: indistinguishable with data of this kind.
+  // Both chains, and the tape along both axes: indistinguishable with data of this kind.
   const Hidden second[] = {{Cause::chain_pitch_error, Where::both, 0.001, 0.0}};
   const auto a = yardstick->signature(first), b = yardstick->signature(second);
   Hidden answer = second[0];

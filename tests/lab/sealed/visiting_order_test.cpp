@@ -68,7 +68,7 @@ Counts count(Order order, std::optional<Cause> cause, int sets, std::uint64_t fi
   return counts;
 }
 
-/// Of 120 sets. Each expectation fails by chance once in a thousand runs.
+/// For 120 sets. Each expectation fails by chance once in a thousand runs.
 constexpr int kSets = 120;
 
 // Friction of strength 6 to 22, six marks measured again in between; of 200 sets 137 and 166 were found.

@@ -85,7 +85,7 @@ class Answering {
     return asked(grid::MapInFrame(*map_, bed ? grid::MapFrame::bed : grid::MapFrame::marks), pairs);
   }
 
-  /// Of a map.
+  /// For a map.
   [[nodiscard]] std::string sentence() const { return cli::fit_sentence(*map_); }
   /// For a map: with its fitted settings; empty for a direct surface.
   [[nodiscard]] std::string machine() const {

@@ -8,7 +8,7 @@
 namespace chaintrue::generator {
 namespace {
 
-/// Of belt for one turn of the motor's 22 teeth.
+/// Belt for one turn of the motor's 22 teeth.
 constexpr double kTurnMm = 43.975;
 constexpr int kWavesOfBeltField = 160;
 

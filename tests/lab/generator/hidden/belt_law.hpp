@@ -41,7 +41,7 @@ struct BeltLaw {
   double strength = 0.0;  ///< not explained by the anchors and any single cause, in sigmas
 };
 
-/// Of size 1, at a position and the belt's length there.
+/// For size 1, at a position and the belt's length there.
 [[nodiscard]] double value_of(const BeltLaw& law, const BeltFrame& frame, double x, double y, double length_mm);
 
 /// Everything but size and strength.

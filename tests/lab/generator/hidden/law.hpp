@@ -61,12 +61,12 @@ struct HiddenLaw {
   std::vector<HiddenWave> waves{};
 };
 
-/// Of size 1: a slope per 1000 mm.
+/// For size 1: a slope per 1000 mm.
 [[nodiscard]] double law_value(const HiddenLaw& law, const PatternSite& site);
 
 struct SizedLaw {
   HiddenLaw law;
-  /// Of the part that no single effect of the catalogue explains.
+  /// For the part that no single effect of the catalogue explains.
   double delta = 0.0;
 };
 /// Place, extent, entry and size; the strength log-uniform between the two, the size at most 6 mm.

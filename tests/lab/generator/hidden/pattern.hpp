@@ -59,7 +59,7 @@ struct Pattern {
   std::array<double, 8> knots{};  ///< further parameters of a family
 };
 
-/// Of height 1: that is about its maximum over the bed.
+/// For height 1: that is about its maximum over the bed.
 [[nodiscard]] double field(const Pattern& pattern, const PatternSite& site);
 /// The other families.
 [[nodiscard]] double other_field(const Pattern& pattern, const PatternSite& site);

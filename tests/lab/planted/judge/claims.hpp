@@ -29,7 +29,7 @@ struct Claim {
 /// \throws std::invalid_argument with the word if it is not one.
 [[nodiscard]] Claim parse_claim(const std::string& word);
 
-/// Of the likeliest class that has a member in common; 0 where there is none.
+/// For the likeliest class that has a member in common; 0 where there is none.
 [[nodiscard]] double probability_in(const std::vector<Claim>& claims, const Claim& of);
 
 /// The diagnosis of a whole scan without an order of visits, and the smooth field on it.

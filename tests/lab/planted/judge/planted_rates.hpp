@@ -49,7 +49,7 @@ struct Cluster {
 /// no information about another.
 [[nodiscard]] sealed::RateBounds clustered_bounds(const std::vector<Cluster>& clusters);
 
-/// Of all claims of 0.1 and more whose truth is known: the planted cause and classes confirmed by
+/// For all claims of 0.1 and more whose truth is known: the planted cause and classes confirmed by
 /// the whole scan are right, classes it denies are wrong.
 [[nodiscard]] sealed::Calibration claims_held_against(const std::vector<Outcome>& outcomes,
                                                       const std::vector<Reference>& references);

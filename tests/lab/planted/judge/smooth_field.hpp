@@ -25,7 +25,7 @@ namespace chaintrue::planted {
 /// A session on the generator's machine, settings and sheet calibrated to its readings by least squares.
 struct CalibratedSession {
   generator::TrueMachine machine;
-  /// Of the marks' frame in the bed's: turned, then shifted.
+  /// For the marks' frame in the bed's: turned, then shifted.
   generator::Vec2 sheet_shift;
   double sheet_turn_rad = 0.0;
   generator::Yardstick yardstick;

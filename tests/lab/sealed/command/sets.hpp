@@ -100,7 +100,7 @@ struct OutcomeFile {
     app.add_option("--against", against, "Compare with these outcomes, set by set");
     app.add_flag("--show", show, "Print each outcome that is another");
   }
-  /// Of the file and of those that are joined.
+  /// For the file and those that are joined.
   [[nodiscard]] std::vector<Outcome> known() const {
     std::vector<Outcome> outcomes;
     if (std::filesystem::exists(file)) outcomes = read_outcomes(file);

@@ -39,7 +39,7 @@ bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagno
   });
 }
 
-/// Of the ten leading classes of causes. Also false if the hidden cause leads none of them.
+/// For the ten leading classes of causes. Also false if the hidden cause leads none of them.
 bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts& belts) {
   namespace diagnosis = grid::diagnosis;
   constexpr std::size_t kCompared = 10;

@@ -23,7 +23,7 @@ struct Share {
 };
 [[nodiscard]] std::string text(const Share& share);
 
-/// Of every cause that is named, alone, among several or in a set; and how often those of 0.95 and more act.
+/// For every cause that is named, alone, among several or in a set; and how often those of 0.95 and more act.
 struct Honesty {
   Calibration calibration;
   Share sure_right;
