@@ -102,7 +102,7 @@ template <class T, std::size_t kCount>
 Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
                         const Figure& figure,
                         double T::*floor = nullptr) {
-  Record<T> record("an object with one figure a way of modelling");
+  Record<T> record("an object with one number for each model");
   for (const ErrorRow<T>& row : rows) {
     record.custom(
         row.key,

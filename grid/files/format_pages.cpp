@@ -27,91 +27,81 @@ constexpr std::array kDescribed = {
     Described{&kMachineFormat,
               machine_schema,
               "A machine",
-              "A machine as its owner describes it. `chaintrue start` and `chaintrue import` write "
-              "one from the controller's settings; `chaintrue start` alone writes one to fill in. "
-              "Ranges hold every real hanging router; what is outside is taken for a slip. The "
-              "motors must hang above the bed, the left one on the left."},
+              "A machine. `chaintrue start` and `chaintrue import` write one from the "
+              "controller's settings; `chaintrue start` alone writes one to fill in. Ranges "
+              "include every real hanging router. The motors must hang above the bed, the left "
+              "one on the left."},
     Described{
         &kGridFormat,
         grid_schema,
         "A grid of measured points",
-        "What was read at marks: chain lengths, or where a commanded tool stood. `chaintrue plan` "
-        "writes one to fill in, `simulate` and `import optical` write whole ones; `fit`, "
-        "`diagnose` "
-        "and `check` read them.\n\nAs CSV the first line names the columns, in any order: `x_mm`, "
-        "`y_mm`, and `left_mm`, `right_mm` or `commanded_x_mm`, `commanded_y_mm`, and where wanted "
-        "`order`; the rest comes from options. Cells are parted by commas, semicolons or tabs; "
-        "with "
-        "semicolons numbers may have decimal commas. A cell may carry its unit (`12.5 cm`, `43 "
-        "13/16 "
-        "in`; a fraction is of an inch), a column may be in inches (`x_in`), columns that nobody "
-        "asked "
-        "for are not used, and a note below the last row is left out. Lines that begin with # are "
-        "left out, and a "
-        "row "
-        "without its readings counts as not measured."},
+        "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue "
+              "plan` writes one to fill in, `simulate` and `import optical` write whole ones; "
+              "`fit`, `diagnose` and `check` read them.\n\nAs CSV the first line names the "
+              "columns, in any order: `x_mm`, `y_mm`, and `left_mm`, `right_mm` or "
+              "`commanded_x_mm`, `commanded_y_mm`, and optionally `order`; the rest comes from "
+              "options. Cells are separated by commas, semicolons or tabs; with semicolons "
+              "numbers may have decimal commas. A cell may carry its unit (`12.5 cm`, `43 13/16 "
+              "in`; a fraction is of an inch), a column may be in inches (`x_in`), and unknown "
+              "columns, notes below the last row and lines that begin with # are ignored. A row "
+              "without readings counts as not measured."},
     Described{
         &kHolesFormat,
         holes_schema,
         "Holes and distances",
-        "Holes that the machine drilled, and what a tape said between them. `chaintrue plan "
-        "--holes` "
-        "writes one to fill in; `fit`, `diagnose` and `check` read them.\n\nAs CSV it is "
-        "two "
-        "tables, one below the other: `hole`, `x_mm`, `y_mm`, and `from`, `to`, `distance_mm`, and "
-        "where wanted `sigma_mm`; the rest comes from options."},
+        "Holes that the machine drilled, and taped distances between them. `chaintrue plan "
+              "--holes` writes one to fill in; `fit`, `diagnose` and `check` read them.\n\nAs CSV "
+              "it is two tables, one below the other: `hole`, `x_mm`, `y_mm`, and `from`, `to`, "
+              "`distance_mm`, and optionally `sigma_mm`; the rest comes from options."},
     Described{&kMapFormat,
               map_schema,
               "A compensation map",
-              "What the chains must be for every place of the bed, with the map's own error. "
-              "`chaintrue fit` "
-              "writes it; `query`, `gcode`, `report`, `check`, `export` and `square` read it. It "
-              "is not to "
-              "be edited: a hash of its content says whether it was."},
+              "The chain lengths for every place of the bed, with the map's error. `chaintrue "
+              "fit` writes it; `query`, `gcode`, `report`, `check`, `export` and `square` read "
+              "it. Do not edit it: a hash detects changes."},
     Described{&kDiagnosisFormat,
               diagnosis_schema,
               "A diagnosis",
-              "Why a machine errs, and how sure that is. `chaintrue diagnose` writes it; `report`, "
-              "`export` "
-              "and `plan --after` read it. [diagnosis](../diagnosis.md) says what the words mean."},
+              "The causes of a machine's error, and their probabilities. `chaintrue diagnose` "
+              "writes it; `report`, `export` and `plan --after` read it. "
+              "[diagnosis](../diagnosis.md) explains it."},
     Described{&kSweepFormat,
               sweep_schema,
               "A sweep",
-              "Which combinations `chaintrue sweep` tries against the simulator. Every combination "
-              "of the lists' entries is tried. See [sweeps](../sweeps.md)."},
+              "The combinations that `chaintrue sweep` simulates: all combinations of the lists' "
+              "entries. See [sweeps](../sweeps.md)."},
     Described{
         &kBeltsFormat,
         belts_schema,
         "Belt lengths of a router on four belts",
-        "The four belt lengths that such a router read, at places that nobody measured. `chaintrue "
-        "import maslow4` writes one from what the machine printed; `fit` makes anchors of it."},
+        "The four belt lengths at places whose positions are unknown. `chaintrue import "
+              "maslow4` writes one from the machine's log; `fit` makes anchors of it."},
     Described{&kAnchorsFormat,
               anchors_schema,
               "Anchors of a router on four belts",
-              "Where the belts leave the frame, how well that is known and what it rests on. "
-              "`chaintrue fit` writes one from belt lengths; `export maslow4` prints the lines to "
-              "paste. It is not to be edited: a hash of its content says whether it was."},
+              "The points where the belts leave the frame, their uncertainty and the readings "
+              "behind them. `chaintrue fit` writes one from belt lengths; `export maslow4` prints "
+              "the lines to paste. Do not edit it: a hash detects changes."},
     Described{
         &kEffectFormat,
         effect_schema,
         "A declared effect",
-        "A cause of error that the catalogue does not have, as its owner declares it: what it "
-        "acts on, its size, where it sets in, and a formula. `--effects` gives it to "
-        "`diagnose`, `fit`, `simulate` and `effects`; [effects](../effects.md) says "
-        "what a formula may use and shows three."},
+        "A cause of error that is not in the catalogue: what it acts on, its size, its "
+              "place, and a formula. `--effects` gives it to `diagnose`, `fit`, `simulate` and "
+              "`effects`; [effects](../effects.md) explains formulas and shows three."},
     Described{&kPlotterFormat,
               plotter_schema,
               "A V-plotter",
-              "A plotter whose pen hangs on two cords, as its controller holds it, and what a test "
-              "drawing found of it. `chaintrue import plotter` writes one from the controller's "
-              "settings, `fit` the same with what was found; `start` and `export plotter` read it. "
-              "[plotters](../plotters.md) says how. Places are from the middle between the two "
+              "A plotter whose pen hangs on two cords, with the controller's settings and the "
+              "results of a test drawing. `chaintrue import plotter` writes one from the "
+              "controller's settings, `fit` adds the results; `start` and `export plotter` read "
+              "it. See [plotters](../plotters.md). Places are from the middle between the two "
               "pins, x to the right, y up."},
     Described{&kDrawingFormat,
               drawing_schema,
               "A test drawing",
-              "The page that a V-plotter drew, and what a ruler and a string measured on it. "
-              "`chaintrue start` writes one to fill in; `fit` reads it."},
+              "A page drawn by a V-plotter, and its measures. `chaintrue start` writes one to "
+              "fill in; `fit` reads it."},
 };
 
 const Described& described(std::string_view name) {

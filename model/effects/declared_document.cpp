@@ -8,7 +8,7 @@ namespace chaintrue::model::effects {
 std::string_view declared_chapter() {
   return R"chapter(## A cause of your own, in a file
 
-What the catalogue does not have is declared in a [chaintrue_effect](formats/effect.md) file: what it acts on, how large it usually is, where it sets in, a formula, and the words that a diagnosis says. `--effects FILE...` gives such files to `diagnose`, `fit`, `simulate` and `effects`. The cause is then weighed as those above are. What is declared stays with the machine: in the simulated grid, in the extended machine and in a map, so that `query`, `gcode`, `check` and `plan --after` honour it without the file.
+Other causes are declared in a [chaintrue_effect](formats/effect.md) file: what the cause acts on, its usual size, a formula and its texts. `--effects FILE...` gives such files to `diagnose`, `fit`, `simulate` and `effects`. The cause is then weighed like those above, and stays with the machine: simulated grids, extended machines and maps contain it.
 
     chaintrue diagnose grid.json --effects fixtures/effects/second_harmonic.json -o diagnosis.json
     chaintrue fit grid.json --effects fixtures/effects/second_harmonic.json -o map.json

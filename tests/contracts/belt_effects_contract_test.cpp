@@ -37,7 +37,7 @@ TEST(BeltEffects, StandAtOneStationAndAreFoundByTheirIds) {
   }
 }
 
-TEST(BeltEffects, EachEquationByHand) {
+TEST(BeltEffects, EachEquationAgreesWithHandCalculation) {
   const BeltMachine machine = frame(BeltLengths::belt);
   const FramePoint place{900.0, 600.0};
   const double bl = reading_at(machine, Belt::bl, place)->length_mm;

@@ -86,7 +86,7 @@ TEST(WorkshopUnits, TheSignChoosesTheWord) {
   EXPECT_EQ(worded("anchor_height", "offset_mm", -12.0, 0.0), "12 mm lower");
 }
 
-TEST(Remedies, CausesOfTwoSidesThatAskForTheSameShareALine) {
+TEST(Remedies, CausesWithTheSameRemedyShareALine) {
   using model::effects::EffectSide;
   const auto cause_of = [](const model::effects::Effect& effect, EffectSide side) {
     Cause cause;

@@ -96,7 +96,7 @@ TEST(ExpectedError, ListsUnmeasuredPartsSeparately) {
   EXPECT_EQ(error->outside.weakest_line, 3U);
 }
 
-TEST(ExpectedError, ArcsAreCutsPlungesAreAndRapidsAreNot) {
+TEST(ExpectedError, CountsArcsAndPlungesAsCutsButNotRapids) {
   CutPlaces cuts;
   Move circle = feed({-150, 0, -3}, {-150, 0, -3}, 1);
   circle.kind = MoveKind::arc;

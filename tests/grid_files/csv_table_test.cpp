@@ -40,7 +40,7 @@ Read read(const std::string& text) {
 
 class SameTable : public testing::TestWithParam<const char*> {};
 
-TEST_P(SameTable, IsReadTheSame) {
+TEST_P(SameTable, ReadsEqually) {
   const Read found = read(GetParam());
   EXPECT_THAT(found.refusals, IsEmpty());
   ASSERT_EQ(found.rows.size(), 2U);

@@ -68,7 +68,7 @@ TEST(BsplineBasis, PenaltyVanishesForPlanesOnly) {
   }
 }
 
-TEST(BsplineBasis, HoldsEveryBicubic) {
+TEST(BsplineBasis, ReproducesEveryBicubic) {
   // Interpolation at as many points as functions, then elsewhere.
   const BsplineBasis basis({0, 1, 0, 2}, 2, 2);
   const auto f = [](double x, double y) { return (1 + x * x * x) * (2 - y + y * y * y); };

@@ -52,7 +52,7 @@ double largest_bow(const TestDrawing& drawing,
   return most;
 }
 
-/// The bows of the page that `truth` draws with what `fit` has typed in.
+/// The bows of the page that `truth` draws with the settings of `fit`.
 double bow_of_next_page(const TestDrawing& drawing,
                         const DrawingFit& fit,
                         const PlotterMachine& truth) {

@@ -31,7 +31,7 @@ TEST(PlotterEffects, StandAtOneStage) {
   }
 }
 
-TEST(PlotterEffects, EachOfTheCordByHand) {
+TEST(PlotterEffects, CordEffectsAgreeWithHandCalculation) {
   PlotterMachine machine = mural(1500.0);
   const Eigen::Vector2d plain = make_plotter_mechanism(machine)->predict(kPlace, {})->lengths_mm;
   const double turn_mm = std::numbers::pi * 12.69;

@@ -43,7 +43,7 @@ TEST(MapCoverage, CoversSettingsAndTheToolsError) {
   tool.expect_unit(0.2);  // the raster reaches beyond the outermost points
 }
 
-TEST(MapCoverage, LengthsOfAMachineThatBendsAreWithinTheirIntervals) {
+TEST(MapCoverage, CoversLengthsOfABendingMachine) {
   const model::Machine classic = testing_support::classic();
   double covered = 0.0, points2 = 0.0, holes2 = 0.0, both2 = 0.0;
   const auto all = seeds(24);

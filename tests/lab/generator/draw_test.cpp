@@ -175,7 +175,7 @@ TEST(Oracle, LeavesNoiseBehind) {
 }
 
 // After the session: visit numbers continue, and readings without noise are exact.
-TEST(HiddenMachine, CanBeMeasuredAgain) {
+TEST(HiddenMachine, MeasuresAgainReproducibly) {
   SealedSet set = draw_set(recipe(Mix::single), 5);
   const int last = set.machine.visits().back().number;
   Dice dice(1, "again");

@@ -58,7 +58,7 @@ TEST(HiddenPlotter, AMuralHangsInItsLowestPose) {
   expect_lowest(machine);
 }
 
-TEST(HiddenPlotter, ABodyOffTheWallOnPinsHangsInItsLowestPose) {
+TEST(HiddenPlotter, ABodyOnPinsHangsInItsLowestPose) {
   model::PlotterMachine machine = model::mural(1500.0);
   machine.cord.compliance_per_n = 0.0;
   machine.pulley_radius_mm = 0.0;

@@ -95,7 +95,7 @@ class Map(_Asked):
         return Machine._of(text) if text else None
 
     def query(self, xy: ArrayLike, frame: str = "marks") -> Lengths:
-        """What the chains must be at places, an array (..., 2) of x and y in mm; (2,) is one place.
+        """The chain lengths at places, an array (..., 2) of x and y in mm; (2,) is one place.
 
         frame  marks: as the grid's points were given; bed: as the machine file has it
         """
