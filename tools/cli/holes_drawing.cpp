@@ -105,10 +105,10 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    distance.distance_mm);
   }
   draw_holes(plan.set.holes, view, svg);
+  svg.text(kSheetLeft, high - 28.0, "Seen from the front; the origin is the middle of the bed.");
   svg.text(kSheetLeft,
-           high - 18.0,
-           fmt::format("Seen from the front; the origin is the middle of the bed. Each line is one "
-                       "reading of the tape, centre to centre{}.",
+           high - 10.0,
+           fmt::format("Each line is one reading of the tape, centre to centre{}.",
                        has_edges ? "; green, square to an edge of the sheet" : ""));
   return svg.finished();
 }
