@@ -115,8 +115,8 @@ class BeltLengthReadings final : public Observation {
                                                                 const Block& block,
                                                                 bool with_parameters) const;
 
-  /// A unit of one place about a view: its part of predicted(), A and C, and the effect of a
-  /// millimetre of each length at its place on its rows.
+  /// One place's unit, linearised about a view: its part of predicted(), A and C, and the effect
+  /// of a millimetre of each length on its rows.
   struct UnitLine {
     Eigen::VectorXd predicted;
     Eigen::MatrixXd by_parameter;

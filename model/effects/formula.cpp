@@ -366,7 +366,7 @@ class FormulaParser {
       if (!a.bare && !b.bare && !(a.unit == b.unit)) {
         stop(offset,
              fmt::format("{} together with {}", words_of(a), words_of(b)),
-             "two values of one unit to add or to compare");
+             "two values with the same unit");
       }
       result.unit = a.bare ? b.unit : a.unit;
       if (a.constant && b.constant && kind == Kind::add)

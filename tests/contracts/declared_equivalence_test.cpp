@@ -54,7 +54,7 @@ TEST(DeclaredEquivalence, CoversEveryFormulaicEffect) {
   EXPECT_EQ(catalogue_in_files().size(), written);
 }
 
-TEST(DeclaredEquivalence, HasTheNumbersOfTheCatalogue) {
+TEST(DeclaredEquivalence, HasTheCataloguesNumbers) {
   for (const Effect* own : catalogue_in_files()) {
     const Effect& built_in = *built_in_of(*own);
     SCOPED_TRACE(std::string(built_in.id));
@@ -79,7 +79,7 @@ TEST(DeclaredEquivalence, HasTheNumbersOfTheCatalogue) {
   }
 }
 
-TEST(DeclaredEquivalence, ReadsAsTheBuiltInOneDoes) {
+TEST(DeclaredEquivalence, EqualsTheBuiltInEffect) {
   for (const Effect* own : catalogue_in_files()) {
     const Effect& built_in = *built_in_of(*own);
     for (const EffectSide side : built_in.sides) {
@@ -99,7 +99,7 @@ TEST(DeclaredEquivalence, ReadsAsTheBuiltInOneDoes) {
   }
 }
 
-TEST(DeclaredEquivalence, ReadsAsTheBuiltInOnesTogetherDo) {
+TEST(DeclaredEquivalence, EqualsTheBuiltInEffectsTogether) {
   Machine with_files;
   Machine with_built_in;
   with_files.declared = catalogue_in_files();

@@ -40,7 +40,7 @@ inline const std::vector<const Effect*>& declared_examples() {
   return examples;
 }
 
-/// The effects of the catalogue that can be written as files, so written.
+/// The effects of the catalogue that can be declared in files, as such declarations.
 inline std::vector<const Effect*> catalogue_in_files() {
   std::vector<const Effect*> all;
   const auto folder = std::filesystem::path(CHAINTRUE_FIXTURES) / "effects" / "catalogue";

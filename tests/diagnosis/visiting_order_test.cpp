@@ -31,7 +31,7 @@ std::vector<MeasuredPoint> marks(int columns, int rows) {
   return points;
 }
 
-TEST(VisitNumbers, OfThreeByTwoMarks) {
+TEST(VisitNumbers, FollowTheLinesOfThreeByTwoMarks) {
   const auto points = marks(3, 2);
   EXPECT_THAT(visit_numbers(points, {}).value(), ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_THAT(visit_numbers(points, {.serpentine = true}).value(), ElementsAre(0, 1, 2, 5, 4, 3));

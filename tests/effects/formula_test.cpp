@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"max(a_mm)", 0, "max with 1 argument", "max with two arguments, as in max(a, b)"},
         Bad{"a_mm * sin()", 7, "sin with 0 arguments", "sin with one argument"},
         Bad{"a_mm * sin(phi, 2)", 7, "sin with 2 arguments", "sin with one argument"},
-        Bad{"a_mm + T", 5, "mm together with N", "two values of one unit to add or to compare"},
+        Bad{"a_mm + T", 5, "mm together with N", "two values with the same unit"},
         Bad{"sin(L)",
             0,
             "sin of mm",

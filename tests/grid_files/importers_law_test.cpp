@@ -163,7 +163,7 @@ std::vector<KnownFile> known_files() {
 struct FoundNumber {
   std::size_t at = 0, length = 0;
   std::string line;
-  /// Its section, or the keys of YAML that it lies under: "axes/y/motor0/".
+  /// Its section, or its YAML path: "axes/y/motor0/".
   std::string folder;
 };
 

@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 using testing_support::classic;
 
-TEST(HolesPlan, HasTheHolesAndDistancesAskedForOnTheSheet) {
+TEST(HolesPlan, HasTheRequestedHolesAndDistancesOnTheSheet) {
   const auto plan = plan_holes(classic(), {.holes = 9, .distances = 20});
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->set.holes.size(), 9u);

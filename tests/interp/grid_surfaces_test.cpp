@@ -53,7 +53,7 @@ TEST(MissingNodes, OfASumOverTheAxesAreFilledExactly) {
   }
 }
 
-TEST(MissingNodes, OfACubicAreFilledExactly) {
+TEST(MissingNodes, FillACubicExactly) {
   const auto x = even(0, 6, 7);
   const auto y = even(0, 4, 5);
   const auto cubic = [](double a, double b) { return 1 + a - 0.1 * a * a * a + b * b * a; };

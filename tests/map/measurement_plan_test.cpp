@@ -34,7 +34,7 @@ double rms(const MeasurementPlan& plan) {
 
 class Plan : public testing::TestWithParam<int> {};
 
-TEST_P(Plan, HasTheMarksAskedForOnTheBedAndApart) {
+TEST_P(Plan, HasTheRequestedMarksOnTheBedAndApart) {
   const MeasurementPlan plan = planned({.points = GetParam()});
   const model::Bed bed;
   EXPECT_EQ(plan.marks.size(), static_cast<std::size_t>(GetParam()));

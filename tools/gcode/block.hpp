@@ -166,7 +166,7 @@ struct Block {
   refuse(problem, block.start(), std::move(sentence));
 }
 
-/// Whether a text holds more moves than one line can, by its words G0 to G3 and X with a number.
+/// Whether a text holds several moves, by its words G0 to G3 and X with a number.
 [[nodiscard]] bool holds_moves(std::string_view text);
 
 /// Reads the words after `reader` to the end of the line.

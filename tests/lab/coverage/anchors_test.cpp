@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Lengths,
                                          model::BeltLengths::span),
                          [](const auto& tested) { return std::string(name(tested.param)); });
 
-TEST(ScaleCoverage, OfTapesBetweenAnchorsAndPoints) {
+TEST(ScaleCoverage, CoversTheScaleFromTapes) {
   constexpr double kTapeMm = 0.7;
   constexpr double kTrueScale = 0.996;
   Squares scale(1.0), anchors(5.0);
@@ -74,7 +74,7 @@ TEST(ScaleCoverage, OfTapesBetweenAnchorsAndPoints) {
   anchors.expect_unit();
 }
 
-TEST(ScaleCoverage, OfHoles) {
+TEST(ScaleCoverage, CoversTheScaleFromHoles) {
   Squares scale(1.0);
   for (const std::uint64_t seed : seeds(60)) {
     const SimulatedHoles set = simulate_with_holes({.seed = 500 + seed, .few_holes = true});

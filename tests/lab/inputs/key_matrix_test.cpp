@@ -114,7 +114,7 @@ class KeyMatrix : public testing::Test {
   InputFolder folder_;
 };
 
-TEST_F(KeyMatrix, OfAGrid) {
+TEST_F(KeyMatrix, CoversGrids) {
   Json grid = made(
       "simulate --machine @classic.json --grid 6x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
       "--sheet-shift-mm 8 --sheet-rotation-mrad 4 --repeats 4 --seed 3");
@@ -128,7 +128,7 @@ TEST_F(KeyMatrix, OfAGrid) {
                          {"check", "check @map.json FILE --json"}});
 }
 
-TEST_F(KeyMatrix, OfHoles) {
+TEST_F(KeyMatrix, CoversHoles) {
   Json holes = made("simulate --machine @classic.json --holes 9 --edges --seed 3");
   holes["readings"] = readings();
   holes["tape"]["hook_offset_mm"] = 0.5;
@@ -144,7 +144,7 @@ TEST_F(KeyMatrix, OfHoles) {
                          {"check", "check @map.json FILE --json"}});
 }
 
-TEST_F(KeyMatrix, OfBelts) {
+TEST_F(KeyMatrix, CoversBelts) {
   Json belts = made("simulate --belts @belts.json --grid 5x5 --length-noise-mm 0.6 --seed 3");
   belts["distances"] = Json::parse(R"([
       {"from": "bl", "to": "br", "distance_mm": 2953, "sigma_mm": 1.5},
@@ -159,7 +159,7 @@ TEST_F(KeyMatrix, OfBelts) {
                          {"simulate", "simulate --belts FILE --grid 4x3 --seed 2"}});
 }
 
-TEST_F(KeyMatrix, OfAMachine) {
+TEST_F(KeyMatrix, CoversMachines) {
   Json machine = Json::parse(folder_.text_of("every.json"));
   expect_every_key_acts(
       "machine",

@@ -58,7 +58,7 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
         before.files.clear();
         ran.files.clear();
       }
-      // What is wrong with a program is said on standard error.
+      // Problems of a program go to standard error.
       const bool says_more = use.verb.starts_with("gcode") && before.err != ran.err;
       return numbers_of(before, echoes) == numbers_of(ran, echoes) && !says_more
                  ? "changes no number: " + line

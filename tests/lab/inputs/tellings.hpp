@@ -16,7 +16,7 @@ enum class Shows {
   in_numbers,  ///< of the answer
   in_form,     ///< other bytes, the numbers may be the same
   as_file,     ///< a file more
-  in_words,    ///< what is said on standard error, or the exit code
+  in_words,    ///< standard error, or the exit code
 };
 
 /// The option at a value that tells, with what it needs: a row of tellings.tsv. `where` is an

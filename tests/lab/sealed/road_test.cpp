@@ -173,7 +173,7 @@ TEST(Road, ASoundMachineGetsThePlainMap) {
     EXPECT_EQ(without_notes(road.own.fit.map), without_notes(road.plain.map)) << "seed " << seed;
     EXPECT_THAT(road.own.fit.map.contents().notes.size(),
                 road.plain.map.contents().notes.size() + 1)
-        << "what was weighed is said";
+        << "the causes considered are reported";
   }
 }
 

@@ -208,7 +208,7 @@ def fit(
              no machine
     plain    on the machine as stated; without it causes are looked for as diagnose does, and the map is
              built on those that make it better on points left out: its notes say which
-    accept_class  where links and tape cannot be told apart, it is the links
+    accept_class  take the links if links and tape cannot be distinguished
     """
     one = isinstance(measured, (Grid, Holes, Belts))
     things = [measured] if one else list(measured)

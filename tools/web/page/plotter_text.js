@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a V-plotter's files are told from a router's.
+// Distinguishes a V-plotter's files from a router's.
 
 /** Marlin's M665 or Configuration.h, Polargraph's properties, a mural's three numbers. FluidNC's yaml may be of a router. */
 const SETTINGS = /\bM665\s+[A-Z]|#define\s+POLARGRAPH|^machine\.motors\.mmPerRev=|^\s*top distance:/m;

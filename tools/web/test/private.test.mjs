@@ -86,7 +86,7 @@ for (const browser of browsers) {
       };
     }),
   })) {
-    test(`storage that is ${name} is said, and the download works, in ${browser}`, async () => {
+    test(`storage that is ${name} is reported, and the download works, in ${browser}`, async () => {
       const visit = await Visit.to(browser, {prepare});
       try {
         await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
@@ -102,7 +102,7 @@ for (const browser of browsers) {
 }
 
 describe("files", () => {
-  test("a wrong settings file is told whole, and nothing is lost", async () => {
+  test("all problems of a wrong settings file are reported, and nothing is lost", async () => {
     const visit = await Visit.to("chrome");
     try {
       await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
@@ -169,7 +169,7 @@ describe("files", () => {
     }
   });
 
-  test("an engine that dies is said in a sentence, and loses no reading", async () => {
+  test("a dead engine is reported and loses no reading", async () => {
     const visit = await Visit.to("chrome", {prepare: (page) => page.evaluateOnNewDocument(() => {
       const post = Worker.prototype.postMessage;
       Worker.prototype.postMessage = function (message, ...rest) {

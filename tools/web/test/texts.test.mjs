@@ -12,7 +12,7 @@ import {fixture} from "./browser.mjs";
 const read = (path) => readFileSync(fixture(path), "utf8");
 const [LOG, YAML] = [read("good/maslow4_log.txt"), read("machines/maslow.yaml")];
 
-test("settings and log of four belts are told apart in one text, in any order", () => {
+test("settings and log of four belts are separated in one text, in any order", () => {
   assert.deepEqual(splitPasted(LOG), {yaml: null, log: LOG});
   for (const both of [YAML + LOG, LOG + YAML, `${YAML}\r\n\r\n${LOG.replaceAll("\n", "\r\n")}`]) {
     const {yaml, log} = splitPasted(both);
@@ -24,7 +24,7 @@ test("settings and log of four belts are told apart in one text, in any order", 
   assert.ok(isOfBelts(YAML) && isOfBelts(LOG) && !isOfBelts("kinematics:\n  WallPlotter:\n"));
 });
 
-test("a plotter's texts are told from a router's", () => {
+test("distinguishes a plotter's texts from a router's", () => {
   for (const path of ["plotter/mural.txt", "plotter/mural_drawing.json", "good/plottersettings_marlin_log.txt", "good/plottersettings_configuration.h",
     "good/plottersettings_polargraph.properties", "good/plotter_every_key.json"]) assert.ok(isOfPlotter(read(path)), path);
   for (const path of ["good/maslow4_log.txt", "good/groundcontrol_ring.ini", "machines/maslow.yaml", "machines/classic.json", "good/plottersettings_fluidnc.yaml"])
