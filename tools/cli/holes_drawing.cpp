@@ -105,7 +105,7 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    distance.distance_mm);
   }
   draw_holes(plan.set.holes, view, svg);
-  svg.text(kSheetLeft, high - 28.0, "Seen from the front; the origin is the middle of the bed.");
+  svg.text(kSheetLeft, high - 28.0, "From the front; the origin is the middle of the bed.");
   svg.text(kSheetLeft,
            high - 10.0,
            fmt::format("Each line is one reading of the tape, centre to centre{}.",
