@@ -9,6 +9,7 @@
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/program_events.hpp"
 #include "tools/gcode/compensator.hpp"
+#include "tools/gcode/simulated_machine.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode {
@@ -42,6 +43,24 @@ VerifySummary verified_within(const std::string& original,
   const auto summary = verify(a, b, corrector, {}, options);
   EXPECT_TRUE(summary) << summary.error().problem.message();
   return summary ? *summary : VerifySummary{};
+}
+
+TEST(SimulatedMachine, ReadsWordsInTheControllersPrecision) {
+  const FormulaMap map(random_smooth_displacement(5));
+  const Corrector corrector(map, kPlain, firmware(model::ControllerKind::maslow_classic));
+  SimulatedMachine machine(corrector, {});
+  Move move;
+  move.kind = MoveKind::feed;
+  move.to = {0.3335, 9.2352, -0.1};
+  move.feed = {FeedMode::per_minute, 500.0};
+  Point last;
+  machine.run(move, [&](Point /*tool*/, Point command) {
+    last = command;
+    return true;
+  });
+  EXPECT_EQ(static_cast<float>(last.x_mm), last.x_mm);
+  EXPECT_EQ(static_cast<float>(last.y_mm), last.y_mm);
+  EXPECT_EQ(static_cast<float>(last.z_mm), last.z_mm);
 }
 
 /// The longest chords on the curve, found by brute force, are hardly fewer.

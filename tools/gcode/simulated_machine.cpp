@@ -20,6 +20,12 @@ constexpr double kPlayStepMm = 1.0;
 /// chain's.
 constexpr double kShortestChainMm = 400.0;
 
+/// Volatile: where GCC 12 makes a vector of X and Y, it leaves the rounding out.
+double in_single_precision(double value) {
+  const volatile float rounded = static_cast<float>(value);
+  return rounded;
+}
+
 double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
 
 [[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
@@ -33,8 +39,9 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
 
 Point SimulatedMachine::as_read(Point point) const {
   if (!corrector_.firmware().single_precision) return point;
-  const auto single = [](double value) { return static_cast<double>(static_cast<float>(value)); };
-  return {single(point.x_mm), single(point.y_mm), single(point.z_mm)};
+  return {in_single_precision(point.x_mm),
+          in_single_precision(point.y_mm),
+          in_single_precision(point.z_mm)};
 }
 
 Point SimulatedMachine::place(Point command, std::size_t line) {
