@@ -18,7 +18,7 @@ View::View(model::ReadingModel chains,
 const model::ReadingModel& View::chains() const {
   const auto* own = dynamic_cast<const model::ChainMechanism*>(mechanism.get());
   if (own == nullptr) {
-    throw std::logic_error("readings of two chains of a mechanism of " +
+    throw std::logic_error("readings of two chains for a mechanism with " +
                            std::string(mechanism->kind()));
   }
   return own->readings();

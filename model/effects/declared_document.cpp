@@ -25,7 +25,7 @@ A formula has `+ - * / ^`, brackets, `pi`, `sin cos exp log sqrt abs`, `min(a, b
 
 The first parameter is the size; a second one with `"role": "place"` says where the effect sets in. A diagnosis tries a place at 24 values and adds up their probabilities: a phase over a turn, a place in the unit of the one variable that the formula uses between the values that occur, any other evenly between its bounds; then it refines the best.
 
-*Not possible as a file:* what changes the equilibrium (the six effects of the station machine), a second size, paper that is bent, play that changes from place to place, effects of four belts. With `"instead_of"` a file takes the place of an effect of the catalogue; the eleven of paper, chain and reading stand so in `fixtures/effects/catalogue` and give the same verdicts and sizes to a millionth. A reading of links or of a tape speaks of the catalogue's own chain_pitch_error and tape_scale alone.
+*Not possible as a file:* what changes the equilibrium (the six effects of the station machine), a second size, paper that is bent, play that changes from place to place, effects of four belts. With `"instead_of"` a file takes the place of an effect of the catalogue; the eleven of paper, chain and reading stand so in `fixtures/effects/catalogue` and give the same verdicts and sizes to a millionth. A reading of links or of a tape refers only to the catalogue's chain_pitch_error and tape_scale.
 
 Three examples, in `fixtures/effects`:
 
