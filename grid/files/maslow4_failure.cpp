@@ -142,33 +142,24 @@ std::string_view by_kind(StopKind kind) {
              "taut and its spool must stand still while it is read.";
     case StopKind::imbalance:
       return " The machine gives up if one belt's misfit is twice another's; with six places good "
-             "readings do that by chance. The belts may be fine: start it again, or "
-             "go "
-             "with the readings so far.";
+             "readings do that by chance. The belts may be fine: start it again, or go with the "
+             "readings so far.";
     case StopKind::not_converged:
       return " The machine's solver stalled, which shows little about the readings. Possible "
-             "causes: a frame far from the set size, belts at the wrong anchors, or chance. "
-             "Tape "
+             "causes: a frame far from the set size, belts at the wrong anchors, or chance. Tape "
              "the frame, put its size into the settings and start again.";
     case StopKind::low_fitness:
-      return " By the machine's criterion the readings contradict each other. Probable cause: "
-             "belts at the wrong "
-             "anchors, "
-             "a slack belt at some place, an encoder that lost turns, or arms that are swapped "
-             "make "
-             "that. See that each belt goes to its own anchor (tl, tr, bl, br), and that all are "
-             "taut.";
+      return " By the machine's criterion the readings contradict each other. Possible causes: "
+             "belts at the wrong anchors, a slack belt at some place, an encoder that lost turns, "
+             "or arms that are swapped. See that each belt goes to its own anchor (tl, tr, bl, "
+             "br), and that all are taut.";
     case StopKind::centre_off:
       return " The first place is not where the settings put it. Possible causes: settings of "
-             "another frame, belts "
-             "at "
-             "the wrong anchors, or belts that were not retracted before they were extended. "
-             "that. "
-             "Retract all, extend all, tape the frame and state its size.";
+             "another frame, belts at the wrong anchors, or belts that were not retracted before "
+             "they were extended. Retract all, extend all, tape the frame and state its size.";
     case StopKind::went_back:
       return " The machine went back to \"Belts Extended\" without a message: it was stopped, "
-             "its "
-             "power failed for a moment, or it lost the connection. Start again.";
+             "its power failed for a moment, or it lost the connection. Start again.";
     case StopKind::other_error:
       return " Read the machine's message there, and start again.";
     case StopKind::log_ends:

@@ -245,7 +245,7 @@ TEST(Sessions, TheOrderOfTheFirstIsFoundInItsReadings) {
   ASSERT_TRUE(d->visiting_order) << d->sentence;
   EXPECT_FALSE(d->visiting_order->order.rows);
   EXPECT_TRUE(d->visiting_order->order.serpentine);
-  EXPECT_THAT(d->notes.front(), HasSubstr("in which order the marks of one.json were visited"));
+  EXPECT_THAT(d->notes.front(), HasSubstr("order in which the marks of one.json were visited"));
   ASSERT_FALSE(d->causes.empty()) << d->sentence;
   EXPECT_EQ(d->causes.front().cause.effect->id, "direction_hysteresis");
   const Measured first{{"one.json", *both.grids().front()}};

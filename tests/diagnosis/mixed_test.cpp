@@ -74,7 +74,7 @@ TEST(TwoSessions, AnotherZeroIsReportedNotNamed) {
   EXPECT_EQ(found->verdict, Verdict::nothing_found) << found->sentence;
   EXPECT_THAT(found->notes,
               testing::Contains(testing::StartsWith(
-                  "second: the chains' zeros are other than in first: left chain ")));
+                  "second: the chains' zeros differ from those in first: left chain ")));
   const auto same = diagnose({{"first", first}, {"second", session_of({}, 22)}}, verdict_alone());
   ASSERT_TRUE(same);
   EXPECT_THAT(same->notes, testing::Not(testing::Contains(testing::HasSubstr("zeros"))));
