@@ -102,6 +102,18 @@ std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options) {
   return stated;
 }
 
+/// With the attachment that these effects act on.
+model::Machine machine_for(const std::vector<std::string>& effects) {
+  model::Machine machine;
+  for (const std::string& argument : effects) {
+    const model::effects::Effect* effect =
+        model::effects::find_effect(argument.substr(0, argument.find(':')));
+    if (effect != nullptr && effect->part == model::effects::Part::brackets)
+      machine.attachment = model::Brackets{};
+  }
+  return machine;
+}
+
 }  // namespace
 
 model::Model parse_model(const std::string& word, OptionProblems& problems) {
@@ -143,9 +155,10 @@ void check_words(const SimulateOptions& options, OptionProblems& problems) {
   (void)parse_order(options, problems);
   (void)parse_model(options.model, problems);
   (void)parse_offsets(options.offsets, problems);
-  // Valid effects depend on the machine only through its existing effects. Effects of --effects are
-  // known after their files are read.
-  if (options.declared.empty()) (void)parse_effects(options.effects, model::Machine{}, problems);
+  // Valid effects depend on the machine only through its attachment and its existing effects. Effects
+  // of --effects are known after their files are read.
+  if (options.declared.empty())
+    (void)parse_effects(options.effects, machine_for(options.effects), problems);
 }
 
 synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {
