@@ -10,6 +10,7 @@
 #include "grid/files/number_text.hpp"
 #include "grid/files/points_file.hpp"
 #include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -107,7 +108,7 @@ model::Machine machine_for(const std::vector<std::string>& effects) {
   model::Machine machine;
   for (const std::string& argument : effects) {
     const model::effects::Effect* effect =
-        model::effects::find_effect(argument.substr(0, argument.find(':')));
+        model::effects::find_effect(std::string_view(argument).substr(0, argument.find(':')));
     if (effect != nullptr && effect->part == model::effects::Part::brackets)
       machine.attachment = model::Brackets{};
   }
