@@ -198,7 +198,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   };
   if (const std::size_t count = readings_of(measured); count > kMostWeighed)
     return without_causes(joint_fit(measured, options.fit),
-                          fmt::format("{} readings are more than are weighed ({})", count, kMostWeighed));
+                          fmt::format("{} readings are too many for the comparison (at most {})", count, kMostWeighed));
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;

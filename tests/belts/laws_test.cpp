@@ -59,13 +59,13 @@ TEST(LawsOfBelts, AWaveOfOneTurnIsFoundBesideTheStretch) {
   ASSERT_FALSE(found.causes.empty());
   EXPECT_EQ(found.causes.front().cause.effect->id, "belt_stretch");
   EXPECT_THAT(found.sentence,
-              HasSubstr("Besides, what no listed cause makes: a wave of 1.2"));
+              HasSubstr("Besides, something that no listed cause explains: a wave of 1.2"));
   EXPECT_THAT(found.sentence, HasSubstr("in the top left belt"));
   EXPECT_THAT(hints_of(law, found.belts->machine),
               testing::Contains(HasSubstr("near one turn of the motor (43.975 mm of belt)")));
   bool is_said = false;
   for (const std::string& line : found.what_to_do)
-    is_said = is_said || line.find("Look at the top left belt") != std::string::npos;
+    is_said = is_said || line.find("Inspect the top left belt") != std::string::npos;
   EXPECT_TRUE(is_said);
 }
 

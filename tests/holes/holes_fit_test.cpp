@@ -164,7 +164,7 @@ TEST(HolesFit, NamesABadReadingAndSetsItAside) {
     EXPECT_EQ(fit->distances.front().distances[k].rejected, k == 1) << "seed 1, distance " << k;
   EXPECT_THAT(fit->map.contents().notes.front(),
               testing::AllOf(HasSubstr(words_of(made->set, made->set.distances[1])),
-                             HasSubstr("shorter than the others make it")));
+                             HasSubstr("shorter than the others predict")));
 }
 
 TEST(HolesFit, ReportsAForgottenHookOffsetIfTheFitFails) {

@@ -141,7 +141,7 @@ TEST(MapCheck, ReportsWhatOnePointCannotDetermine) {
   grid.points.resize(1);
   const auto check = check_map(mapped().map, grid);
   ASSERT_TRUE(check);
-  EXPECT_THAT(check->not_separable, HasSubstr("These points cannot tell apart"));
+  EXPECT_THAT(check->not_separable, HasSubstr("These points do not distinguish"));
   EXPECT_FALSE(check->is_valid_as_it_is());
 }
 

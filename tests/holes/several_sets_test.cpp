@@ -87,9 +87,9 @@ TEST(SessionZeros, AnOffsetBelongsToItsSession) {
     }
     EXPECT_THAT(after->map.contents().notes,
                 testing::Contains(testing::AllOf(
-                    HasSubstr("second: the chains' zeros are other than in first: left chain"),
+                    HasSubstr("second: the chains' zeros differ from those in first: left chain"),
                     HasSubstr(shift_mm > 0.0 ? "mm more" : "mm less"),
-                    HasSubstr("The map holds for the zeros of first"))));
+                    HasSubstr("The map is for the zeros of first"))));
   }
   EXPECT_THAT(before->map.contents().notes, testing::Not(testing::Contains(HasSubstr("zeros"))));
 }
