@@ -46,7 +46,7 @@ struct NameAndUnit {
 /// "87 %", "99.6 %", "above 99.9 %": a probability, the same in sentences and in tables.
 [[nodiscard]] std::string percent(double probability);
 
-/// "a; b and c": `last` stands before the last one.
+/// "a; b and c": `last` comes before the last one.
 [[nodiscard]] std::string joined(const std::vector<std::string>& parts,
                                  std::string_view last,
                                  std::string_view between = "; ");

@@ -269,8 +269,8 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
   const std::vector<std::string>& copies = most ? rounded : exact;
   if (copies.empty()) return;
   problems.warn(places.distances,
-                fmt::format("{} read exactly as commanded. Were they measured? Leave distance_mm "
-                            "blank where not",
+                fmt::format("{} read exactly as commanded. Were they measured? If not, leave "
+                            "distance_mm blank",
                             how_many(copies, set.distances.size(), "distances")));
 }
 

@@ -112,16 +112,13 @@ class Verb {
   void runs(const std::shared_ptr<Command>& command,
             Act act,
             std::function<void(const std::type_identity_t<Command>&)> check = {}) const {
-    when_chosen(
-        [command, act, verb = *this] {
-          if constexpr (std::is_invocable_v<Act, Verb, Command&>)
-            return act(verb, *command);
-          else
-            return act(*command);
-        },
-        [command, check] {
-          if (check) check(*command);
-        });
+    const auto first = [command, check] {
+      if (check) check(*command);
+    };
+    if constexpr (std::is_invocable_v<Act, Verb, Command&>)
+      when_chosen([command, act, verb = *this] { return act(verb, *command); }, first);
+    else
+      when_chosen([command, act] { return act(*command); }, first);
   }
 
   [[nodiscard]] Option option(const std::string& name) const;

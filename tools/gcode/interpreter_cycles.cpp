@@ -116,7 +116,7 @@ void Interpreter::cycle(int motion) {
   };
   std::array<double, 2> place{};
   std::array<double, 2> stride{};
-  for (const std::size_t i : {0, 1}) {
+  for (const std::size_t i : {0U, 1U}) {
     cycle.hole[i] = place[i] = cycle.program[axes[i]];
     if (modes_.incremental) {
       stride[i] = word(axes[i], 0.0);
@@ -140,7 +140,7 @@ void Interpreter::cycle(int motion) {
   if (!modes_.retract_to_r) height = std::max(height, sticky_.start);
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
-    for (const std::size_t i : {0, 1}) cycle.hole[i] = place[i] += stride[i];
+    for (const std::size_t i : {0U, 1U}) cycle.hole[i] = place[i] += stride[i];
     cycle.rapid(height);
     if (height != cycle.retract) cycle.rapid(cycle.retract);
     if (motion == g::back_bore) {

@@ -96,7 +96,7 @@ Axes Interpreter::target() const {
 /// Whether the program has stated the place that it steps from.
 void Interpreter::check_start(int motion) {
   const bool is_polar = block_.has('@') || block_.has('^');
-  for (const std::size_t axis : {0, 1}) {
+  for (const std::size_t axis : {0U, 1U}) {
     if (!block_.has(kAxisLetters[axis]) && !is_polar && !is_arc(motion)) continue;
     if (modes_.incremental && !placed_[axis]) {
       note_once({block_.line,

@@ -11,7 +11,7 @@ namespace chaintrue::gcode {
 
 Axes Interpreter::position() const {
   Axes place = to_program(machine_);
-  for (const std::size_t axis : {0, 1, 2}) place[axis] /= mm_per_unit();
+  for (const std::size_t axis : {0U, 1U, 2U}) place[axis] /= mm_per_unit();
   return place;
 }
 

@@ -52,7 +52,7 @@ std::string words(const PathPiece& piece) {
 Dialect with_home_at_zero(Dialect dialect) {
   // A plotter's home is a fixed place in any coordinates.
   if (auto& place = dialect.plotter_home_mm) {
-    for (const std::size_t axis : {0, 1}) (*place)[axis] += dialect.home_mm[axis];
+    for (const std::size_t axis : {0U, 1U}) (*place)[axis] += dialect.home_mm[axis];
   }
   dialect.home_mm = {};
   return dialect;
