@@ -61,8 +61,8 @@ export function beltsMeasure(page) {
 }
 
 function placesTable({places}, toggle) {
-  return h("table", {class: "places"}, h("caption", {}, "Lengths in mm; in brackets the "
-                                                        "difference of a wrong one from the "
+  return h("table", {class: "places"}, h("caption", {}, "Lengths in mm; in brackets the " +
+                                                        "difference of a wrong one from the " +
                                                         "prediction by the others."),
     h("thead", {}, h("tr", {}, h("th", {scope: "col"}, "place"), CORNERS.map((corner) => h("th", {scope: "col", class: "number"}, CORNER_NAMES[corner])),
       h("th", {scope: "col"}, "leave out"))),
@@ -99,7 +99,7 @@ class HolesPart {
       h("button", {type: "button", onclick: () => download("holes.nc", page.store.folder["holes.nc"])}, "Download the program that cuts them")),
     how.element, this.#print, h("p", {class: "choices"}, this.#hook.element), this.#readings.element);
     this.element = h("section", {}, h("h3", {}, "Holes and a tape"),
-      h("p", {}, "Belts alone do not show the scale, nor where the tool really cuts. Nine holes "
+      h("p", {}, "Belts alone do not show the scale, nor where the tool really cuts. Nine holes " +
                  "and a tape do, and give the map for compensating programs."),
       this.#plan, this.#list);
   }

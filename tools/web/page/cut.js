@@ -91,19 +91,19 @@ export function cutStep(page) {
     const part = (...children) => [h("section", {}, ...children)];
     const go = (words, step) => h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step})}, words));
     if (isPlotter(folder) && !readsGcode(jsonOf(folder[DRAWING]))) return part(h("p", {},
-        "This plotter takes pictures, not programs. It draws them right once the numbers are "
+        "This plotter takes pictures, not programs. It draws them right once the numbers are " +
         "typed in."));
     if (!folder[mapOf(folder)]) return part(h("p", {class: "hint"}, "There is no result yet: measure first."), go("Go to the readings", "measure"));
     if (page.fit && isStopped(page)) return [verdictBand(page)];
     if (view.way === NUMBERS && !areIn(page.store)) {
       return part(h("h3", {}, "Are the numbers in?"), h("p", {},
-          "You chose to type numbers in. Programs stay as they are; the remaining error can be "
+          "You chose to type numbers in. Programs stay as they are; the remaining error can be " +
           "compensated after that."),
         page.numbers ? typedTick(page, page.numbers) : "", go("Show the numbers", "result"), putAway(page, NUMBERS));
     }
     if (isBelts(folder) && areIn(page.store) && filledIn(folder[HOLES]) === 0) return part(h("p", {},
-        "The lines are in the machine: cut your programs as they are. Holes and a tape show the "
-        "remaining error; then programs can be compensated for "
+        "The lines are in the machine: cut your programs as they are. Holes and a tape show the " +
+        "remaining error; then programs can be compensated for " +
         "it."), go("Measure nine holes", "measure"));
     return [];
   }
@@ -119,7 +119,7 @@ export function cutStep(page) {
     const isStoppedHere = stops(page.store).length > 0;
     if (!isStoppedHere || folder[mapOf(folder)]) page.store.show({step: "cut"});
     if (isStoppedHere || home.isOpen(page.store)) page.say([`${name} is a program, and is kept. ${isStoppedHere ?
-        "It can be corrected once you have read the "
+        "It can be corrected once you have read the " +
         "result." : "Enter where home is, then press its button."}`]);
     else await compensate(name);
   }

@@ -12,7 +12,7 @@ import {keepLaw, ownEffectPart, ownWords} from "./own_effect.js";
 import {Sheet} from "./sheet.js";
 
 /** What a diagnosis adds that the result does not repeat: its own numbers. */
-const NUMBERS = / With it, the tool's error falls from .*$| What error of one belt's reading falls from .*$/;
+const NUMBERS = / With it, the tool's error falls from .*$| The error of one belt's reading falls from .*$/;
 
 export function causesPart(page) {
   const noise = new NoiseFields(page, () => diagnose(page, noise.words()));
@@ -73,7 +73,7 @@ function nameOf({effect, side}) {
 /** As laws are claimed (grid/diagnosis/constants.def, kLawClaimed). */
 const CLAIMED = 0.9;
 const SAYS = {confirmed: "confirmed, it acts here", denied:
-    "denied, with the values in the file it would have "
+    "denied, with the values in the file it would have " +
     "shown", open: "left open, measure more points", not_testable: "not testable with these readings"};
 
 /** The button that makes a claimed law a cause of the owner's own. */
@@ -85,7 +85,7 @@ function lawPart(page, found, keep) {
 }
 
 const NOT_CAUSES = {nothing: "nothing besides the settings", law: "a law that no listed cause has", unknown:
-    "a pattern that no known cause "
+    "a pattern that no known cause " +
     "explains", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
 
 /** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect. */
@@ -120,7 +120,7 @@ async function drawCause(page, found, box) {
 /** All hypotheses by their probability, and what the verdict does not prove. */
 async function drawRest(page, found, box) {
   const draw = (meanings) => box.replaceChildren(h("p", {class: "hint"},
-      "Each probability stands alone, because causes can act "
+      "Each probability stands alone, because causes can act " +
       "together."), causeBars(found.hypotheses, meanings),
     h("h4", {}, "What this does not prove"), sentenceList([found.not_proved, ...(found.notes ?? [])].filter(Boolean).map(inPage)));
   draw({});
@@ -140,7 +140,7 @@ async function meaningsOf(page) {
   return catalogue;
 }
 
-const NOISE = [["--noise-length-mm", "Error of a chain length, "
+const NOISE = [["--noise-length-mm", "Error of a chain length, " +
                                      "mm"], ["--noise-position-mm",
                                          "Error of a measured place, mm"]];
 

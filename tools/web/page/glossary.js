@@ -3,15 +3,15 @@
 import {h} from "./dom.js";
 
 const MEANINGS = {
-  "map": "A table of how far off the machine is at each place of the bed. With it programs can be "
+  "map": "A table of how far off the machine is at each place of the bed. With it programs can be " +
          "rewritten so that they are cut accurately.",
-  "compensate": "To rewrite a program's moves by the map, so that the unchanged machine cuts what "
+  "compensate": "To rewrite a program's moves by the map, so that the unchanged machine cuts what " +
                 "was drawn.",
   "sled": "The plate with the router on it, which hangs from the chains and slides over the sheet.",
   "sprocket": "The toothed wheel on a motor that the chain runs over.",
-  "chain's zero": "The length that the controller assumes for a chain: wrong if the chain was "
+  "chain's zero": "The length that the controller assumes for a chain: wrong if the chain was " +
                   "hung one link off.",
-  "chain zeros": "The lengths that the controller assumes for the chains: wrong if a chain was "
+  "chain zeros": "The lengths that the controller assumes for the chains: wrong if a chain was " +
                  "hung one link off.",
   "motor positions": "Where the motors' shafts are, counted from the middle of the sheet.",
   "1 sigma": "Two of three measurements are within this of the true value.",

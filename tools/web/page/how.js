@@ -14,7 +14,7 @@ function figure(title, label, words, ...shapes) {
 
 function middleLines() {
   return figure("Middle lines.", "A sheet with its two diagonals; through their crossing a line along the sheet and one across it.",
-    "Two lines from corner to corner cross in the sheet's middle. Draw one line along the sheet "
+    "Two lines from corner to corner cross in the sheet's middle. Draw one line along the sheet " +
     "and one across it through there: all positions are measured from this crossing.",
     svg("rect", {class: "board", x: 40, y: 20, width: 220, height: 112}),
     line(40, 20, 260, 132, "faint"), line(40, 132, 260, 20, "faint"),

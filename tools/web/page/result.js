@@ -18,11 +18,11 @@ import {isWish} from "./wish.js";
 export const NUMBERS = "numbers";
 export const JOBS = "jobs";
 const WAYS = {
-  [NUMBERS]: {title: "Type numbers in", away: "Compensating is switched off: a program "
-                                              "compensated for the old numbers comes out wrong "
+  [NUMBERS]: {title: "Type numbers in", away: "Compensating is switched off: a program " +
+                                              "compensated for the old numbers comes out wrong " +
                                               "with the new ones."},
-  [JOBS]: {title: "Compensate each program", away: "Typing numbers in is switched off: with other "
-                                                   "numbers in the machine, programs compensated "
+  [JOBS]: {title: "Compensate each program", away: "Typing numbers in is switched off: with other " +
+                                                   "numbers in the machine, programs compensated " +
                                                    "for the present ones come out wrong."},
 };
 
@@ -36,13 +36,13 @@ export function putAway(page, way) {
 /** The way to recommend and its reason: numbers where they take off about what a map would. */
 function recommended(page, {headline, tone}, {rows, leaves}) {
   const road = roadOf(page.store.folder);
-  if (tone === "bad") return {way: null, reason: "Measure again first. The result of this session "
+  if (tone === "bad") return {way: null, reason: "Measure again first. The result of this session " +
                                                  "may not be valid for the machine as it is now."};
   if (road !== "chains") return {way: NUMBERS, reason: "A few numbers, once: your programs stay as they are."};
   if (/^Your machine needs no map/.test(headline ?? "")) return {way: null, reason: "Cut your programs as they are."};
   const map = Number(/With this map it misses by about ([\d.]+) mm/.exec(headline ?? "")?.[1] ?? NaN);
   if (rows.length > 0 && leaves <= Math.max(1.5 * map, map + 0.1)) return {way: NUMBERS, reason:
-      "A few numbers, once: they correct as much as a map would, and your programs stay as they "
+      "A few numbers, once: they correct as much as a map would, and your programs stay as they " +
       "are."};
   return {way: JOBS, reason: rows.length > 0 && leaves > 0 ? `Numbers alone would leave ${leaves.toFixed(1)} mm, so let every program be rewritten before it is cut.` : "Every program is rewritten before it is cut."};
 }
@@ -101,9 +101,9 @@ export function resultStep(page) {
   function drawCheck({folder}) {
     const [words, title, go] = {
       chains: ["Measure five new marks. They show whether the machine now cuts as computed, and later whether it still does.", "Set five new marks", () => planCheck(page)],
-      belts: ["Cut nine holes and tape them. They show where the tool really is, and the scale of "
+      belts: ["Cut nine holes and tape them. They show where the tool really is, and the scale of " +
               "everything.", "Measure nine holes", () => page.store.show({step: "measure"})],
-      plotter: ["Draw a second page with the new numbers. If its lines are still bent, the cause "
+      plotter: ["Draw a second page with the new numbers. If its lines are still bent, the cause " +
                 "is not a setting.", "Draw the second page", () => page.plotter.secondPage()],
     }[roadOf(folder)];
     return [h("h3", {}, "Then check"), h("p", {}, words), h("p", {class: "buttons"}, h("button", {type: "button", class: areIn(page.store) ? "main" : "", onclick: go}, title))];

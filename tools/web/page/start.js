@@ -34,8 +34,8 @@ export function startPart(page) {
     h("section", {class: "hero"}, part("Today: the part comes out bowed and out of square.", "M 26 26 Q 100 8 176 14 Q 166 56 178 96 Q 100 84 24 88 Q 34 56 26 26 Z", "bad"),
       part("Calibrated: the part is what you drew.", "M 30 20 H 170 V 90 H 30 Z", "good"),
       h("div", {}, h("p", {}, "chaintrue finds out why a hanging router or plotter is off, and corrects it. It takes an hour, a sheet, and a tape or a square."),
-        h("p", {class: "hint"}, "Open the machine's settings, measure what it did, read the "
-                                "result, then type in a few numbers or let your programs be "
+        h("p", {class: "hint"}, "Open the machine's settings, measure what it did, read the " +
+                                "result, then type in a few numbers or let your programs be " +
                                 "corrected. Nothing leaves this computer."))),
     h("div", {class: "tiles"},
       tile(page, "Two chains", "Maslow classic. groundcontrol.ini is in your home folder; WebControl keeps webcontrol.json in .WebControl there.",

@@ -52,10 +52,10 @@ export function verdictOf(page) {
   const list = folder["machine.json"] && folder[fittedList(view)] ? Sheet.of(textOf(folder[fittedList(view)])) : null;
   const stops = sentences.filter((line) => STOP.test(line));
   const warnings = [
-    ...stops.map((line) => (!SESSION.test(line) ? line : "Something moved while you measured. The "
-                                                         "map below allows for it, but the "
-                                                         "machine may have changed: set the "
-                                                         "chains again, and measure again before "
+    ...stops.map((line) => (!SESSION.test(line) ? line : "Something moved while you measured. The " +
+                                                         "map below allows for it, but the " +
+                                                         "machine may have changed: set the " +
+                                                         "chains again, and measure again before " +
                                                          "you rely on this.")),
     ...sentences.filter((line) => WARNING.test(line)).map((line) => twice(line, list) ?? line.replace(/^\S+\.(csv|json): (line \d+, column \d+: |\/\S+: )?/, "")), atLeftOut(jsonOf(folder["map.json"])),
   ].filter(Boolean);
