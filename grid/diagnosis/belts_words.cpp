@@ -78,7 +78,7 @@ std::string sentence(const Diagnosis& d) {
                (d.unexplained->causes_given_law.empty() ? short_of_a_name(d) : "");
       }
       return fmt::format(
-                 "The residuals of the lengths change smoothly from place to place, {:.2f} mm a "
+                 "The errors of the lengths change smoothly from place to place, {:.2f} mm a "
                  "belt over "
                  "some {:.0f} mm of the sheet, and no listed cause explains them.",
                  d.unexplained->rms_mm,
@@ -86,10 +86,8 @@ std::string sentence(const Diagnosis& d) {
              short_of_a_name(d);
     default:
       return fmt::format(
-                 "Nothing is found beyond the anchors: the residual of the lengths at {} places, "
-                 "{:.2f} "
-                 "mm "
-                 "a belt, has no listed cause.",
+                 "Nothing is found beyond the anchors: the error of the lengths at {} places, {:.2f} mm a "
+                 "belt, has no listed cause.",
                  d.belts->places.size(),
                  d.belts->residual_sigma_mm) +
              short_of_a_name(d);

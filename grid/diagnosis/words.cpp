@@ -90,8 +90,8 @@ std::string bad_words(const Diagnosis& d) {
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
   if (const std::vector<std::string> off = settings_off(d); !off.empty()) {
     return fmt::format(
-        "{} off, and nothing else is wrong: {}. With the numbers found, the residual of the {} {} "
-        "is as large as the scatter of the readings.",
+        "{} off, and nothing else is wrong: {}. With the numbers found, the {} {} agree to "
+        "within the scatter of the readings.",
         off.size() == 1 ? "A setting is" : "Settings are",
         joined(off, "and"),
         units,
@@ -259,7 +259,7 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   if (speaks_of_distances(d) && d.left_over.p_value < kFalseAlarm) {
     d.notes.emplace_back(
-        "The residuals of neighbours are similar. Distances do not show what they depend on, "
+        "Neighbours are off by similar amounts. Distances do not show what they depend on, "
         "because each joins two places; marks with chain readings do.");
   }
   d.sentence = a.system.regressors.empty()
