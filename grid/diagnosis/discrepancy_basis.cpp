@@ -40,7 +40,7 @@ Eigen::MatrixXd low_rank(Eigen::Index n, double least, const Covariance& covaria
   return factor.leftCols(rank);
 }
 
-/// F, a line an argument.
+/// F, one row for each argument.
 Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
                                const std::vector<FieldArgument>& arguments) {
   return low_rank(std::ssize(arguments), kLeftOfField, [&](Eigen::Index i, Eigen::Index j) {

@@ -46,7 +46,7 @@ class Estimator {
   tl::expected<void, EstimationFailure> approach();
   tl::expected<void, EstimationFailure> converge();
   void begin_weights();
-  /// A reading with its unit among the problem's.
+  /// A reading and the number of its unit in the problem.
   struct Shift : ReadingShift {
     observation::UnitReading at;
   };
