@@ -5,27 +5,23 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace chaintrue::inputs {
 
 struct Option {
   std::string name;                  ///< "--output"
-  std::string short_name;            ///< "-o", or empty
   std::string type;                  ///< TEXT, INT, FLOAT; empty: a flag
   std::vector<std::string> choices;  ///< where only these are taken
   int values = 1;                    ///< how many values it takes
 };
 
-/// Prints the help of a verb ("" for all); throws where there is none.
+/// Prints the help of a verb ("" for all).
 using Help = std::function<std::string(const std::string& verb)>;
 
 /// "fit", "gcode check", ...
 [[nodiscard]] std::vector<std::string> verbs_in(const Help& help);
 /// The options of one of them, without --help itself.
 [[nodiscard]] std::vector<Option> options_in(const std::string& help);
-/// Verbs of two words begin with one of these.
-[[nodiscard]] bool has_subverbs(std::string_view verb);
 
 }  // namespace chaintrue::inputs

@@ -35,7 +35,6 @@ class InputFolder {
   /// Returns how the last one ended and all files that were written. Throws if a file that is named
   /// cannot be made.
   [[nodiscard]] Ran run(const std::string& lines) const;
-  [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] std::string text_of(const std::string& file) const;
   void write(const std::string& file, const std::string& text) const;
   /// Further files that the command makes: a table of the lines, each with its "-o @name" at the end.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How each verb is called: the one table for the tests of inputs, the option matrix and the torture
-/// campaign. "@" begins the name of a file of the folder (input_folder.hpp).
+/// How each verb is called: the one table for the tests of inputs, the option matrix and the campaign of
+/// tests/lab/torture. "@" begins the name of a file of the folder (input_folder.hpp).
 #pragma once
 
 #include <string>
@@ -22,7 +22,9 @@ struct Invocation {
 [[nodiscard]] const std::vector<Invocation>& invocations();
 
 /// The first rule of the command that refuses the option there; null where it acts.
-[[nodiscard]] inline const cli::OptionRule* refusal_of(std::string_view verb, std::string_view option, cli::Facts facts) {
+[[nodiscard]] inline const cli::OptionRule* refusal_of(std::string_view verb,
+                                                       std::string_view option,
+                                                       cli::Facts facts) {
   static const std::vector<cli::OptionRule> rules = cli::option_rules();
   for (const cli::OptionRule& rule : rules) {
     if (rule.verb == verb && rule.option == option && (rule.acts_on & facts) == 0) return &rule;
@@ -30,10 +32,7 @@ struct Invocation {
   return nullptr;
 }
 
-/// Valid values of an option that takes neither any number, any file nor one of the choices that --help
-/// lists; empty for others.
-[[nodiscard]] const std::vector<std::string>& values_of(std::string_view option);
-/// The option names a file or folder to write.
-[[nodiscard]] bool is_output(std::string_view option);
+/// The option's row of values.tsv; empty without one.
+[[nodiscard]] const std::vector<std::string>& values_of(const std::string& option);
 
 }  // namespace chaintrue::inputs

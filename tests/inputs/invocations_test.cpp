@@ -45,8 +45,6 @@ std::string valid(const Option& option, std::string_view harmless) {
     value = values.front();
   } else if (!option.choices.empty()) {
     value = option.choices[option.choices[0] == harmless ? 1 : 0];
-  } else if (is_output(option.name)) {
-    value = "extra.txt";
   } else if (option.type == "TEXT") {
     value = "@classic.json";
   } else if (!option.type.empty()) {
