@@ -41,168 +41,85 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-template <class Dense>
-kernels::Input input(const Dense& a) {
-  return {a.data(), a.rows(), a.cols(), a.outerStride()};
+kernels::Input input(const Operand& a) {
+  const auto& stored = a.stored();
+  return {stored.data(), stored.rows(), stored.cols(), stored.outerStride(), a.is_transposed()};
 }
-kernels::Input input(Transposed a) {
-  kernels::Input result = input(a.of);
-  result.transposed = true;
-  return result;
-}
-template <class Dense>
-kernels::Output output(Dense& c) {
+kernels::Output output(Eigen::Ref<MatrixXd> c) {
   return {c.data(), c.rows(), c.cols(), c.outerStride()};
 }
 
-Eigen::Index rows_of(const kernels::Input& a) { return a.transposed ? a.columns : a.rows; }
-Eigen::Index columns_of(const kernels::Input& a) { return a.transposed ? a.rows : a.columns; }
-
-void add(kernels::Output c, double scale, const kernels::Input& a, const kernels::Input& b) {
-  if (c.rows != rows_of(a) || c.columns != columns_of(b) || columns_of(a) != rows_of(b)) {
-    throw std::invalid_argument(fmt::format("a product {} x {} of {} x {} and {} x {}",
-                       c.rows,
-                       c.columns,
-                       rows_of(a),
-                       columns_of(a),
-                       rows_of(b),
-                       columns_of(b)));
+void solve_triangle(const Operand& lower, Eigen::Ref<MatrixXd> x) {
+  if (lower.rows() != x.rows()) {
+    throw std::invalid_argument(fmt::format("{} equations of {} unknowns", x.rows(), lower.rows()));
   }
-  if (c.rows > 0 && c.columns > 0 && columns_of(a) > 0) kernels::chosen().add_product(c, scale, a, b);
-}
-
-MatrixXd product_of(const kernels::Input& a, const kernels::Input& b) {
-  MatrixXd c = MatrixXd::Zero(rows_of(a), columns_of(b));
-  add(output(c), 1.0, a, b);
-  return c;
-}
-
-VectorXd vector_of(const kernels::Input& a, const kernels::Input& x) {
-  VectorXd y = VectorXd::Zero(rows_of(a));
-  add(output(y), 1.0, a, x);
-  return y;
-}
-
-/// c += scale a a', of a symmetric c
-void add_square(MatrixXd& c, double scale, const kernels::Input& a) {
-  if (c.rows() != rows_of(a) || c.cols() != rows_of(a)) {
-    throw std::invalid_argument(fmt::format(
-        "{} x {} and a square of {} x {}", c.rows(), c.cols(), rows_of(a), rows_of(a)));
-  }
-  if (c.size() == 0 || columns_of(a) == 0) return;
-  kernels::chosen().add_square(output(c), scale, a);
-  for (Eigen::Index k = 1; k < c.cols(); ++k) c.col(k).head(k) = c.row(k).head(k).transpose();
-}
-
-MatrixXd square(const kernels::Input& a, double diagonal) {
-  MatrixXd c = MatrixXd::Zero(rows_of(a), rows_of(a));
-  c.diagonal().setConstant(diagonal);
-  add_square(c, 1.0, a);
-  return c;
-}
-
-void solve_triangle(const MatrixXd& lower, bool transposed, kernels::Output x) {
-  if (lower.rows() != x.rows) {
-    throw std::invalid_argument(fmt::format("{} equations of {} unknowns", x.rows, lower.rows()));
-  }
-  if (x.rows == 0 || x.columns == 0) return;
-  kernels::Input l = input(lower);
-  l.transposed = transposed;
-  kernels::chosen().solve_triangle(l, x);
+  if (x.size() > 0) kernels::chosen().solve_triangle(input(lower), output(x));
 }
 
 }  // namespace
 
-MatrixXd product(const MatrixArgument& a, const MatrixArgument& b) {
-  return product_of(input(a), input(b));
-}
-MatrixXd product(const MatrixArgument& a, Transposed b) { return product_of(input(a), input(b)); }
-MatrixXd product(Transposed a, const MatrixArgument& b) { return product_of(input(a), input(b)); }
-VectorXd product(const MatrixArgument& a, const VectorArgument& x) {
-  return vector_of(input(a), input(x));
-}
-VectorXd product(Transposed a, const VectorArgument& x) { return vector_of(input(a), input(x)); }
-
-void add_product(Eigen::Ref<MatrixXd> c, double scale, const MatrixArgument& a, const MatrixArgument& b) {
-  add(output(c), scale, input(a), input(b));
-}
-void add_product(Eigen::Ref<MatrixXd> c, double scale, const MatrixArgument& a, Transposed b) {
-  add(output(c), scale, input(a), input(b));
-}
-void add_product(Eigen::Ref<MatrixXd> c, double scale, Transposed a, const MatrixArgument& b) {
-  add(output(c), scale, input(a), input(b));
-}
-void add_product(Eigen::Ref<VectorXd> y, double scale, const MatrixArgument& a, const VectorArgument& x) {
-  add(output(y), scale, input(a), input(x));
-}
-void add_product(Eigen::Ref<VectorXd> y, double scale, Transposed a, const VectorArgument& x) {
-  add(output(y), scale, input(a), input(x));
-}
-
-MatrixXd gram(const MatrixArgument& a) { return square(input(transposed(a)), 0.0); }
-MatrixXd outer(const MatrixArgument& a) { return square(input(a), 0.0); }
-MatrixXd one_plus_gram(const MatrixArgument& a) { return square(input(transposed(a)), 1.0); }
-MatrixXd one_plus_outer(const MatrixArgument& a) { return square(input(a), 1.0); }
-
-void add_gram(MatrixXd& c, double scale, const MatrixArgument& a) {
-  add_square(c, scale, input(transposed(a)));
-}
-void add_outer(MatrixXd& c, double scale, const MatrixArgument& a) { add_square(c, scale, input(a)); }
-void add_outer(MatrixXd& c, double scale, const VectorArgument& x) {
-  if (c.rows() != x.size() || c.cols() != x.size()) {
-    throw std::invalid_argument(fmt::format("{} x {} and a square of {} x {}", c.rows(), c.cols(), x.size(), x.size()));
+void add_product(Eigen::Ref<MatrixXd> c, double scale, const Operand& a, const Operand& b) {
+  if (c.rows() != a.rows() || c.cols() != b.columns() || a.columns() != b.rows() ||
+      (a.is_transposed() && b.is_transposed())) {
+    throw std::invalid_argument(fmt::format("a product {} x {} of {} x {} and {} x {}",
+                                            c.rows(),
+                                            c.cols(),
+                                            a.rows(),
+                                            a.columns(),
+                                            b.rows(),
+                                            b.columns()));
   }
-  for (Eigen::Index k = 0; k < x.size(); ++k) c.col(k) += (scale * x[k]) * x;
+  if (c.size() > 0 && a.columns() > 0) {
+    kernels::chosen().add_product(output(c), scale, input(a), input(b));
+  }
 }
 
-MatrixXd carried(const MatrixArgument& a, const MatrixArgument& c) {
+void add_outer(MatrixXd& c, double scale, const Operand& a) {
+  if (c.rows() != a.rows() || c.cols() != a.rows()) {
+    throw std::invalid_argument(
+        fmt::format("{} x {} and a square of {} x {}", c.rows(), c.cols(), a.rows(), a.rows()));
+  }
+  if (c.size() == 0 || a.columns() == 0) return;
+  kernels::chosen().add_square(output(c), scale, input(a));
+  for (Eigen::Index k = 1; k < c.cols(); ++k) c.col(k).head(k) = c.row(k).head(k).transpose();
+}
+
+MatrixXd outer(const Operand& a, double diagonal) {
+  MatrixXd c = MatrixXd::Zero(a.rows(), a.rows());
+  c.diagonal().setConstant(diagonal);
+  add_outer(c, 1.0, a);
+  return c;
+}
+
+MatrixXd carried(const Operand& a, const Operand& c) {
   return product(product(a, c), transposed(a));
 }
 
-MatrixXd scaled_columns(const MatrixArgument& a, const VectorArgument& s) {
+MatrixXd scaled_columns(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const VectorXd>& s) {
   return a * s.asDiagonal();
 }
 
 Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
   if (lower_.rows() != lower_.cols())
-    throw std::invalid_argument(fmt::format("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols()));
+    throw std::invalid_argument(
+        fmt::format("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols()));
   if (lower_.size() == 0) return;
   is_positive_definite_ = kernels::chosen().factorise(output(lower_));
   for (Eigen::Index k = 0; k < lower_.cols(); ++k) {
-    is_positive_definite_ = is_positive_definite_ && std::isfinite(lower_(k, k)) && lower_(k, k) > 0.0;
+    is_positive_definite_ =
+        is_positive_definite_ && std::isfinite(lower_(k, k)) && lower_(k, k) > 0.0;
     lower_.col(k).head(k).setZero();
   }
 }
 
-MatrixXd Cholesky::solve(const MatrixArgument& b) const {
-  MatrixXd x = b;
-  solve_triangle(lower_, false, output(x));
-  solve_triangle(lower_, true, output(x));
-  return x;
+void Cholesky::half_solve_in_place(Eigen::Ref<MatrixXd> b) const { solve_triangle(lower_, b); }
+void Cholesky::other_half_solve_in_place(Eigen::Ref<MatrixXd> b) const {
+  solve_triangle(transposed(lower_), b);
 }
-VectorXd Cholesky::solve(const VectorArgument& b) const {
-  VectorXd x = b;
-  solve_triangle(lower_, false, output(x));
-  solve_triangle(lower_, true, output(x));
-  return x;
-}
-MatrixXd Cholesky::half_solve(const MatrixArgument& b) const {
-  MatrixXd x = b;
-  solve_triangle(lower_, false, output(x));
-  return x;
-}
-VectorXd Cholesky::half_solve(const VectorArgument& b) const {
-  VectorXd x = b;
-  solve_triangle(lower_, false, output(x));
-  return x;
-}
-void Cholesky::half_solve_in_place(Eigen::Ref<MatrixXd> b) const {
-  solve_triangle(lower_, false, output(b));
-}
-MatrixXd Cholesky::inverse() const { return solve(MatrixXd(MatrixXd::Identity(size(), size()))); }
+MatrixXd Cholesky::inverse() const { return solve(MatrixXd::Identity(size(), size())); }
 MatrixXd Cholesky::root_of_inverse() const {
   MatrixXd x = MatrixXd::Identity(size(), size());
-  solve_triangle(lower_, true, output(x));
+  other_half_solve_in_place(x);
   return x;
 }
 double Cholesky::log_det() const { return 2.0 * lower_.diagonal().array().log().sum(); }
@@ -213,7 +130,7 @@ PivotedCholesky::PivotedCholesky(const MatrixXd& matrix) {
   exchanged_ = ldlt.transpositionsP();
 }
 
-MatrixXd PivotedCholesky::solve(const MatrixArgument& b) const {
+MatrixXd PivotedCholesky::solved(const MatrixXd& b) const {
   MatrixXd x = exchanged_ * b;
   const auto l = triangle_.triangularView<Eigen::UnitLower>();
   l.solveInPlace(x);
@@ -228,9 +145,8 @@ MatrixXd PivotedCholesky::solve(const MatrixArgument& b) const {
   l.adjoint().solveInPlace(x);
   return exchanged_.transpose() * x;
 }
-VectorXd PivotedCholesky::solve(const VectorArgument& b) const { return solve(MatrixXd(b)); }
 MatrixXd PivotedCholesky::inverse() const {
-  return solve(MatrixXd(MatrixXd::Identity(triangle_.rows(), triangle_.rows())));
+  return solved(MatrixXd::Identity(triangle_.rows(), triangle_.rows()));
 }
 
 MatrixXd PivotedCholesky::root(double least) const {
@@ -269,14 +185,16 @@ Tridiagonal::Tridiagonal(MatrixXd matrix)
 
 void Tridiagonal::rotate_in_place(MatrixXd& x) const {
   if (x.rows() != reflections_.rows())
-    throw std::invalid_argument(fmt::format("{} rows to rotate, of {}", x.rows(), reflections_.rows()));
+    throw std::invalid_argument(
+        fmt::format("{} rows to rotate, of {}", x.rows(), reflections_.rows()));
   if (x.size() == 0) return;
   kernels::chosen().rotate(input(reflections_), coefficients_.data(), output(x));
 }
 
 Qr qr(const MatrixXd& a) {
   const Eigen::HouseholderQR<MatrixXd> factor(a);
-  return {factor.householderQ(), factor.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>()};
+  return {factor.householderQ(),
+          factor.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>()};
 }
 
 MatrixXd orthonormal_columns(const MatrixXd& a) {
@@ -285,7 +203,10 @@ MatrixXd orthonormal_columns(const MatrixXd& a) {
 }
 
 MatrixXd upper_triangle(const MatrixXd& a) {
-  return Eigen::HouseholderQR<MatrixXd>(a).matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>();
+  return Eigen::HouseholderQR<MatrixXd>(a)
+      .matrixQR()
+      .topRows(a.cols())
+      .triangularView<Eigen::Upper>();
 }
 
 Range range_of(const MatrixXd& a, double least) {
@@ -295,11 +216,8 @@ Range range_of(const MatrixXd& a, double least) {
   return {q.leftCols(factor.rank()), q.rightCols(a.rows() - factor.rank())};
 }
 
-MatrixXd least_squares(const MatrixXd& a, const MatrixArgument& b) {
-  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a).solve(MatrixXd(b));
-}
-VectorXd least_squares(const MatrixXd& a, const VectorArgument& b) {
-  return least_squares(a, MatrixXd(b));
+MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
+  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a).solve(b);
 }
 
 ThinSvd thin_svd(const MatrixXd& a) {

@@ -18,53 +18,69 @@
 
 namespace chaintrue::linear {
 
-/// An argument: a matrix or, of one column, a vector.
-template <int kColumns>
-class Operand : public Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, kColumns>> {
+/// An argument: a matrix or vector, or the transpose of one. Lives as long as what it refers to.
+class Operand {
  public:
   template <class Derived>
-    requires((Derived::ColsAtCompileTime == 1) == (kColumns == 1))
-  Operand(const Eigen::DenseBase<Derived>& m)
-      : Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, kColumns>>(m.derived()) {}
-};
-using MatrixArgument = Operand<Eigen::Dynamic>;
-using VectorArgument = Operand<1>;
+  Operand(const Eigen::DenseBase<Derived>& m) : stored_(m.derived()) {}
 
-/// Lives as long as what it refers to.
-struct Transposed {
-  const MatrixArgument& of;
-};
-[[nodiscard]] inline Transposed transposed(const MatrixArgument& a) { return {a}; }
+  [[nodiscard]] const Eigen::Ref<const Eigen::MatrixXd>& stored() const { return stored_; }
+  [[nodiscard]] bool is_transposed() const { return is_transposed_; }
+  [[nodiscard]] Eigen::Index rows() const {
+    return is_transposed_ ? stored_.cols() : stored_.rows();
+  }
+  [[nodiscard]] Eigen::Index columns() const {
+    return is_transposed_ ? stored_.rows() : stored_.cols();
+  }
+  friend Operand transposed(const Operand& a) {
+    Operand result = a;
+    result.is_transposed_ = !a.is_transposed_;
+    return result;
+  }
 
-// Products.
-[[nodiscard]] Eigen::MatrixXd product(const MatrixArgument& a, const MatrixArgument& b);
-[[nodiscard]] Eigen::MatrixXd product(const MatrixArgument& a, Transposed b);
-[[nodiscard]] Eigen::MatrixXd product(Transposed a, const MatrixArgument& b);
-[[nodiscard]] Eigen::VectorXd product(const MatrixArgument& a, const VectorArgument& x);
-[[nodiscard]] Eigen::VectorXd product(Transposed a, const VectorArgument& x);
-/// c += scale a b
-void add_product(Eigen::Ref<Eigen::MatrixXd> c, double scale, const MatrixArgument& a, const MatrixArgument& b);
-void add_product(Eigen::Ref<Eigen::MatrixXd> c, double scale, const MatrixArgument& a, Transposed b);
-void add_product(Eigen::Ref<Eigen::MatrixXd> c, double scale, Transposed a, const MatrixArgument& b);
-void add_product(Eigen::Ref<Eigen::VectorXd> y, double scale, const MatrixArgument& a, const VectorArgument& x);
-void add_product(Eigen::Ref<Eigen::VectorXd> y, double scale, Transposed a, const VectorArgument& x);
-/// A'A
-[[nodiscard]] Eigen::MatrixXd gram(const MatrixArgument& a);
-/// A A'
-[[nodiscard]] Eigen::MatrixXd outer(const MatrixArgument& a);
-/// 1 + A'A
-[[nodiscard]] Eigen::MatrixXd one_plus_gram(const MatrixArgument& a);
-/// 1 + A A'
-[[nodiscard]] Eigen::MatrixXd one_plus_outer(const MatrixArgument& a);
-/// c += scale A'A, of a symmetric c
-void add_gram(Eigen::MatrixXd& c, double scale, const MatrixArgument& a);
+ private:
+  Eigen::Ref<const Eigen::MatrixXd> stored_;
+  bool is_transposed_ = false;
+};
+[[nodiscard]] Operand transposed(const Operand& a);
+
+template <class B>
+concept VectorLike = B::ColsAtCompileTime == 1;
+/// A vector for a vector, a matrix for a matrix.
+template <class B>
+using Like = Eigen::Matrix<double, Eigen::Dynamic, VectorLike<B> ? 1 : Eigen::Dynamic>;
+
+/// c += scale a b, at most one of them transposed
+void add_product(Eigen::Ref<Eigen::MatrixXd> c, double scale, const Operand& a, const Operand& b);
+/// a b
+template <class B>
+[[nodiscard]] Like<B> product(const Operand& a, const B& b) {
+  const Operand right(b);
+  Like<B> c = Like<B>::Zero(a.rows(), right.columns());
+  add_product(c, 1.0, a, right);
+  return c;
+}
 /// c += scale A A', of a symmetric c
-void add_outer(Eigen::MatrixXd& c, double scale, const MatrixArgument& a);
-void add_outer(Eigen::MatrixXd& c, double scale, const VectorArgument& x);
+void add_outer(Eigen::MatrixXd& c, double scale, const Operand& a);
+/// c += scale A'A, of a symmetric c
+inline void add_gram(Eigen::MatrixXd& c, double scale, const Operand& a) {
+  add_outer(c, scale, transposed(a));
+}
+/// diagonal + A A'
+[[nodiscard]] Eigen::MatrixXd outer(const Operand& a, double diagonal = 0.0);
+/// 1 + A A'
+[[nodiscard]] inline Eigen::MatrixXd one_plus_outer(const Operand& a) { return outer(a, 1.0); }
+/// A'A
+[[nodiscard]] inline Eigen::MatrixXd gram(const Operand& a) { return outer(transposed(a)); }
+/// 1 + A'A
+[[nodiscard]] inline Eigen::MatrixXd one_plus_gram(const Operand& a) {
+  return outer(transposed(a), 1.0);
+}
 /// A C A'
-[[nodiscard]] Eigen::MatrixXd carried(const MatrixArgument& a, const MatrixArgument& c);
+[[nodiscard]] Eigen::MatrixXd carried(const Operand& a, const Operand& c);
 /// A diag(s)
-[[nodiscard]] Eigen::MatrixXd scaled_columns(const MatrixArgument& a, const VectorArgument& s);
+[[nodiscard]] Eigen::MatrixXd scaled_columns(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                             const Eigen::Ref<const Eigen::VectorXd>& s);
 
 /// M = L L' of a symmetric positive definite matrix; only the lower triangle is read.
 class Cholesky {
@@ -76,11 +92,19 @@ class Cholesky {
   [[nodiscard]] Eigen::Index size() const { return lower_.rows(); }
 
   /// M^-1 b
-  [[nodiscard]] Eigen::MatrixXd solve(const MatrixArgument& b) const;
-  [[nodiscard]] Eigen::VectorXd solve(const VectorArgument& b) const;
+  template <class B>
+  [[nodiscard]] Like<B> solve(const B& b) const {
+    Like<B> x = half_solve(b);
+    other_half_solve_in_place(x);
+    return x;
+  }
   /// L^-1 b
-  [[nodiscard]] Eigen::MatrixXd half_solve(const MatrixArgument& b) const;
-  [[nodiscard]] Eigen::VectorXd half_solve(const VectorArgument& b) const;
+  template <class B>
+  [[nodiscard]] Like<B> half_solve(const B& b) const {
+    Like<B> x = b;
+    half_solve_in_place(x);
+    return x;
+  }
   void half_solve_in_place(Eigen::Ref<Eigen::MatrixXd> b) const;
   /// M^-1
   [[nodiscard]] Eigen::MatrixXd inverse() const;
@@ -92,6 +116,9 @@ class Cholesky {
   [[nodiscard]] double log_det() const;
 
  private:
+  /// L^-T b
+  void other_half_solve_in_place(Eigen::Ref<Eigen::MatrixXd> b) const;
+
   Eigen::MatrixXd lower_;
   bool is_positive_definite_ = true;
 };
@@ -102,13 +129,17 @@ class PivotedCholesky {
  public:
   explicit PivotedCholesky(const Eigen::MatrixXd& matrix);
   /// M^-1 b; 0 along the null directions of M.
-  [[nodiscard]] Eigen::MatrixXd solve(const MatrixArgument& b) const;
-  [[nodiscard]] Eigen::VectorXd solve(const VectorArgument& b) const;
+  template <class B>
+  [[nodiscard]] Like<B> solve(const B& b) const {
+    return solved(b);
+  }
   [[nodiscard]] Eigen::MatrixXd inverse() const;
   /// F with F F' = M, without the columns whose D is at most `least`.
   [[nodiscard]] Eigen::MatrixXd root(double least) const;
 
  private:
+  [[nodiscard]] Eigen::MatrixXd solved(const Eigen::MatrixXd& b) const;
+
   Eigen::MatrixXd triangle_;  ///< L below the diagonal, D on it
   Eigen::Transpositions<Eigen::Dynamic> exchanged_;
 };
@@ -166,8 +197,7 @@ struct Range {
 [[nodiscard]] Range range_of(const Eigen::MatrixXd& a, double least = 0.0);
 
 /// The x of least length for which A x - b is shortest.
-[[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const MatrixArgument& b);
-[[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const VectorArgument& b);
+[[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// A = U diag(values) W' with as few columns in U as A has rows or columns.
 struct ThinSvd {

@@ -14,29 +14,11 @@ Eigen::VectorXd CovarianceRoot::change(double exponent) const {
   return (exponent * log_variance_).exp() - 1.0;
 }
 
-Eigen::MatrixXd CovarianceRoot::solve(const linear::MatrixArgument& m) const {
-  Eigen::MatrixXd result = m;
+void CovarianceRoot::multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) const {
   Eigen::MatrixXd along = linear::product(linear::transposed(basis_), m);
-  const Eigen::VectorXd own = change(-0.5);
+  const Eigen::VectorXd own = change(exponent);
   for (Eigen::Index k = 0; k < along.cols(); ++k) along.col(k).array() *= own.array();
-  linear::add_product(result, 1.0, basis_, along);
-  return result;
-}
-
-Eigen::VectorXd CovarianceRoot::solve(const linear::VectorArgument& x) const {
-  Eigen::VectorXd result = x;
-  const Eigen::VectorXd along =
-      change(-0.5).cwiseProduct(linear::product(linear::transposed(basis_), x));
-  linear::add_product(result, 1.0, basis_, along);
-  return result;
-}
-
-Eigen::VectorXd CovarianceRoot::times(const linear::VectorArgument& x) const {
-  Eigen::VectorXd result = x;
-  const Eigen::VectorXd along =
-      change(0.5).cwiseProduct(linear::product(linear::transposed(basis_), x));
-  linear::add_product(result, 1.0, basis_, along);
-  return result;
+  linear::add_product(m, 1.0, basis_, along);
 }
 
 Eigen::MatrixXd CovarianceRoot::inverse() const {
@@ -50,10 +32,9 @@ Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row,
                                                 Eigen::Index rows,
                                                 Eigen::Index column,
                                                 Eigen::Index columns) const {
-  Eigen::MatrixXd result =
-      linear::product(basis_.middleRows(row, rows),
-                      linear::transposed(linear::scaled_columns(
-                          basis_.middleRows(column, columns), change(-1.0))));
+  Eigen::MatrixXd result = linear::product(
+      basis_.middleRows(row, rows),
+      linear::transposed(linear::scaled_columns(basis_.middleRows(column, columns), change(-1.0))));
   for (Eigen::Index k = 0; k < columns; ++k) {
     const Eigen::Index own = column + k - row;
     if (own >= 0 && own < rows) result(own, k) += 1.0;

@@ -24,10 +24,15 @@ class CovarianceRoot {
   explicit CovarianceRoot(const Eigen::MatrixXd& a);
 
   /// V^(-1/2) m.
-  [[nodiscard]] Eigen::MatrixXd solve(const linear::MatrixArgument& m) const;
-  [[nodiscard]] Eigen::VectorXd solve(const linear::VectorArgument& x) const;
+  template <class M>
+  [[nodiscard]] linear::Like<M> solve(const M& m) const {
+    return multiplied<linear::Like<M>>(-0.5, m);
+  }
   /// V^(1/2) m.
-  [[nodiscard]] Eigen::VectorXd times(const linear::VectorArgument& x) const;
+  template <class M>
+  [[nodiscard]] linear::Like<M> times(const M& m) const {
+    return multiplied<linear::Like<M>>(0.5, m);
+  }
   /// V^(-1/2), rows x rows.
   [[nodiscard]] Eigen::MatrixXd inverse() const;
   /// The block of V^(-1) with so many rows and columns from these on.
@@ -38,9 +43,16 @@ class CovarianceRoot {
   [[nodiscard]] double log_det() const { return log_variance_.sum(); }
 
  private:
+  /// V^exponent m.
+  template <class M>
+  [[nodiscard]] M multiplied(double exponent, M m) const {
+    multiply(exponent, m);
+    return m;
+  }
+  void multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) const;
   [[nodiscard]] Eigen::VectorXd change(double exponent) const;
-  Eigen::MatrixXd basis_;         ///< U
-  Eigen::ArrayXd log_variance_;   ///< log(1 + a^2)
+  Eigen::MatrixXd basis_;        ///< U
+  Eigen::ArrayXd log_variance_;  ///< log(1 + a^2)
 };
 
 }  // namespace chaintrue::grid::diagnosis

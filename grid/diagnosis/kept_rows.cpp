@@ -90,7 +90,7 @@ Eigen::VectorXd KeptRows::operator()(const Eigen::VectorXd& all) const {
   return kept;
 }
 
-Eigen::MatrixXd KeptRows::of(const linear::MatrixArgument& all) const {
+Eigen::MatrixXd KeptRows::of(const Eigen::Ref<const Eigen::MatrixXd>& all) const {
   Eigen::MatrixXd kept(size(), all.cols());
   for (Eigen::Index column = 0; column < all.cols(); ++column) {
     const auto from = all.col(column);

@@ -48,7 +48,7 @@ class KeptRows {
                                                     bool among = true) const;
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
-  [[nodiscard]] Eigen::MatrixXd of(const linear::MatrixArgument& all) const;
+  [[nodiscard]] Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
   /// The kept part of a block of a unit's rows.
   [[nodiscard]] static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
     return unit.across ? Eigen::MatrixXd(*unit.across * block) : block;
