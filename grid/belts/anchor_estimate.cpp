@@ -66,15 +66,14 @@ observation::TapedDistance taped_between(const model::BeltMachine& machine,
 
 }  // namespace
 
-void place_all(const MeasuredBelts& belts,
-               const observation::BeltLengthReadings& readings,
-               const std::shared_ptr<const model::Mechanism>& mechanism,
-               AnchorFit& fit) {
+void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
   const model::BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
+  const auto readings = readings_of(belts, fit.counting, fit.residual_sigma_mm);
+  const observation::View view(mechanism_at(belts, fit.state));
   std::vector<bool> is_placed(belts.points.size(), false);
   fit.state.places.resize(belts.points.size());
   for (const auto& block : readings.blocks()) {
-    const auto line = readings.block_line(observation::View(mechanism), block, false);
+    const auto line = readings.block_line(view, block, false);
     for (std::size_t p = 0; line && p < block.places.size(); ++p) {
       const std::size_t point = readings.readings()[block.places[p]].index;
       fit.state.places[point] = {line->positions[p].x_mm, line->positions[p].y_mm};
@@ -84,13 +83,6 @@ void place_all(const MeasuredBelts& belts,
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     if (!is_placed[k]) fit.state.places[k] = nearest_place(machine, belts.points[k], kAllBelts);
   }
-}
-
-void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
-  place_all(belts,
-            readings_of(belts, fit.counting, fit.residual_sigma_mm),
-            mechanism_at(belts, fit.state),
-            fit);
 }
 
 namespace {
@@ -117,10 +109,10 @@ Counting without_nowhere_points(const MeasuredBelts& belts,
 
 /// Without distances.
 std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
-                                       const AnchorVector& start,
-                                       Counting counting,
-                                       Readings which,
-                                       double most_noise_mm = kPlausibleSpreadMm) {
+                                   const AnchorVector& start,
+                                   Counting counting,
+                                   Readings which,
+                                   double most_noise_mm = kPlausibleSpreadMm) {
   if (which == Readings::those_that_fit) counting = without_nowhere_points(belts, start, counting);
   estimation::EstimationInput input = anchor_input(belts, counting, start);
   if (which == Readings::those_that_fit)
@@ -201,8 +193,8 @@ std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
   for (const AnchorVector& start : first_frames(belts)) {
     auto fit = fit_alone(belts, start, all, which);
     if (!fit) continue;
-    if (!best ||
-        std::pair(!fit->is_sound, fit->residual_sigma_mm) < std::pair(!best->is_sound, best->residual_sigma_mm)) {
+    if (!best || std::pair(!fit->is_sound, fit->residual_sigma_mm) <
+                     std::pair(!best->is_sound, best->residual_sigma_mm)) {
       best = std::move(fit);
     }
     if (best->is_sound && best->residual_sigma_mm < kPlausibleSpreadMm) break;
@@ -295,8 +287,8 @@ tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_ancho
 }
 
 std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
-                                     const FrameState& state,
-                                     const Counting& counting) {
+                                          const FrameState& state,
+                                          const Counting& counting) {
   return with_tape(belts,
                    fit_alone(without_distances(belts), state.anchors, counting, Readings::all));
 }

@@ -44,12 +44,8 @@ namespace chaintrue::grid::belts {
     const FrameState& state,
     const BeltDistance& distance);
 
-/// Every place from its readings and distances; from all four lengths if too few count.
-void place_all(const MeasuredBelts& belts,
-               const observation::BeltLengthReadings& readings,
-               const std::shared_ptr<const model::Mechanism>& mechanism,
-               AnchorFit& fit);
-/// The same about the fit's own state, with what counts and the spread as it has them.
+/// Every place from its readings and distances, with what counts and the spread as the fit has them; from
+/// all four lengths if too few count.
 void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 
 /// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
@@ -70,7 +66,7 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 [[nodiscard]] std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts);
 /// From a nearby state, with the given readings.
 [[nodiscard]] std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
-                                                   const FrameState& state,
-                                                   const Counting& counting);
+                                                        const FrameState& state,
+                                                        const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

@@ -4,9 +4,11 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "grid/belts/tool_displacement.hpp"
 #include "grid/containers.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -48,6 +50,56 @@ std::optional<Placed> placed(const model::BeltMachine& in_force,
   return result;
 }
 
+/// Puts the rows of a set at `row` and after, those of sets before it being there already; false where the
+/// machine cannot hold the tool at one of its holes. `origin`: where the first set's commands count from.
+bool put_set(const BeltHoles& holes,
+             const AnchorVector& anchors,
+             double factor,
+             FramePoint origin,
+             Eigen::Index row,
+             TapedRows& all) {
+  if (!holes.machine.anchors_known) {
+    throw precondition("{} holes of a machine whose anchors in force are not known",
+                       holes.set.holes.size());
+  }
+  const model::BeltMachine machine = with_anchors(holes.machine, anchors);
+  const FramePoint centre = model::centre_of(holes.machine);
+  const auto count = std::ssize(holes.set.holes);
+  const Eigen::Index first = 2 * std::ssize(all.marks);
+  std::vector<model::MarkPoint> marks;
+  Eigen::MatrixXd marks_by_frame = Eigen::MatrixXd::Zero(2 * count, kFrameUnknowns);
+  Eigen::MatrixXd laid(2 * count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto place = placed(holes.machine, machine, holes.set.holes[as_size(i)].commanded);
+    if (!place) return false;
+    const Eigen::Vector2d mark = factor * (place->at - Eigen::Vector2d(centre.x_mm, centre.y_mm));
+    marks.push_back({mark.x(), mark.y()});
+    all.marks.push_back(
+        {factor * (place->at.x() - origin.x_mm), factor * (place->at.y() - origin.y_mm)});
+    marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_anchors;
+    marks_by_frame.block<2, 1>(2 * i, kAnchorUnknowns) = mark;
+    laid.middleRows<2>(2 * i) << 1.0, 0.0, -mark.y(), 0.0, 1.0, mark.x();
+  }
+  const observation::DistanceGeometry geometry = observation::distance_geometry(holes.set, marks);
+  const Eigen::Index own = geometry.predicted_mm.size();
+  for (Eigen::Index k = 0; k < own; ++k) {
+    all.residual_mm[row + k] =
+        length_of(holes.set, holes.set.distances[as_size(k)]) - geometry.predicted_mm[k];
+  }
+  const Eigen::MatrixXd by_sheet = geometry.by_mark * laid;
+  all.by_mark.block(row, first, own, 2 * count) = geometry.by_mark;
+  all.by_frame.middleRows(row, own) = geometry.by_mark * marks_by_frame;
+  all.by_sheet.middleRows(row, own) = by_sheet;
+  const observation::DistanceNoise noise = observation::distance_noise(holes.set, geometry);
+  auto scaled = all.noise_mm2.block(row, row, own, own);
+  scaled = noise.holes_mm2;
+  scaled.diagonal() += noise.tape_mm2;
+  all.shared_mm2.block(row, row, own, own) =
+      noise.size_mm2 + noise.tape_zero_mm2 +
+      by_sheet * sheet_variance().asDiagonal() * by_sheet.transpose();
+  return true;
+}
+
 }  // namespace
 
 Eigen::Vector3d sheet_variance() {
@@ -57,52 +109,47 @@ Eigen::Vector3d sheet_variance() {
       kSheetShiftMm * kSheetShiftMm, kSheetShiftMm * kSheetShiftMm, kSheetTurnRad * kSheetTurnRad};
 }
 
-std::optional<HoleRows> hole_rows(const BeltHoles& holes,
-                                  const AnchorVector& anchors,
-                                  double log_scale) {
-  if (!holes.machine.anchors_known) {
-    throw precondition("{} holes of a machine whose anchors in force are not known",
-                       holes.set.holes.size());
+std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
+                                    const AnchorVector& anchors,
+                                    double log_scale) {
+  Eigen::Index distances = 0;
+  Eigen::Index holes = 0;
+  for (const BeltHoles& set : sets) {
+    distances += std::ssize(set.set.distances);
+    holes += std::ssize(set.set.holes);
   }
-  const model::BeltMachine machine = with_anchors(holes.machine, anchors);
-  const FramePoint centre = model::centre_of(holes.machine);
-  const double factor = std::exp(log_scale);
-  const auto count = std::ssize(holes.set.holes);
-  HoleRows rows;
-  rows.marks_by_frame = Eigen::MatrixXd::Zero(2 * count, kFrameUnknowns);
-  Eigen::MatrixXd laid(2 * count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto place = placed(holes.machine, machine, holes.set.holes[as_size(i)].commanded);
-    if (!place) return std::nullopt;
-    const Eigen::Vector2d mark = factor * (place->at - Eigen::Vector2d(centre.x_mm, centre.y_mm));
-    rows.frame_places.push_back({place->at.x(), place->at.y()});
-    rows.marks.push_back({mark.x(), mark.y()});
-    rows.marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_anchors;
-    rows.marks_by_frame.block<2, 1>(2 * i, kAnchorUnknowns) = mark;
-    laid.middleRows<2>(2 * i) << 1.0, 0.0, -mark.y(), 0.0, 1.0, mark.x();
+  TapedRows all{Eigen::VectorXd(distances),
+                Eigen::MatrixXd(distances, kFrameUnknowns),
+                Eigen::MatrixXd::Zero(distances, 2 * holes),
+                Eigen::MatrixXd(distances, 3),
+                {},
+                Eigen::MatrixXd::Zero(distances, distances),
+                Eigen::MatrixXd::Zero(distances, distances)};
+  const FramePoint origin = model::centre_of(sets.front().machine);
+  Eigen::Index row = 0;
+  for (const BeltHoles& set : sets) {
+    if (!put_set(set, anchors, std::exp(log_scale), origin, row, all)) return std::nullopt;
+    row += std::ssize(set.set.distances);
   }
-  const observation::DistanceGeometry geometry =
-      observation::distance_geometry(holes.set, rows.marks);
-  rows.residual_mm.resize(geometry.predicted_mm.size());
-  for (Eigen::Index k = 0; k < rows.residual_mm.size(); ++k) {
-    rows.residual_mm[k] =
-        length_of(holes.set, holes.set.distances[as_size(k)]) - geometry.predicted_mm[k];
-  }
-  rows.by_mark = geometry.by_mark;
-  rows.by_size = geometry.by_size;
-  rows.by_frame = geometry.by_mark * rows.marks_by_frame;
-  rows.by_sheet = geometry.by_mark * laid;
-  return rows;
+  return all;
 }
 
-Eigen::MatrixXd hole_covariance(const BeltHoles& holes, const HoleRows& rows, double noise_factor) {
-  observation::DistanceGeometry geometry{rows.residual_mm, rows.by_mark, rows.by_size};
-  const observation::DistanceNoise noise = observation::distance_noise(holes.set, geometry);
-  Eigen::MatrixXd covariance = noise.holes_mm2;
-  covariance.diagonal() += noise.tape_mm2;
-  covariance *= noise_factor * noise_factor;
-  return covariance + noise.size_mm2 + noise.tape_zero_mm2 +
-         rows.by_sheet * sheet_variance().asDiagonal() * rows.by_sheet.transpose();
+Eigen::MatrixXd taped_covariance(const TapedRows& rows,
+                                 const TapedNoise& noise,
+                                 const std::vector<bool>& counting) {
+  Eigen::MatrixXd covariance = noise.factor * noise.factor * rows.noise_mm2 + rows.shared_mm2;
+  if (noise.size_mm > 0.0) {
+    const Eigen::MatrixXd kernel = displacement_kernel(rows.marks, rows.marks, noise.reach_mm);
+    for (const Eigen::Index axis : {0, 1}) {
+      const Eigen::MatrixXd by_axis =
+          rows.by_mark(Eigen::all, Eigen::seq(axis, Eigen::last, Eigen::fix<2>));
+      covariance += noise.size_mm * noise.size_mm * linear::carried(by_axis, kernel);
+    }
+  }
+  for (std::size_t k = 0; k < counting.size(); ++k) {
+    if (!counting[k]) covariance(as_index(k), as_index(k)) += kRejectedMm2;
+  }
+  return covariance;
 }
 
 }  // namespace chaintrue::grid::belts

@@ -20,7 +20,7 @@
 ///
 /// \code
 ///   const BeltHoles holes{machine_in_force, set};
-///   const auto rows = belts::hole_rows(holes, belts::anchors_of(fit.machine), 0.0);
+///   const auto rows = belts::taped_rows({holes}, belts::anchors_of(fit.machine), 0.0);
 ///   if (rows) residual = rows->residual_mm;
 /// \endcode
 #pragma once
@@ -48,26 +48,36 @@ namespace chaintrue::grid::belts {
 /// Anchors, then the logarithm of the scale.
 inline constexpr Eigen::Index kFrameUnknowns = kAnchorUnknowns + 1;
 
-/// Distances about a frame, mm.
-struct HoleRows {
-  Eigen::VectorXd residual_mm;                  ///< n, taped (less the tape's zero offset) less predicted
-  Eigen::MatrixXd by_frame;                     ///< n x 6, d(predicted)/d(a, s)
-  Eigen::MatrixXd by_mark;                      ///< n x 2 N
-  Eigen::MatrixXd by_size;                      ///< n x 2
-  Eigen::MatrixXd by_sheet;                     ///< n x 3, by its shift in x and y, and its turn
-  std::vector<model::MarkPoint> marks;          ///< q_i
-  Eigen::MatrixXd marks_by_frame;               ///< 2 N x 6
-  std::vector<model::FramePoint> frame_places;  ///< m_i
+/// Added to the variance of a rejected distance, mm^2: a sigma of ten metres, so that it has no
+/// weight.
+inline constexpr double kRejectedMm2 = 1e8;
+
+/// The distances of all sets about a frame, one set after the other; mm.
+struct TapedRows {
+  Eigen::VectorXd residual_mm;  ///< n, taped (less the tape's zero offset) less predicted
+  Eigen::MatrixXd by_frame;     ///< n x 6, d(predicted)/d(a, s)
+  Eigen::MatrixXd by_mark;      ///< n x 2 N
+  Eigen::MatrixXd by_sheet;     ///< n x 3, by its own sheet's shift in x and y, and its turn
+  std::vector<model::MarkPoint> marks;  ///< of all holes, from where the first set's commands count
+  Eigen::MatrixXd noise_mm2;            ///< of (1) what f^2 stands before
+  Eigen::MatrixXd shared_mm2;           ///< of (1) what sizes, zeros and sheets share
 };
 /// Empty where the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
 /// machine whose anchors in force are not known.
-[[nodiscard]] std::optional<HoleRows> hole_rows(const BeltHoles& holes,
-                                                const AnchorVector& anchors,
-                                                double log_scale);
-/// (1) without K; n x n.
-[[nodiscard]] Eigen::MatrixXd hole_covariance(const BeltHoles& holes,
-                                              const HoleRows& rows,
-                                              double noise_factor);
+[[nodiscard]] std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
+                                                  const AnchorVector& anchors,
+                                                  double log_scale);
+
+/// Size and reach of the displacement, and the factor on the stated noise.
+struct TapedNoise {
+  double factor = 1.0;
+  double size_mm = 0.0;  ///< 0: no displacement
+  double reach_mm = 1.0;
+};
+/// (1), with rejected distances given no weight.
+[[nodiscard]] Eigen::MatrixXd taped_covariance(const TapedRows& rows,
+                                               const TapedNoise& noise,
+                                               const std::vector<bool>& counting);
 /// Prior variances of a sheet's placement: x, y and turn.
 [[nodiscard]] Eigen::Vector3d sheet_variance();
 

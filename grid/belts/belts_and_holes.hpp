@@ -9,7 +9,7 @@
 ///   r   distances minus their prediction from x; r_b = r + J (x - x_b), J = d(predicted)/dx
 ///   C   covariance of the distances, (1) of belt_holes.hpp
 ///
-///   minimise  belts(x) + r' C^-1 r                                                          (1)
+///   minimise  (x - x_b)' S_b^-1 (x - x_b) + r' C^-1 r                                       (1)
 ///   V = C + J S_b J',   log p = -1/2 (r_b' V^-1 r_b + log |V|)                              (2)
 ///   left out:  [V^-1 r_b]_i / [V^-1]_ii with variance 1 / [V^-1]_ii                         (3)
 ///
@@ -89,19 +89,24 @@ struct BeltsAndHolesFit {
   HolesWithBelts holes;
 };
 
-/// The fit of the belts alone, allowing for causes (diagnosis/anchors_with_causes.hpp).
+/// What is known without the holes.
 struct BeltsByThemselves {
   BeltsFit fit;
   belts::AnchorFit frame;
-  Eigen::MatrixXd covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
+  Eigen::MatrixXd
+      covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
 };
-/// As above, with the readings corrected for the causes in `alone`.
-[[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
-    const MeasuredBelts& without_causes, const std::vector<BeltHoles>& sets, BeltsByThemselves alone);
+/// Errors of readings alone: diagnosis/anchors_with_causes.hpp allows for causes. Without points the anchors of
+/// the machine, each with kStatedAnchorMm.
+[[nodiscard]] tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(
+    const MeasuredBelts& belts);
 
-/// If `belts` has no points, the prior is its machine's anchors with kStatedAnchorMm. \throws
+/// `belts` are the readings as `alone` explains them, without the causes in it. \throws
 /// std::invalid_argument without distances, or where the anchors in force when the holes were cut
 /// are not known.
+[[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
+    const MeasuredBelts& belts, const std::vector<BeltHoles>& sets, BeltsByThemselves alone);
+/// With what fit_by_themselves() makes of them.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);
 

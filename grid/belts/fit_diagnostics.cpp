@@ -7,8 +7,8 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/containers.hpp"
 #include "grid/estimation/reading_shifts.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -49,9 +49,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
   const auto readings = readings_of(belts, frame_.counting, frame_.residual_sigma_mm);
   const observation::View view(mechanism_);
   const Eigen::Index unknowns = mechanism_->values().size();
-  const auto rows = 4 * std::ssize(belts.points);
-  equations_.residual = Eigen::VectorXd::Zero(rows);
-  equations_.by_place = Eigen::MatrixX2d::Zero(rows, 2);
+  equations_ = {reading_lines(belts, frame_.state), {}};
   precision_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
   for (const auto& own : readings.blocks()) {
     auto line = readings.block_line(view, own, true);
@@ -64,13 +62,14 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     const Eigen::MatrixXd weighed =
         block.line.by_position.transpose() * block.line.weight.asDiagonal();
     block.inverse = linear::Cholesky(linear::product(weighed, block.line.by_position)).inverse();
-    block.by_unknown = linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
+    block.by_unknown =
+        linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
     precision_ += block.precision();
     for (std::size_t p = 0; p < own.places.size(); ++p) {
       const std::size_t point = readings.readings()[own.places[p]].index;
       const auto slot = as_index(p);
       slots_[point] = Slot{blocks_.size(), slot};
-      equations_.residual.segment<4>(row_of(point, Belt::tl)) =
+      equations_.residual_mm.segment<4>(row_of(point, Belt::tl)) =
           block.line.residual_mm.segment<4>(4 * slot);
       equations_.by_place.middleRows<4>(row_of(point, Belt::tl)) =
           block.line.by_position.block<4, 2>(4 * slot, 2 * slot);
@@ -78,24 +77,12 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     blocks_.push_back(std::move(block));
   }
   covariance_ = linear::PivotedCholesky(precision_).inverse();
-  add_unplaced(belts);
   equations_.distance_residual.resize(std::ssize(belts.distances));
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
     const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
     equations_.distance_residual[as_index(i)] =
         at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
            : kInfinity;
-  }
-}
-
-/// For points with too few readings, linearise about their fitted place.
-void FitDiagnostics::add_unplaced(const MeasuredBelts& belts) {
-  const ReadingLines lines = reading_lines(belts, frame_.state);
-  for (std::size_t k = 0; k < slots_.size(); ++k) {
-    if (slots_[k]) continue;
-    const Eigen::Index row = row_of(k, Belt::tl);
-    equations_.residual.segment<4>(row) = lines.residual_mm.segment<4>(row);
-    equations_.by_place.middleRows<4>(row) = lines.by_place.middleRows<4>(row);
   }
 }
 
@@ -156,7 +143,7 @@ Eigen::VectorXd FitDiagnostics::influence(std::size_t point, Belt belt) const {
 
 BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   BeltResidual result;
-  const double r = equations_.residual[row_of(point, belt)];
+  const double r = equations_.residual_mm[row_of(point, belt)];
   result.residual_mm = r;
   result.counts = counts(point, belt);
   result.deleted_residual_mm = r;
@@ -169,7 +156,8 @@ BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   const auto n = as_double(frame_.checks);
   if (!result.counts) {
     if (n >= 1.0)
-      result.sigmas = estimation::normal_deviate(r / (frame_.residual_sigma_mm * std::sqrt(1.0 + h)), n);
+      result.sigmas =
+          estimation::normal_deviate(r / (frame_.residual_sigma_mm * std::sqrt(1.0 + h)), n);
     return result;
   }
   if (1.0 - h < estimation::kOwnWord || n < 2.0) return result;

@@ -39,10 +39,8 @@ struct ReadingLines {
 };
 [[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
-/// Residuals of all readings, counted or not, and their derivatives by the places.
-struct FitResiduals {
-  Eigen::VectorXd residual;           ///< 4 N, mm
-  Eigen::MatrixX2d by_place;          ///< 4 N x 2
+/// With the residuals of the distances.
+struct FitResiduals : ReadingLines {
   Eigen::VectorXd distance_residual;  ///< in sigmas
 };
 
@@ -50,6 +48,7 @@ class FitDiagnostics {
  public:
   FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
 
+  /// Of places with too few readings about their fitted place.
   [[nodiscard]] const FitResiduals& equations() const { return equations_; }
   [[nodiscard]] double sigma_mm() const { return frame_.residual_sigma_mm; }
   [[nodiscard]] const AnchorFit& frame() const { return frame_; }
@@ -102,7 +101,6 @@ class FitDiagnostics {
     Eigen::VectorXd by_unknown;
   };
   [[nodiscard]] ReadingRow row_at(const Slot& slot, model::Belt belt) const;
-  void add_unplaced(const MeasuredBelts& belts);
 
   AnchorFit frame_;
   std::shared_ptr<const model::Mechanism> mechanism_;

@@ -7,22 +7,35 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::belts {
 
-TapedMarginal marginal(const HolesEstimate& frame,
-                  const std::vector<BeltHoles>& sets,
-                  const TapedState& at,
-                  const TapedNoise& noise,
-                  const std::vector<bool>& counting) {
+namespace {
+
+/// Anchors and the logarithm of the scale.
+Eigen::VectorXd frame_vector(const FrameState& state) {
+  Eigen::VectorXd x(kFrameUnknowns);
+  x << state.anchors, state.log_scale;
+  return x;
+}
+
+/// r_b.
+Eigen::VectorXd about_the_known(const KnownFrame& known,
+                                const TapedRows& rows,
+                                const FrameState& state) {
+  return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(known.state));
+}
+
+}  // namespace
+
+TapedMarginal marginal(const KnownFrame& known, const TapedState& at) {
   TapedMarginal result;
-  result.counting = counting;
-  result.residual_mm = frame.about_the_belts(at.rows, at.frame);
-  const linear::Cholesky covariance(
-      taped_covariance(sets, at.rows, noise, counting) +
-      linear::carried(at.rows.by_frame, at.without_holes.covariance));
+  result.counting = at.counting;
+  result.residual_mm = about_the_known(known, at.rows, at.frame);
+  const linear::Cholesky covariance(taped_covariance(at.rows, at.noise, at.counting) +
+                                    linear::carried(at.rows.by_frame, known.covariance));
   result.inverse = covariance.inverse();
   result.log_likelihood =
       -0.5 * (result.residual_mm.dot(linear::product(result.inverse, result.residual_mm)) +
@@ -72,10 +85,7 @@ struct Chosen {
   }
 };
 
-TapedNoise likeliest_noise(const HolesEstimate& frame,
-                           const std::vector<BeltHoles>& sets,
-                           const TapedState& at,
-                           double dof) {
+TapedNoise likeliest_noise(const KnownFrame& known, TapedState at, double dof) {
   // A factor of 1.19 a step, from 0.6 to 4: with fifteen degrees of freedom one sigma is 1.2.
   constexpr double kStep = 0.175;
   constexpr int kFirst = -3;
@@ -92,7 +102,8 @@ TapedNoise likeliest_noise(const HolesEstimate& frame,
     const double factor = std::exp(kStep * step);
     const double prior = log_prior(factor, dof);
     const auto worth = [&](const TapedNoise& noise) {
-      return prior + marginal(frame, sets, at, noise, at.counting).log_likelihood;
+      at.noise = noise;
+      return prior + marginal(known, at).log_likelihood;
     };
     const TapedNoise none{factor, 0.0, 1.0};
     without.see(none, worth(none));
@@ -106,24 +117,38 @@ TapedNoise likeliest_noise(const HolesEstimate& frame,
   return with.mean() - without.mean() > estimation::kSurfaceEvidence ? with.noise : without.noise;
 }
 
-/// Iterates with fixed noise; false if it does not converge.
-bool converge(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, TapedState& state) {
-  const auto there = frame.converged(
-      state.frame, taped_covariance(sets, state.rows, state.noise, state.counting));
-  if (!there) return false;
-  auto rows = taped_rows(sets, there->anchors, there->log_scale);
-  if (!rows) return false;
-  state.without_holes = frame.without_holes(*there);
-  state.frame = *there;
-  state.rows = *std::move(rows);
-  return true;
+/// Moves the state to the minimum with fixed noise, by Gauss-Newton:
+///
+///   x = x_b + S_b J' (C + J S_b J')^-1 r_b                                                  (4)
+///
+/// False if it does not converge.
+bool converge(const KnownFrame& known, const std::vector<BeltHoles>& sets, TapedState& state) {
+  constexpr int kMostPasses = 20;
+  // Step of the anchors, mm: a thousandth of the best tape's accuracy.
+  constexpr double kConvergedMm = 1e-5;
+  const Eigen::MatrixXd covariance = taped_covariance(state.rows, state.noise, state.counting);
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const Eigen::MatrixXd& by_frame = state.rows.by_frame;
+    const Eigen::MatrixXd gain = linear::product(known.covariance, linear::transposed(by_frame));
+    const linear::PivotedCholesky whole(covariance + linear::product(by_frame, gain));
+    const Eigen::VectorXd x =
+        frame_vector(known.state) +
+        linear::product(gain, whole.solve(about_the_known(known, state.rows, state.frame)));
+    const double moved_mm =
+        (x.head<kAnchorUnknowns>() - state.frame.anchors).lpNorm<Eigen::Infinity>();
+    state.frame.anchors = x.head<kAnchorUnknowns>();
+    state.frame.log_scale = x[kAnchorUnknowns];
+    auto rows = taped_rows(sets, state.frame.anchors, state.frame.log_scale);
+    if (!rows) return false;
+    state.rows = *std::move(rows);
+    if (moved_mm < kConvergedMm) return true;
+  }
+  return false;
 }
 
 /// The worst distance beyond kBadDistanceSigmas; empty if all fit.
-std::optional<std::size_t> worst_of(const HolesEstimate& frame,
-                                    const std::vector<BeltHoles>& sets,
-                                    const TapedState& state) {
-  const TapedMarginal now = marginal(frame, sets, state, state.noise, state.counting);
+std::optional<std::size_t> worst_of(const KnownFrame& known, const TapedState& state) {
+  const TapedMarginal now = marginal(known, state);
   std::optional<std::size_t> worst;
   double most = estimation::kBadDistanceSigmas;
   for (std::size_t k = 0; k < state.counting.size(); ++k) {
@@ -138,23 +163,22 @@ std::optional<std::size_t> worst_of(const HolesEstimate& frame,
 
 }  // namespace
 
-std::optional<TapedState> converged_state(const HolesEstimate& frame,
-                                     const std::vector<BeltHoles>& sets) {
-  const FrameState& first = frame.alone().state;
-  auto rows = taped_rows(sets, first.anchors, first.log_scale);
+std::optional<TapedState> converged_state(const KnownFrame& known,
+                                          const std::vector<BeltHoles>& sets) {
+  auto rows = taped_rows(sets, known.state.anchors, known.state.log_scale);
   if (!rows) return std::nullopt;
-  TapedState state{first, *std::move(rows), {}, {}, {}};
+  TapedState state{known.state, *std::move(rows), {}, {}};
   state.counting.assign(as_size(state.rows.residual_mm.size()), true);
   const double dof = noise_dof(sets);
-  if (!converge(frame, sets, state)) return std::nullopt;
+  if (!converge(known, sets, state)) return std::nullopt;
   const auto most = static_cast<std::size_t>(as_double(state.counting.size()) / 3.0);
   for (std::size_t rejected = 0; rejected <= most; ++rejected) {
-    state.noise = likeliest_noise(frame, sets, state, dof);
-    if (!converge(frame, sets, state)) return std::nullopt;
-    const auto worst = worst_of(frame, sets, state);
+    state.noise = likeliest_noise(known, state, dof);
+    if (!converge(known, sets, state)) return std::nullopt;
+    const auto worst = worst_of(known, state);
     if (!worst) return state;
     state.counting[*worst] = false;
-    if (!converge(frame, sets, state)) return std::nullopt;
+    if (!converge(known, sets, state)) return std::nullopt;
   }
   return std::nullopt;
 }

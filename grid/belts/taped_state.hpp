@@ -5,20 +5,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "grid/belts/belt_holes.hpp"
-#include "grid/belts/holes_estimate.hpp"
 #include "grid/containers.hpp"
 
 namespace chaintrue::grid::belts {
 
-/// The state of the fit.
+/// What is known without the holes: x_b, and S_b, 6 x 6.
+struct KnownFrame {
+  FrameState state;
+  Eigen::MatrixXd covariance;
+};
+
+/// The state of the fit. The places of belts' points are not moved.
 struct TapedState {
   FrameState frame;
   TapedRows rows;
-  WithoutHoles without_holes;
   TapedNoise noise;
   std::vector<bool> counting;
 };
@@ -40,14 +45,10 @@ struct TapedMarginal {
   }
 };
 
-[[nodiscard]] TapedMarginal marginal(const HolesEstimate& frame,
-                                     const std::vector<BeltHoles>& sets,
-                                     const TapedState& at,
-                                     const TapedNoise& noise,
-                                     const std::vector<bool>& counting);
+[[nodiscard]] TapedMarginal marginal(const KnownFrame& known, const TapedState& at);
 
 /// Empty if it does not converge, or if rejecting a third of the distances is not enough.
-[[nodiscard]] std::optional<TapedState> converged_state(const HolesEstimate& frame,
+[[nodiscard]] std::optional<TapedState> converged_state(const KnownFrame& known,
                                                         const std::vector<BeltHoles>& sets);
 
 }  // namespace chaintrue::grid::belts

@@ -30,7 +30,8 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
       if (frame.counting[k][belt]) square += std::pow(lines.residual_mm[belts::row_of(k, belt)], 2);
     }
   }
-  frame.residual_sigma_mm = std::max(std::sqrt(square / as_double(frame.checks)), belts::kLeastSpreadMm);
+  frame.residual_sigma_mm =
+      std::max(std::sqrt(square / as_double(frame.checks)), belts::kLeastSpreadMm);
 }
 
 /// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty where the
@@ -81,7 +82,8 @@ struct AnchorsWithCauses {
   MeasuredBelts without_causes;
 };
 
-tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const MeasuredBelts& belts) {
+tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
+    const MeasuredBelts& belts) {
   auto alone = fit_belts(belts);
   if (!alone) return tl::unexpected(alone.error());
   auto analysed = analyse(belts, {}, AnalysisDepth::anchors);
@@ -107,9 +109,9 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const M
     // Distances without positions with these readings: the contradiction shows with the uncorrected
     // readings.
     if (!with_scale) {
-      const auto as_read = belts::fit_anchors_robustly(belts);
-      const Eigen::MatrixXd own = FitDiagnostics(belts, *as_read).covariance();
-      return AnchorsWithCauses{{*std::move(alone), *as_read, own}, belts};
+      return fit_by_themselves(belts).map([&](BeltsByThemselves as_read) {
+        return AnchorsWithCauses{std::move(as_read), belts};
+      });
     }
     covariance = *with_scale;
   }
@@ -119,7 +121,7 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const M
   fit.rms_mm = alone->rms_mm;
   fit.half_left_out = prediction_by_halves(analysed->belts, {frame, sizes, {}});
   return AnchorsWithCauses{{std::move(fit), std::move(frame), std::move(covariance)},
-                         std::move(without_causes)};
+                           std::move(without_causes)};
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
   for (const Belt belt : kBelts) {
     if (belt == without) continue;
     const Eigen::Index at = belts::row_of(point, belt);
-    residual(row) = view.equations().residual(at) / view.sigma_mm();
+    residual(row) = view.equations().residual_mm(at) / view.sigma_mm();
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
   const Eigen::Vector2d moved =
