@@ -31,13 +31,11 @@ namespace chaintrue::grid::diagnosis {
 
 /// A router on four belts, from the lengths that it measured by itself. Gain, follow-ups and other
 /// results of chains stay empty: `belts` holds those of belts. Fails in words where fit_belts()
-/// does.
+/// does. `indices`: where the points stand in their file; the answer has the file's numbers.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
-    const MeasuredBelts& belts, const DiagnosisOptions& options = {});
-/// As above if points of the file were left out; the answer has the file's numbers.
-[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
-                                                                 const PointIndices& indices,
-                                                                 const DiagnosisOptions& options);
+    const MeasuredBelts& belts,
+    const DiagnosisOptions& options = {},
+    const PointIndices& indices = {});
 
 /// A V-plotter, from what was measured on its test drawing. The order of the lines is not known.
 /// Held-out errors and what to measure next stay empty: `drawing` holds the settings and the measures.

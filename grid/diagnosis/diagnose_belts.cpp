@@ -25,13 +25,8 @@ DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
 }  // namespace
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
-                                                   const DiagnosisOptions& options) {
-  return diagnose(belts, PointIndices{}, options);
-}
-
-tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
-                                                   const PointIndices& indices,
-                                                   const DiagnosisOptions& options) {
+                                                   const DiagnosisOptions& options,
+                                                   const PointIndices& indices) {
   tell(options.progress, kFitting);
   const auto alone = fit_belts(belts);
   if (!alone) return tl::unexpected(failure_of(alone.error()));
@@ -57,8 +52,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.outliers = bad_belts(given);
   for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);
   d.belts = belts_findings(a, given, belts, *alone);
-  const BeltsNext next =
-      options.next_measurements ? next_measurements(a, indices) : BeltsNext{};
+  const BeltsNext next = options.next_measurements ? next_measurements(a, indices) : BeltsNext{};
   d.belts->second_pass = next.second_pass;
   if (options.next_measurements)
     d.next_measurements = measurements_of(next, belts, *alone, a.decision, indices);

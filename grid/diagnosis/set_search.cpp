@@ -7,10 +7,9 @@
 #include <set>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/model_collector.hpp"
 #include "grid/diagnosis/ties.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -83,264 +82,215 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
   return {chosen.begin(), chosen.end()};
 }
 
+/// For any size, and set in at a visit.
+bool at_a_visit(const Regressor& d) {
+  const auto& parameters = d.cause.effect->parameters;
+  return !d.fixed && parameters.size() > 1 && parameters.back().integer;
+}
+
 }  // namespace
-
-class SetSearch::Search {
- public:
-  Search(const RegressorSystem& system,
-         MarginalisedSystem& marginalised,
-         std::size_t number,
-         const ComparisonOptions& options)
-      : system_(system),
-        marginalised_(marginalised),
-        options_(options),
-        collector_(system, marginalised, number, options) {}
-
-  std::vector<CandidateModel> run() {
-    const std::size_t few = options_.search.of_a_cause;
-    equations_ = normal_equations(
-        system_,
-        marginalised_,
-        few == 0 ? columns() : best_of_each_cause(system_, marginalised_, options_, few));
-    if (few > 0) {
-      search_by_beam(system_, equations_, -1, options_.search, collector_);
-      return collector_.take();
-    }
-    consider({});
-    singles();
-    if (!options_.given_cause) {
-      pairs();
-      grow();
-    }
-    return collector_.take();
-  }
-
-  std::vector<CandidateModel> run_given_discrepancies(const std::vector<std::size_t>& kernels,
-                                                       std::vector<double>& kernel_weight) {
-    stable_sort(scored_, descending(&WeighedSet::weight));
-    std::vector<std::vector<int>> likeliest;
-    std::array<std::size_t, kMostCauses + 1> taken{};
-    std::array<double, kMostCauses + 1> last{};
-    for (const WeighedSet& s : scored_) {
-      const std::size_t size = s.set.size();
-      if (size < 2 || (taken[size] >= kSetsGivenDiscrepancy && !tied(s.weight, last[size])))
-        continue;
-      if (taken[size] < kSetsGivenDiscrepancy) last[size] = s.weight;
-      ++taken[size];
-      std::vector<int> regressors;
-      for (const Eigen::Index i : s.set) {
-        regressors.push_back(equations_.columns[as_size(i)]);
-      }
-      likeliest.push_back(std::move(regressors));
-    }
-    kernel_weight = search_given_discrepancies(
-        system_, marginalised_, options_, equations_, likeliest, kernels, collector_);
-    return collector_.take();
-  }
-
-  [[nodiscard]] double best() const { return collector_.best(); }
-  [[nodiscard]] const std::vector<bool>& outliers() const { return marginalised_.outliers; }
-
- private:
-  /// For any size, and set in at a visit.
-  [[nodiscard]] static bool at_a_visit(const Regressor& d) {
-    const auto& parameters = d.cause.effect->parameters;
-    return !d.fixed && parameters.size() > 1 && parameters.back().integer;
-  }
-
-  /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
-  /// visits; of the others the best, alone or after projection on a leading regressor.
-  [[nodiscard]] std::vector<int> columns() const {
-    std::vector<int> kept;
-    std::vector<int> fixed;
-    std::vector<int> shifts;
-    const auto count = static_cast<int>(system_.regressors.size());
-    const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
-    const Eigen::VectorXd square = marginalised_.g.squared_norms();
-    for (int k = 0; k < count; ++k) {
-      const Regressor& d = system_.regressor(k);
-      if (options_.given_cause && !(d.cause == *options_.given_cause)) continue;
-      if (!(square(k) > kLeastSquare)) continue;
-      (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
-    }
-    const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
-    stable_sort(shifts, descending(explained));
-    shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
-    std::vector<int> likeliest = kept;
-    append_all(kept, shifts);
-    if (fixed.size() <= kKeptFixed) {
-      append_all(kept, fixed);
-      return kept;
-    }
-    stable_sort(likeliest, descending(explained));
-    likeliest.resize(count_with_ties(likeliest, 8, explained));
-    const RegressorColumns& g = marginalised_.g;
-    const Eigen::MatrixXd cross =
-        linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
-    std::vector<std::pair<double, int>> gains;
-    for (std::size_t f = 0; f < fixed.size(); ++f) {
-      const int k = fixed[f];
-      double best = 2.0 * c(k) - square(k);
-      for (std::size_t l = 0; l < likeliest.size(); ++l) {
-        const double ll = square(likeliest[l]);
-        const double x = g.factor(k) * cross(g.index(k), as_index(l));
-        best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
-      }
-      gains.emplace_back(-best, k);
-    }
-    sort(gains);
-    gains.resize(count_with_ties(gains, kKeptFixed, [](const auto& gain) { return gain.first; }));
-    for (const auto& [gain, k] : gains) kept.push_back(k);
-    return kept;
-  }
-
-  double consider(const ColumnSet& set) { return collector_.consider(set, -1, equations_); }
-
-  void singles() {
-    for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
-      const auto at = as_index(k);
-      const double weight = consider({at});
-      scored_.push_back({weight, {at}});
-    }
-  }
-
-  /// Upper bound of a pair's weight, ignoring bounds and larger noise.
-  [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const {
-    const Regressor& a = regressor(i);
-    const Regressor& b = regressor(j);
-    const double aa = equations_.gg(i, i);
-    const double bb = equations_.gg(j, j);
-    double q = equations_.ee;
-    double ca = equations_.ge(i);
-    double cb = equations_.ge(j);
-    const double ab = equations_.gg(i, j);
-    double occam = 0.0;
-    const double kWide = kWideSignalToNoise * kWideSignalToNoise;
-    const auto precision = [&](Eigen::Index k) {
-      return equations_.prior_square(k) / equations_.gg(k, k) / kWide;
-    };
-    // One sigma of the strength, in this metric.
-    const auto usual = [&](Eigen::Index k) {
-      return kUsualSignalToNoise * std::sqrt(equations_.gg(k, k) / equations_.prior_square(k));
-    };
-    if (a.fixed && b.fixed) {
-      q += aa + bb + 2.0 * (ab - ca - cb);
-    } else if (a.fixed || b.fixed) {
-      const double ff = a.fixed ? aa : bb;
-      const double cf = a.fixed ? ca : cb;
-      const double oo = a.fixed ? bb : aa;
-      const double co = (a.fixed ? cb : ca) - ab;
-      const Eigen::Index free = a.fixed ? j : i;
-      q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision(free)));
-      occam = std::log(usual(free));
-    } else {
-      ca /= std::sqrt(aa);
-      cb /= std::sqrt(bb);
-      const double collinearity = ab / std::sqrt(aa * bb);
-      const double one_a = 1.0 + precision(i);
-      const double one_b = 1.0 + precision(j);
-      const double det = one_a * one_b - collinearity * collinearity;
-      q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
-      occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
-    }
-    const auto n = as_double(marginalised_.kept.size());
-    return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
-           a.log_prior + b.log_prior;
-  }
-
-  void pairs() {
-    const auto count = std::ssize(equations_.columns);
-    std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
-    double best = kMinusInfinity;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      for (Eigen::Index j = 0; j < i; ++j) {
-        if (!compatible(regressor(i), regressor(j), options_.search)) continue;
-        const double weight = quick_weight(i, j);
-        if (weight < best - kPairsWithin) continue;
-        best = std::max(best, weight);
-        quick.push_back({weight, {j, i}});
-      }
-    }
-    stable_sort(quick, [](const auto& a, const auto& b) { return a.first > b.first; });
-    quick.resize(
-        count_with_ties(quick, kMostPairs + 1, [](const auto& pair) { return pair.first; }));
-    for (std::size_t k = 0; k < quick.size(); ++k) {
-      if (quick[k].first < best - kPairsWithin) break;
-      const std::vector<Eigen::Index> set = {quick[k].second.first, quick[k].second.second};
-      scored_.push_back({consider(set), set});
-    }
-  }
-
-  void grow() {
-    for (std::size_t size = 3; size <= kMostCauses; ++size) {
-      std::vector<WeighedSet> parents;
-      for (const WeighedSet& s : scored_) {
-        if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
-      }
-      narrow(parents, collector_.best(), kBeam);
-      if (parents.empty()) return;
-      std::set<std::vector<Eigen::Index>> found;
-      for (const WeighedSet& parent : parents) extend(parent.set, found);
-    }
-  }
-
-  void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& found) {
-    // The parent's residual, and each regressor's: a score for the cost of one inner product.
-    const linear::PivotedCholesky own(equations_.gg(parent, parent));
-    const Eigen::MatrixXd across = equations_.gg(Eigen::all, parent);
-    Eigen::VectorXd left = equations_.ge;
-    linear::add_product(left, -1.0, across, own.solve(Eigen::VectorXd(equations_.ge(parent))));
-    const Eigen::MatrixXd shares = own.solve(across.transpose());
-    std::vector<std::pair<double, Eigen::Index>> order;
-    for (Eigen::Index i = 0; i < left.size(); ++i) {
-      bool fits = true;
-      for (const Eigen::Index p : parent) {
-        fits = fits && compatible(regressor(i), regressor(p), options_.search);
-      }
-      if (!fits) continue;
-      const double square = equations_.gg(i, i) - across.row(i).dot(shares.col(i));
-      if (!(square > 1e-6 * equations_.gg(i, i))) continue;
-      const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
-      order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
-    }
-    sort(order);
-    order.resize(
-        count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
-    for (const auto& [score, index] : order) {
-      std::vector<Eigen::Index> set = parent;
-      set.push_back(index);
-      sort(set);
-      if (!found.insert(set).second) continue;
-      scored_.push_back({consider(set), set});
-    }
-  }
-
-  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
-    return system_.regressor(equations_.columns[as_size(i)]);
-  }
-
-  const RegressorSystem& system_;
-  MarginalisedSystem& marginalised_;
-  const ComparisonOptions& options_;
-  ModelCollector collector_;
-  NormalEquations equations_;
-  std::vector<WeighedSet> scored_;
-};
 
 SetSearch::SetSearch(const RegressorSystem& system,
                      MarginalisedSystem& marginalised,
                      std::size_t number,
                      const ComparisonOptions& options)
-    : search_(std::make_unique<Search>(system, marginalised, number, options)) {}
-SetSearch::~SetSearch() = default;
-SetSearch::SetSearch(SetSearch&&) noexcept = default;
-SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
-std::vector<CandidateModel> SetSearch::run() { return search_->run(); }
+    : system_(system),
+      marginalised_(marginalised),
+      options_(options),
+      collector_(system, marginalised, number, options) {}
+
+std::vector<CandidateModel> SetSearch::run() {
+  const std::size_t few = options_.search.of_a_cause;
+  equations_ = normal_equations(
+      system_,
+      marginalised_,
+      few == 0 ? columns() : best_of_each_cause(system_, marginalised_, options_, few));
+  if (few > 0) {
+    search_by_beam(system_, equations_, -1, options_.search, collector_);
+    return collector_.take();
+  }
+  consider({});
+  singles();
+  if (!options_.given_cause) {
+    pairs();
+    grow();
+  }
+  return collector_.take();
+}
+
 std::vector<CandidateModel> SetSearch::run_given_discrepancies(
     const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight) {
-  return search_->run_given_discrepancies(kernels, kernel_weight);
+  stable_sort(scored_, descending(&WeighedSet::weight));
+  std::vector<std::vector<int>> likeliest;
+  std::array<std::size_t, kMostCauses + 1> taken{};
+  std::array<double, kMostCauses + 1> last{};
+  for (const WeighedSet& s : scored_) {
+    const std::size_t size = s.set.size();
+    if (size < 2 || (taken[size] >= kSetsGivenDiscrepancy && !tied(s.weight, last[size]))) continue;
+    if (taken[size] < kSetsGivenDiscrepancy) last[size] = s.weight;
+    ++taken[size];
+    std::vector<int> regressors;
+    for (const Eigen::Index i : s.set) {
+      regressors.push_back(equations_.columns[as_size(i)]);
+    }
+    likeliest.push_back(std::move(regressors));
+  }
+  kernel_weight = search_given_discrepancies(
+      system_, marginalised_, options_, equations_, likeliest, kernels, collector_);
+  return collector_.take();
 }
-double SetSearch::best() const { return search_->best(); }
-const std::vector<bool>& SetSearch::outliers() const { return search_->outliers(); }
+
+std::vector<int> SetSearch::columns() const {
+  std::vector<int> kept;
+  std::vector<int> fixed;
+  std::vector<int> shifts;
+  const auto count = static_cast<int>(system_.regressors.size());
+  const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
+  const Eigen::VectorXd square = marginalised_.g.squared_norms();
+  for (int k = 0; k < count; ++k) {
+    const Regressor& d = system_.regressor(k);
+    if (options_.given_cause && !(d.cause == *options_.given_cause)) continue;
+    if (!(square(k) > kLeastSquare)) continue;
+    (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
+  }
+  const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
+  stable_sort(shifts, descending(explained));
+  shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
+  std::vector<int> likeliest = kept;
+  append_all(kept, shifts);
+  if (fixed.size() <= kKeptFixed) {
+    append_all(kept, fixed);
+    return kept;
+  }
+  stable_sort(likeliest, descending(explained));
+  likeliest.resize(count_with_ties(likeliest, 8, explained));
+  const RegressorColumns& g = marginalised_.g;
+  const Eigen::MatrixXd cross =
+      linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
+  std::vector<std::pair<double, int>> gains;
+  for (std::size_t f = 0; f < fixed.size(); ++f) {
+    const int k = fixed[f];
+    double best = 2.0 * c(k) - square(k);
+    for (std::size_t l = 0; l < likeliest.size(); ++l) {
+      const double ll = square(likeliest[l]);
+      const double x = g.factor(k) * cross(g.index(k), as_index(l));
+      best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
+    }
+    gains.emplace_back(-best, k);
+  }
+  sort(gains);
+  gains.resize(count_with_ties(gains, kKeptFixed, [](const auto& gain) { return gain.first; }));
+  for (const auto& [gain, k] : gains) kept.push_back(k);
+  return kept;
+}
+
+void SetSearch::singles() {
+  for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
+    const auto at = as_index(k);
+    const double weight = consider({at});
+    scored_.push_back({weight, {at}});
+  }
+}
+
+double SetSearch::quick_weight(Eigen::Index i, Eigen::Index j) const {
+  const Regressor& a = regressor(i);
+  const Regressor& b = regressor(j);
+  const double aa = equations_.gg(i, i);
+  const double bb = equations_.gg(j, j);
+  double q = equations_.ee;
+  double ca = equations_.ge(i);
+  double cb = equations_.ge(j);
+  const double ab = equations_.gg(i, j);
+  double occam = 0.0;
+  const double kWide = kWideSignalToNoise * kWideSignalToNoise;
+  const auto precision = [&](Eigen::Index k) {
+    return equations_.prior_square(k) / equations_.gg(k, k) / kWide;
+  };
+  // One sigma of the strength, in this metric.
+  const auto usual = [&](Eigen::Index k) {
+    return kUsualSignalToNoise * std::sqrt(equations_.gg(k, k) / equations_.prior_square(k));
+  };
+  if (a.fixed && b.fixed) {
+    q += aa + bb + 2.0 * (ab - ca - cb);
+  } else if (a.fixed || b.fixed) {
+    const double ff = a.fixed ? aa : bb;
+    const double cf = a.fixed ? ca : cb;
+    const double oo = a.fixed ? bb : aa;
+    const double co = (a.fixed ? cb : ca) - ab;
+    const Eigen::Index free = a.fixed ? j : i;
+    q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision(free)));
+    occam = std::log(usual(free));
+  } else {
+    ca /= std::sqrt(aa);
+    cb /= std::sqrt(bb);
+    const double collinearity = ab / std::sqrt(aa * bb);
+    const double one_a = 1.0 + precision(i);
+    const double one_b = 1.0 + precision(j);
+    const double det = one_a * one_b - collinearity * collinearity;
+    q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
+    occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
+  }
+  const auto n = as_double(marginalised_.kept.size());
+  return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
+         a.log_prior + b.log_prior;
+}
+
+void SetSearch::pairs() {
+  const auto count = std::ssize(equations_.columns);
+  std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
+  double best = kMinusInfinity;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (!compatible(regressor(i), regressor(j), options_.search)) continue;
+      const double weight = quick_weight(i, j);
+      if (weight < best - kPairsWithin) continue;
+      best = std::max(best, weight);
+      quick.push_back({weight, {j, i}});
+    }
+  }
+  stable_sort(quick, [](const auto& a, const auto& b) { return a.first > b.first; });
+  quick.resize(count_with_ties(quick, kMostPairs + 1, [](const auto& pair) { return pair.first; }));
+  for (std::size_t k = 0; k < quick.size(); ++k) {
+    if (quick[k].first < best - kPairsWithin) break;
+    const ColumnSet set = {quick[k].second.first, quick[k].second.second};
+    scored_.push_back({consider(set), set});
+  }
+}
+
+void SetSearch::grow() {
+  for (std::size_t size = 3; size <= kMostCauses; ++size) {
+    std::vector<WeighedSet> parents;
+    for (const WeighedSet& s : scored_) {
+      if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
+    }
+    narrow(parents, collector_.best(), kBeam);
+    if (parents.empty()) return;
+    std::set<ColumnSet> found;
+    for (const WeighedSet& parent : parents) extend(parent.set, found);
+  }
+}
+
+void SetSearch::extend(const ColumnSet& parent, std::set<ColumnSet>& found) {
+  // The parent's residual, and each regressor's: a score for the cost of one inner product.
+  const linear::PivotedCholesky own(equations_.gg(parent, parent));
+  const Eigen::MatrixXd across = equations_.gg(Eigen::all, parent);
+  Eigen::VectorXd left = equations_.ge;
+  linear::add_product(left, -1.0, across, own.solve(Eigen::VectorXd(equations_.ge(parent))));
+  const Eigen::MatrixXd shares = own.solve(across.transpose());
+  std::vector<std::pair<double, Eigen::Index>> order;
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    if (!with_column(system_, equations_, options_.search, parent, i)) continue;
+    const double square = equations_.gg(i, i) - across.row(i).dot(shares.col(i));
+    if (!(square > 1e-6 * equations_.gg(i, i))) continue;
+    const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
+    order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
+  }
+  sort(order);
+  order.resize(count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
+  for (const auto& [score, index] : order) {
+    const ColumnSet set = *with_column(system_, equations_, options_.search, parent, index);
+    if (found.insert(set).second) scored_.push_back({consider(set), set});
+  }
+}
 
 }  // namespace chaintrue::grid::diagnosis

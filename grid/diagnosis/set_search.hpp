@@ -4,10 +4,10 @@
 /// four grown from the best, and the leading ones again given a model discrepancy.
 #pragma once
 
-#include <memory>
+#include <set>
 #include <vector>
 
-#include "grid/diagnosis/model_comparison.hpp"
+#include "grid/diagnosis/model_collector.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -19,21 +19,36 @@ class SetSearch {
             MarginalisedSystem& marginalised,
             std::size_t number,
             const ComparisonOptions& options);
-  ~SetSearch();
-  SetSearch(SetSearch&&) noexcept;
-  SetSearch& operator=(SetSearch&&) noexcept;
 
   [[nodiscard]] std::vector<CandidateModel> run();
   /// Call after run(). For these kernels; sets their weights.
   [[nodiscard]] std::vector<CandidateModel> run_given_discrepancies(
       const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight);
   /// Largest weight so far.
-  [[nodiscard]] double best() const;
-  [[nodiscard]] const std::vector<bool>& outliers() const;
+  [[nodiscard]] double best() const { return collector_.best(); }
+  [[nodiscard]] const std::vector<bool>& outliers() const { return marginalised_.outliers; }
 
  private:
-  class Search;
-  std::unique_ptr<Search> search_;
+  /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
+  /// visits; of the others the best, alone or after projection on a leading regressor.
+  [[nodiscard]] std::vector<int> columns() const;
+  void singles();
+  /// Upper bound of a pair's weight, ignoring bounds and larger noise.
+  [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const;
+  void pairs();
+  void grow();
+  void extend(const ColumnSet& parent, std::set<ColumnSet>& found);
+  double consider(const ColumnSet& set) { return collector_.consider(set, -1, equations_); }
+  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
+    return system_.regressor(equations_.columns[as_size(i)]);
+  }
+
+  const RegressorSystem& system_;
+  MarginalisedSystem& marginalised_;
+  const ComparisonOptions& options_;
+  ModelCollector collector_;
+  NormalEquations equations_;
+  std::vector<WeighedSet> scored_;
 };
 
 }  // namespace chaintrue::grid::diagnosis

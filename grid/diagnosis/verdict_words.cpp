@@ -20,55 +20,15 @@ struct Vocabulary {
   std::string_view undecided;  ///< before "tell it from this"
   std::string_view besides;
   std::string_view whole;  ///< what fits without outliers
-  std::string_view rival;  ///< before the most similar cause
 };
 
-constexpr std::string_view kRivalOfMarks =
-    "An unlisted cause with the same effect would get the same name. The most similar listed one";
-constexpr std::string_view kRivalOfBelts =
-    "An unlisted cause with the same effect would get the same name. The most similar listed one";
-
 /// Indexed by Observations.
-constexpr Vocabulary kVocabularies[] = {{"points",
-                                         "points",
-                                         "number ",
-                                         "Points",
-                                         "These points cannot",
-                                         "Also",
-                                         "machine",
-                                         kRivalOfMarks},
-                                        {"distances",
-                                         "distances",
-                                         "",
-                                         "Distances",
-                                         "These distances cannot",
-                                         "Also",
-                                         "machine",
-                                         kRivalOfMarks},
-                                        {"readings",
-                                         "readings",
-                                         "",
-                                         "Readings",
-                                         "These readings cannot",
-                                         "Also",
-                                         "machine",
-                                         kRivalOfMarks},
-                                        {"lengths",
-                                         "readings",
-                                         "",
-                                         "Lengths",
-                                         "No lengths of belts can",
-                                         "Besides",
-                                         "frame",
-                                         kRivalOfBelts},
-                                        {"measures",
-                                         "measures",
-                                         "",
-                                         "Readings",
-                                         "These measures cannot",
-                                         "Also",
-                                         "machine",
-                                         kRivalOfMarks}};
+constexpr Vocabulary kVocabularies[] = {
+    {"points", "points", "number ", "Points", "These points cannot", "Also", "machine"},
+    {"distances", "distances", "", "Distances", "These distances cannot", "Also", "machine"},
+    {"readings", "readings", "", "Readings", "These readings cannot", "Also", "machine"},
+    {"lengths", "readings", "", "Lengths", "No lengths of belts can", "Besides", "frame"},
+    {"measures", "measures", "", "Readings", "These measures cannot", "Also", "machine"}};
 
 const Vocabulary& vocabulary_of(const Diagnosis& d) {
   return kVocabularies[static_cast<std::size_t>(d.observations)];
@@ -145,7 +105,9 @@ std::string causes_in_words(const Diagnosis& d) {
     for (const SameCause& other : cause.same_as) {
       text += fmt::format(
           " {} distinguish it from this: "
-          "{}.", words.undecided, sized(other.cause, other.parameters));
+          "{}.",
+          words.undecided,
+          sized(other.cause, other.parameters));
     }
   } else if (d.verdict == Verdict::named_set) {
     text = fmt::format("One of {} causes, which these {} do not distinguish: {}.",
@@ -193,10 +155,14 @@ std::string not_proved_in_words(const Diagnosis& d) {
   const Vocabulary& words = vocabulary_of(d);
   if (!d.causes.empty()) {
     const std::optional<CauseId>& rival = d.causes.front().rival;
-    return fmt::format("{} show which explanation fits, not that it is true. Inspect the part "
-                       "before changing it.{}",
-                       words.capital,
-                       rival ? fmt::format(" {}: {}.", words.rival, sized(*rival, {})) : "");
+    return fmt::format(
+        "{} show which explanation fits, not that it is true. Inspect the part "
+        "before changing it.{}",
+        words.capital,
+        rival ? fmt::format(" An unlisted cause with the same effect would get the same name. The "
+                            "most similar listed one: {}.",
+                            sized(*rival, {}))
+              : "");
   }
   if (d.verdict != Verdict::model_discrepancy || d.belts) {
     return "That the machine is perfect. Causes smaller than their bounds below would not have "

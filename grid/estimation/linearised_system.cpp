@@ -141,18 +141,4 @@ Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all) {
   return all;
 }
 
-std::vector<std::pair<Eigen::Index, std::size_t>> units_in(const LinearisedSystem& system,
-                                                           const std::vector<Eigen::Index>& kept) {
-  std::vector<std::pair<Eigen::Index, std::size_t>> result;
-  for (std::size_t a = 0; a < kept.size(); ++a) {
-    const int unit = system.unit_of_row[as_size(kept[a])];
-    if (unit < 0) continue;
-    const auto number = as_size(unit);
-    if (system.units[number].first_row == kept[a]) {
-      result.emplace_back(as_index(a), number);
-    }
-  }
-  return result;
-}
-
 }  // namespace chaintrue::grid::estimation

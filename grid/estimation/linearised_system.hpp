@@ -110,9 +110,4 @@ using UnreachablePlace = Failure<model::MechanismReason, PlaceOfObservation>;
   return system.by_setting.rightCols(system.nuisances);
 }
 
-/// Units with at least one of their rows among `kept`, which is ascending and holds units whole:
-/// the position of their first row in it, and their number.
-[[nodiscard]] std::vector<std::pair<Eigen::Index, std::size_t>> units_in(
-    const LinearisedSystem& system, const std::vector<Eigen::Index>& kept);
-
 }  // namespace chaintrue::grid::estimation

@@ -40,11 +40,12 @@ std::string sentence_of(const Check& check, const CheckWords& words) {
   const CheckHypothesis& first = check.hypotheses.front();
   const double percent = 100.0 * check.probability[static_cast<std::size_t>(check.verdict)];
   if (first.what == model::Change::bad_point) {
-    return fmt::format("Measure {} again ({:.0f} %): it alone is wrong, so it does not show "
-                       "whether {} is valid.",
-                       first.name,
-                       percent,
-                       words.subject);
+    return fmt::format(
+        "Measure {} again ({:.0f} %): it alone is wrong, so it does not show "
+        "whether {} is valid.",
+        first.name,
+        percent,
+        words.subject);
   }
   const bool rezero = check.verdict == CheckVerdict::valid_after_rezeroing;
   const std::string& head = check.verdict == CheckVerdict::valid ? words.valid
@@ -70,24 +71,6 @@ std::string not_separable_of(const Check& check, const CheckWords& words) {
                         words.readings);
   }
   return text;
-}
-
-/// "left_nail_x_mm has changed by +3.00 mm".
-std::string clause_of(const QuantityFound& one, const model::Mechanism& mechanism) {
-  if (one.of.kind == Quantity::Kind::parameter) {
-    const model::MechanismParameter& parameter = mechanism.parameters()[one.of.parameter];
-    return fmt::format("{} has changed by {:+.2f}{}{}",
-                       parameter.name,
-                       one.value,
-                       parameter.unit.empty() ? "" : " ",
-                       parameter.unit);
-  }
-  std::vector<std::string_view> names;
-  for (const std::size_t length : one.of.lengths) names.push_back(mechanism.lengths()[length]);
-  if (one.of.kind == Quantity::Kind::elongation)
-    return fmt::format("{} has grown by {:.3f} %", fmt::join(names, ", "), 100.0 * one.value);
-  return fmt::format("the reading of {} has shifted by {:+.2f} "
-                     "mm", fmt::join(names, ", "), one.value);
 }
 
 }  // namespace
@@ -146,20 +129,6 @@ double CheckUnit::rms_mm(const std::vector<CheckResidual>& residuals) const {
 
 double CheckUnit::sigma_mm(const std::vector<CheckResidual>& residuals) const {
   return rms_over(*this, residuals, &CheckResidual::sigma_mm);
-}
-
-CheckWords words_of(const model::Mechanism& mechanism) {
-  const std::string subject = "the calibration";
-  return {subject,
-          "readings",
-          "The calibration is still valid",
-          "The calibration is valid after re-zeroing",
-          "The calibration must be measured again",
-          [&mechanism](const CheckHypothesis& h) {
-            std::vector<std::string> clauses;
-            for (const QuantityFound& one : h.found) clauses.push_back(clause_of(one, mechanism));
-            return fmt::format("{}", fmt::join(clauses, ", "));
-          }};
 }
 
 Check judged(const CheckReadings& readings, const CheckWords& words) {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "grid/map/check_evidence.hpp"
-#include "model/mechanism.hpp"
 
 namespace chaintrue::grid {
 
@@ -24,9 +23,6 @@ struct CheckWords {
   /// Follows `rezero`; empty: none.
   std::function<std::string(const Check&)> what_to_set = {};
 };
-
-/// In terms of the mechanism's lengths and parameters.
-[[nodiscard]] CheckWords words_of(const model::Mechanism& mechanism);
 
 [[nodiscard]] Check judged(const CheckReadings& readings, const CheckWords& words);
 

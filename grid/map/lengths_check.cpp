@@ -7,7 +7,6 @@
 #include "grid/failed.hpp"
 #include "interp/linear_algebra.hpp"
 
-
 namespace chaintrue::grid {
 namespace {
 
@@ -23,9 +22,8 @@ void name_rows(const observation::BeltLengthReadings& observed,
     for (std::size_t i = 0, row = 0; row < rows; ++i) {
       if (place.known && !place.counting.empty() && !place.counting[i]) continue;
       ++row;
-      readings.names.push_back(place.known
-                                   ? fmt::format("{}, {}", name, mechanism.lengths()[i])
-                                   : fmt::format("{}, check {}", name, row));
+      readings.names.push_back(place.known ? fmt::format("{}, {}", name, mechanism.lengths()[i])
+                                           : fmt::format("{}, check {}", name, row));
     }
   }
 }
@@ -62,7 +60,8 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   }
   readings.by_length.setFromTriplets(by_length.begin(), by_length.end());
   readings.covariance.shared.resize(observed.rows(), 0);
-  readings.covariance.of_map = narrowed(readings.by_parameter * linear::covariance_root(fitted.covariance));
+  readings.covariance.of_map =
+      narrowed(readings.by_parameter * linear::covariance_root(fitted.covariance));
   readings.changes = fitted.mechanism->possible_changes();
   name_rows(observed, *fitted.mechanism, readings);
   return readings;
@@ -82,11 +81,6 @@ tl::expected<Check, CheckFailure> check_lengths(
   return readings_of(fitted, observed).map([&](const CheckReadings& readings) {
     return judged(readings, words);
   });
-}
-
-tl::expected<Check, CheckFailure> check_lengths(
-    const FittedMechanism& fitted, const std::vector<observation::LengthsAtPlace>& places) {
-  return check_lengths(fitted, places, words_of(*fitted.mechanism));
 }
 
 }  // namespace chaintrue::grid

@@ -40,8 +40,4 @@ struct FittedMechanism {
     const FittedMechanism& fitted,
     const std::vector<observation::LengthsAtPlace>& places,
     const CheckWords& words);
-/// In terms of the mechanism's names.
-[[nodiscard]] tl::expected<Check, CheckFailure> check_lengths(
-    const FittedMechanism& fitted, const std::vector<observation::LengthsAtPlace>& places);
-
 }  // namespace chaintrue::grid

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/precondition.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -153,7 +153,8 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
 /// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
 BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
   const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
-  const Eigen::Matrix4d q = Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
+  const Eigen::Matrix4d q =
+      Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
   const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
   const double variance = noise_.length_mm * noise_.length_mm;
   return {-checks * line.residual_mm,
@@ -181,12 +182,11 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const Eigen::MatrixXd by_parameter = root.asDiagonal() * line->by_parameter(rows, Eigen::all);
   if (!block.places.empty() && readings_[block.places.front()].known) {
     const LengthsAtPlace& own = readings_[block.places.front()];
-    return BlockRows{
-        own.lengths_mm(rows) - line->residual_mm(rows),
-        by_parameter,
-        variance * Eigen::MatrixXd::Identity(count, count) +
-            noise_.position_mm * noise_.position_mm * linear::outer(by_position),
-        {}};
+    return BlockRows{own.lengths_mm(rows) - line->residual_mm(rows),
+                     by_parameter,
+                     variance * Eigen::MatrixXd::Identity(count, count) +
+                         noise_.position_mm * noise_.position_mm * linear::outer(by_position),
+                     {}};
   }
   const Eigen::VectorXd residual = root.cwiseProduct(line->residual_mm(rows));
   const Eigen::Index left = count - by_position.cols();

@@ -129,9 +129,6 @@ class BeltLengthReadings final : public Observation {
                                                             std::size_t unit,
                                                             bool with_parameters) const;
 
-  /// The tool's position at a place for a view: the known one, or q.
-  [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> position_of(
-      const View& view, std::size_t place) const;
   /// In the order of places().
   [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }
   /// The unit's place; for a block of several its first.

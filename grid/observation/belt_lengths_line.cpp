@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/observation/belt_lengths.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
@@ -140,17 +140,6 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
   if (!line || block.distances.empty() || block.places.empty()) return line;
   if (auto found = find_positions(view, block, *line); !found) return tl::unexpected(found.error());
   return line;
-}
-
-tl::expected<model::ToolPosition, model::MechanismFailure> BeltLengthReadings::position_of(
-    const View& view, std::size_t place) const {
-  const Block alone{{place}, {}};
-  const bool is_joined = block_of_.at(place) < blocks_.size();
-  const Block& block = is_joined ? blocks_[block_of_[place]] : alone;
-  const auto line = block_line(view, block, false);
-  if (!line) return tl::unexpected(line.error().reason);
-  const auto at = std::find(block.places.begin(), block.places.end(), place);
-  return line->positions[as_size(at - block.places.begin())];
 }
 
 }  // namespace chaintrue::grid::observation

@@ -198,11 +198,16 @@ void offset_setting(Machine& machine, model::SheetPlacement& sheet, const Settin
   }
 }
 
+namespace {
+
+/// The stated machine with the hidden effects appended, before settings are offset.
 Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffect>& hidden) {
   Machine machine = stated;
   append_all(machine.effects, hidden);
   return machine;
 }
+
+}  // namespace
 
 SyntheticTruth truth_of(const Machine& stated, const SyntheticSpec& spec) {
   SyntheticTruth truth;

@@ -130,10 +130,6 @@ using UnreachableMark = Failure<model::PoseReason, model::MarkPoint>;
 [[nodiscard]] tl::expected<SyntheticSession, UnreachableMark> generate(
     const model::Machine& stated, const SyntheticSpec& spec, const Progress& progress = {});
 
-/// The stated machine with the hidden effects appended, before settings are offset.
-[[nodiscard]] model::Machine with_effects(const model::Machine& stated,
-                                          const std::vector<model::AppliedEffect>& hidden);
-
 /// Readings at given true positions, visited in the order of their numbers, without noise and with
 /// all digits. The marks of the grid include the paper effects.
 struct PlacesRead {

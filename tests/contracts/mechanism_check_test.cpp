@@ -68,11 +68,8 @@ std::vector<Hung> every_mechanism() {
 
 /// `columns` by `rows` places over the middle of what the mechanism reaches, each with noise; every
 /// third at an unknown position if `some_unknown`.
-std::vector<LengthsAtPlace> read(const Mechanism& truth,
-                                 int columns,
-                                 int rows,
-                                 bool some_unknown,
-                                 Random& random) {
+std::vector<LengthsAtPlace> read(
+    const Mechanism& truth, int columns, int rows, bool some_unknown, Random& random) {
   const model::MechanismExtent e = truth.extent();
   std::vector<LengthsAtPlace> places;
   for (int iy = 0; iy < rows; ++iy) {
@@ -164,6 +161,15 @@ TEST_P(CalibratedMechanism, SigmasFollowFromItsParameters) {
   EXPECT_NEAR(sigma.right_mm / std::sqrt(variance[1]), 1.0, 1e-2);
 }
 
+CheckWords words() {
+  return {"the calibration",
+          "readings",
+          "It is valid",
+          "It is valid after re-zeroing",
+          "Measure again",
+          [](const CheckHypothesis& h) { return "a change of " + h.side; }};
+}
+
 /// How often a check of six new places comes to each verdict, over kSets calibrations.
 constexpr int kSets = 40;
 std::array<int, 3> verdicts(const Hung& hung,
@@ -180,7 +186,7 @@ std::array<int, 3> verdicts(const Hung& hung,
       for (const std::size_t i : hung.lengths_of_a_zero)
         place.lengths_mm[static_cast<Eigen::Index>(i)] += zero_mm;
     }
-    const auto check = check_lengths(fitted, places);
+    const auto check = check_lengths(fitted, places, words());
     EXPECT_TRUE(check) << "seed " << seed;
     if (!check) continue;
     EXPECT_NEAR(check->probability[0] + check->probability[1] + check->probability[2], 1.0, 1e-9);
@@ -195,14 +201,14 @@ std::array<int, 3> verdicts(const Hung& hung,
 constexpr int kMostWrong = 4;
 
 TEST_P(CalibratedMechanism, FreshReadingsConfirmIt) {
-  const auto count =
-      verdicts(GetParam(), [](auto& random) { return fitted(GetParam(), random); }, nullptr, 0.0);
+  const auto count = verdicts(
+      GetParam(), [](auto& random) { return fitted(GetParam(), random); }, nullptr, 0.0);
   EXPECT_GE(count[0], kSets - kMostWrong) << "seeds 1 to " << kSets;
 }
 
 TEST_P(CalibratedMechanism, ProposesRezeroingForAShiftedZero) {
-  const auto count =
-      verdicts(GetParam(), [](auto& random) { return fitted(GetParam(), random); }, nullptr, 5.0);
+  const auto count = verdicts(
+      GetParam(), [](auto& random) { return fitted(GetParam(), random); }, nullptr, 5.0);
   EXPECT_GE(count[1], kSets - kMostWrong) << "seeds 1 to " << kSets;
 }
 
@@ -217,7 +223,7 @@ TEST_P(CalibratedMechanism, NamesASingleBadReading) {
   const FittedMechanism fit = fitted(GetParam(), random);
   auto places = read(*GetParam().make(), 3, 2, GetParam().some_unknown, random);
   places[3].lengths_mm[0] += 25.0;
-  const auto check = check_lengths(fit, places);
+  const auto check = check_lengths(fit, places, words());
   ASSERT_TRUE(check);
   EXPECT_EQ(check->hypotheses.front().what, model::Change::bad_point);
   EXPECT_EQ(check->hypotheses.front().count, 3);

@@ -144,8 +144,7 @@ Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
   refuse_too_many_to_diagnose(measured, command.input.grid);
   grid::keep_freed_memory();
-  Diagnosis found =
-      named(grid::diagnosis::diagnose(measured, diagnosis_options(command)), command);
+  Diagnosis found = named(grid::diagnosis::diagnose(measured, diagnosis_options(command)), command);
   note_fine_readings(measured, found);
   if (!command.assume_order.empty()) {
     found.notes.insert(found.notes.begin(),
@@ -174,8 +173,8 @@ Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file)
   }
   Diagnosis found =
       named(grid::diagnosis::diagnose(read.belts,
-                                      files::indices_without(read.belts.points.size(), without),
-                                      diagnosis_options(command)),
+                                      diagnosis_options(command),
+                                      files::indices_without(read.belts.points.size(), without)),
             command);
   found.tool_today = tool_today(read.belts);
   return found;
