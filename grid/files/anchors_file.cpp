@@ -20,157 +20,131 @@ using model::PerBelt;
 constexpr Range kSquare{"mm^2", -1e12, 1e12};
 constexpr int kMostPlaces = 100000;
 
-const Record<AnchorCoordinate>& fitted_coordinate_record() {
-  static const auto record =
-      Record<AnchorCoordinate>("a coordinate of an anchor")
-          .required("coordinate",
-                    "Which coordinate; the bottom left anchor is the origin, and the bottom right "
-                    "one is on the x axis.",
-                    &AnchorCoordinate::name,
-                    one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
-          .optional("stated_mm",
-                    "Value in the settings; null if unknown.",
-                    &AnchorCoordinate::stated_mm,
-                    number(kMillimetres))
-          .required(
-              "fitted_mm", "Fitted value.", &AnchorCoordinate::fitted_mm, number(kMillimetres))
-          .required("sigma_mm",
-                    "Its uncertainty, 1 sigma.",
-                    &AnchorCoordinate::sigma_mm,
-                    number(kSigmaMm))
-          .required("rests_on",
-                    "Share of its variance from each belt's readings.",
-                    &AnchorCoordinate::variance_share,
-                    object(per_belt_record<double>(number(kAnyNumber))));
-  return record;
+Record<AnchorCoordinate> fitted_coordinate_record() {
+  return Record<AnchorCoordinate>("a coordinate of an anchor")
+      .required("coordinate",
+                "Which coordinate; the bottom left anchor is the origin, and the bottom right "
+                "one is on the x axis.",
+                &AnchorCoordinate::name,
+                one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
+      .optional("stated_mm",
+                "Value in the settings; null if unknown.",
+                &AnchorCoordinate::stated_mm,
+                kMillimetres)
+      .required("fitted_mm", "Fitted value.", &AnchorCoordinate::fitted_mm, kMillimetres)
+      .required("sigma_mm", "Its uncertainty, 1 sigma.", &AnchorCoordinate::sigma_mm, kSigmaMm)
+      .required("rests_on",
+                "Share of its variance from each belt's readings.",
+                &AnchorCoordinate::variance_share,
+                per_belt_record<double>(number(kAnyNumber)));
 }
 
-const Record<BadBeltReading>& bad_record() {
-  static const auto record = Record<BadBeltReading>("a bad reading")
-                                 .required("point",
-                                           "Number of the place, from 0.",
-                                           &BadBeltReading::point,
-                                           index_number(0, kMostPlaces))
-                                 .required("belt", "The belt.", &BadBeltReading::belt, belt_word())
-                                 .required("off_mm",
-                                           "Reading minus the value predicted from all others.",
-                                           &BadBeltReading::residual_mm,
-                                           number(kMillimetres));
-  return record;
+Record<BadBeltReading> bad_record() {
+  return Record<BadBeltReading>("a bad reading")
+      .required("point",
+                "Number of the place, from 0.",
+                &BadBeltReading::point,
+                index_number(0, kMostPlaces))
+      .required("belt", "The belt.", &BadBeltReading::belt, belt_word())
+      .required("off_mm",
+                "Reading minus the value predicted from all others.",
+                &BadBeltReading::residual_mm,
+                kMillimetres);
 }
 
-const Record<BeltResidual>& residual_record() {
-  static const auto record =
-      Record<BeltResidual>("a reading's residual")
-          .required("off_mm",
-                    "Reading minus fitted value.",
-                    &BeltResidual::residual_mm,
-                    number(kMillimetres))
-          .required("counts", "False if it was left out.", &BeltResidual::counts, boolean())
-          .required(
-              "sigmas",
-              "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
-              &BeltResidual::sigmas,
-              number(kAnyNumber))
-          .required("beside_mm",
-                    "Reading minus the value predicted from all others.",
-                    &BeltResidual::deleted_residual_mm,
-                    number(kMillimetres));
-  return record;
+Record<BeltResidual> residual_record() {
+  return Record<BeltResidual>("a reading's residual")
+      .required("off_mm", "Reading minus fitted value.", &BeltResidual::residual_mm, kMillimetres)
+      .required("counts", "False if it was left out.", &BeltResidual::counts)
+      .required("sigmas",
+                "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
+                &BeltResidual::sigmas,
+                kAnyNumber)
+      .required("beside_mm",
+                "Reading minus the value predicted from all others.",
+                &BeltResidual::deleted_residual_mm,
+                kMillimetres);
 }
 
-const Record<FittedPlace>& fitted_place_record() {
-  static const auto record = [] {
-    Record<FittedPlace> place("a fitted place");
-    using model::FramePoint;
-    place
-        .required("x_mm",
-                  "x of the tool, to the right of the bottom left anchor.",
-                  path(&FittedPlace::at, &FramePoint::x_mm),
-                  number(kMillimetres))
-        .required("y_mm",
-                  "y of the tool, up from the bottom left anchor.",
-                  path(&FittedPlace::at, &FramePoint::y_mm),
-                  number(kMillimetres));
+Record<FittedPlace> fitted_place_record() {
+  Record<FittedPlace> place("a fitted place");
+  using model::FramePoint;
+  place
+      .required("x_mm",
+                "x of the tool, to the right of the bottom left anchor.",
+                path(&FittedPlace::at, &FramePoint::x_mm),
+                kMillimetres)
+      .required("y_mm",
+                "y of the tool, up from the bottom left anchor.",
+                path(&FittedPlace::at, &FramePoint::y_mm),
+                kMillimetres);
+  place.computed(
+      "covariance_mm2",
+      "Covariance of x and y: xx, xy, yy.",
+      true,
+      exactly<3>(number(kSquare), "3 numbers"),
+      [](FittedPlace& p, const std::array<double, 3>& c) {
+        p.covariance_mm2 << c[0], c[1], c[1], c[2];
+      },
+      [](const FittedPlace& p) {
+        const auto& c = p.covariance_mm2;
+        return std::array{c(0, 0), c(0, 1), c(1, 1)};
+      });
+  for (const Belt belt : model::kBelts) {
     place.computed(
-        "covariance_mm2",
-        "Covariance of x and y: xx, xy, yy.",
+        name(belt),
+        fmt::format("Residual of the {} belt.", words(belt)),
         true,
-        exactly<3>(number(kSquare), "3 numbers"),
-        [](FittedPlace& p, const std::array<double, 3>& c) {
-          p.covariance_mm2 << c[0], c[1], c[1], c[2];
-        },
-        [](const FittedPlace& p) {
-          const auto& c = p.covariance_mm2;
-          return std::array{c(0, 0), c(0, 1), c(1, 1)};
-        });
-    for (const Belt belt : model::kBelts) {
-      place.computed(
-          name(belt),
-          fmt::format("Residual of the {} belt.", words(belt)),
-          true,
-          object(residual_record()),
-          [belt](FittedPlace& p, const BeltResidual& own) { p.belts[belt] = own; },
-          [belt](const FittedPlace& p) { return p.belts[belt]; });
-    }
-    return place;
-  }();
-  return record;
+        object(residual_record()),
+        [belt](FittedPlace& p, const BeltResidual& own) { p.belts[belt] = own; },
+        [belt](const FittedPlace& p) { return p.belts[belt]; });
+  }
+  return place;
 }
 
 using Row = std::array<double, 5>;
 using Rows = std::array<Row, 5>;
 using RowMajor = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
-const Record<BeltsFit>& both_predictions_record() {
-  static const auto record =
-      Record<BeltsFit>("what was predicted")
-          .required("one_left_out",
-                    "Each place predicted from all others.",
-                    &BeltsFit::one_left_out,
-                    object(prediction_record()))
-          .optional("half_left_out",
-                    "Each half predicted from the other; null for fewer than "
-                    "ten places.",
-                    &BeltsFit::half_left_out,
-                    object(prediction_record()));
-  return record;
+Record<BeltsFit> both_predictions_record() {
+  return Record<BeltsFit>("what was predicted")
+      .required("one_left_out",
+                "Each place predicted from all others.",
+                &BeltsFit::one_left_out,
+                prediction_record())
+      .optional("half_left_out",
+                "Each half predicted from the other; null for fewer than "
+                "ten places.",
+                &BeltsFit::half_left_out,
+                prediction_record());
 }
 
 /// For the belts' table, with values that it may have.
 void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
   const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
-  for (const model::MachineProblem& problem : model::effects::problems_in(model::belts::belt_effects(), applied))
+  for (const model::MachineProblem& problem :
+       model::effects::problems_in(model::belts::belt_effects(), applied))
     at.problems().add(at.pointer() + problem.parameter.substr(2), problem);
 }
 
-const Record<CauseInAnchorFit>& cause_in_fit_record() {
-  static const auto record =
-      Record<CauseInAnchorFit>("a cause with the anchors")
-          .required("effect",
-                    "The cause, by its id in docs/maslow4.md.",
-                    &CauseInAnchorFit::effect,
-                    text())
-          .sparse("side",
-                  "The belt, or all four.",
-                  &CauseInAnchorFit::side,
-                  one_of({"tl", "tr", "bl", "br", "all"}))
-          .required(
-              "parameters",
-              "Its size and onset, averaged over the models that the readings leave possible.",
-              &CauseInAnchorFit::parameters,
-              dictionary(number(kAnyNumber)))
-          .required("sigma",
-                    "Uncertainty of its size, 1 sigma.",
-                    &CauseInAnchorFit::sigma,
-                    number(kAnyNumber))
-          .required("probability",
-                    "Its probability under the prior used for sigmas, which assumes causes to be "
-                    "common; not a verdict.",
-                    &CauseInAnchorFit::probability,
-                    number(kShare))
-          .check(check_cause);
-  return record;
+Record<CauseInAnchorFit> cause_in_fit_record() {
+  return Record<CauseInAnchorFit>("a cause with the anchors")
+      .required("effect", "The cause, by its id in docs/maslow4.md.", &CauseInAnchorFit::effect)
+      .sparse("side",
+              "The belt, or all four.",
+              &CauseInAnchorFit::side,
+              one_of({"tl", "tr", "bl", "br", "all"}))
+      .required("parameters",
+                "Its size and onset, averaged over the models that the readings leave possible.",
+                &CauseInAnchorFit::parameters,
+                dictionary(number(kAnyNumber)))
+      .required("sigma", "Uncertainty of its size, 1 sigma.", &CauseInAnchorFit::sigma, kAnyNumber)
+      .required("probability",
+                "Its probability under the prior used for sigmas, which assumes causes to be "
+                "common; not a verdict.",
+                &CauseInAnchorFit::probability,
+                kShare)
+      .check(check_cause);
 }
 
 /// All fields but the name.
@@ -179,7 +153,7 @@ void add_fit(Record<BeltsFit>& record) {
       .required("machine",
                 "The machine with the anchors fitted.",
                 &BeltsFit::machine,
-                object(belt_machine_record()))
+                belt_machine_record())
       .required("coordinates",
                 "The five coordinates that belts can show.",
                 &BeltsFit::coordinates,
@@ -200,57 +174,50 @@ void add_fit(Record<BeltsFit>& record) {
       .required("spread_mm",
                 "Spread of a reading, with 2N - 5 checks in the denominator.",
                 &BeltsFit::residual_sigma_mm,
-                number(kSigmaMm))
+                kSigmaMm)
       .required("checks", "That denominator.", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
       .required("rms_mm",
                 "Of all readings, those left out too, as the machine's own message has it.",
                 &BeltsFit::rms_mm,
-                number(kSigmaMm))
+                kSigmaMm)
       .required("rms_of_mm",
                 "Of each belt's readings that count.",
                 &BeltsFit::rms_of_mm,
-                object(per_belt_record<double>(number(kAnyNumber))))
+                per_belt_record<double>(number(kAnyNumber)))
       .part("foretold",
             "Lower belts as the upper two predict them at places that were not fitted.",
             true,
             both_predictions_record())
-      .optional("scale",
-                "From taped distances; absent: not known.",
-                &BeltsFit::scale,
-                object(scale_record()))
+      .optional(
+          "scale", "From taped distances; absent: not known.", &BeltsFit::scale, scale_record())
       .sparse("causes",
               "Causes besides the anchors: the stretch of the belts, and others that are more "
               "likely than not. Places and residuals are corrected for them.",
               &BeltsFit::causes,
-              list(object(cause_in_fit_record())))
-      .sparse(
-          "bad", "Readings left out, the worst first.", &BeltsFit::bad, list(object(bad_record())))
+              list(cause_in_fit_record()))
+      .sparse("bad", "Readings left out, the worst first.", &BeltsFit::bad, list(bad_record()))
       .sparse("bad_points",
               "Places where fewer than three readings agree.",
               &BeltsFit::bad_points,
               list(index_number(0, kMostPlaces)))
-      .required(
-          "places", "The fitted places.", &BeltsFit::places, list(object(fitted_place_record())));
+      .required("places", "The fitted places.", &BeltsFit::places, list(fitted_place_record()));
 }
 
-const Record<BeltsFit>& fit_record() {
-  static const auto record = [] {
-    Record<BeltsFit> fit("a fit of four belts");
-    add_fit(fit);
-    return fit;
-  }();
-  return record;
+Record<BeltsFit> fit_record() {
+  Record<BeltsFit> fit("a fit of four belts");
+  add_fit(fit);
+  return fit;
 }
 
 const Record<FittedAnchors>& fitted_anchors_record() {
   static const auto record = [] {
     Record<FittedAnchors> anchors("a chaintrue_anchors file", kAnchorsFormat);
-    anchors.sparse("name", "Name of the set.", &FittedAnchors::name, text())
-        .required("fit", "The fit.", &FittedAnchors::fit, object(fit_record()))
+    anchors.sparse("name", "Name of the set.", &FittedAnchors::name)
+        .required("fit", "The fit.", &FittedAnchors::fit, fit_record())
         .optional("holes",
                   "What cut and taped holes add; absent: none were given.",
                   &FittedAnchors::holes,
-                  object(holes_with_belts_record()));
+                  holes_with_belts_record());
     add_content_hash(add_made_by_key(anchors),
                      "Hash of everything else; edited anchors are refused.")
         .check([](const Cursor& at, FittedAnchors&) {

@@ -15,57 +15,46 @@ constexpr Range kFactor{"", 1e-3, 1e3};
 constexpr Range kAngle{"rad", -1.0, 1.0};
 constexpr int kMostSets = 1000;
 
-const Record<BeltHole>& belt_hole_record() {
-  static const auto record = [] {
-    Record<BeltHole> hole("a fitted hole");
-    hole.required("name", "Its name.", &BeltHole::name, text());
-    const auto coordinate = [&](const char* key, const char* meaning, auto member) {
-      hole.required(key, meaning, member, number(kMillimetres));
-    };
-    using model::BedPoint, model::MarkPoint;
-    coordinate("x_mm", "Commanded x.", path(&BeltHole::commanded, &BedPoint::x_mm));
-    coordinate("y_mm", "Commanded y, up.", path(&BeltHole::commanded, &BedPoint::y_mm));
-    coordinate("mark_x_mm",
-               "x that the fitted anchors give, in the frame of the commands; the sheet may be "
-               "elsewhere.",
-               path(&BeltHole::mark, &MarkPoint::x_mm));
-    coordinate("mark_y_mm",
-               "y that the fitted anchors give, up.",
-               path(&BeltHole::mark, &MarkPoint::y_mm));
-    return hole;
-  }();
-  return record;
+Record<BeltHole> belt_hole_record() {
+  Record<BeltHole> hole("a fitted hole");
+  hole.required("name", "Its name.", &BeltHole::name);
+  const auto coordinate = [&](const char* key, const char* meaning, auto member) {
+    hole.required(key, meaning, member, kMillimetres);
+  };
+  using model::BedPoint, model::MarkPoint;
+  coordinate("x_mm", "Commanded x.", path(&BeltHole::commanded, &BedPoint::x_mm));
+  coordinate("y_mm", "Commanded y, up.", path(&BeltHole::commanded, &BedPoint::y_mm));
+  coordinate("mark_x_mm",
+             "x that the fitted anchors give, in the frame of the commands; the sheet may be "
+             "elsewhere.",
+             path(&BeltHole::mark, &MarkPoint::x_mm));
+  coordinate(
+      "mark_y_mm", "y that the fitted anchors give, up.", path(&BeltHole::mark, &MarkPoint::y_mm));
+  return hole;
 }
 
-const Record<BeltTapedDistance>& taped_distance_record() {
-  static const auto record =
-      Record<BeltTapedDistance>("a fitted distance")
-          .required("set",
-                    "Number of the file of holes, from 0.",
-                    &BeltTapedDistance::set,
-                    index_number(0, kMostSets))
-          .required("between", "Its ends.", &BeltTapedDistance::words, text())
-          .required("measured_mm",
-                    "Taped distance, without the hook offset.",
-                    &BeltTapedDistance::measured_mm,
-                    number(kMillimetres))
-          .required("off_mm",
-                    "Taped minus fitted.",
-                    &BeltTapedDistance::residual_mm,
-                    number(kMillimetres))
-          .required("left_out_mm",
-                    "Taped minus the prediction of a fit without it.",
-                    &BeltTapedDistance::left_out_mm,
-                    number(kMillimetres))
-          .required("left_out_sigma_mm",
-                    "Uncertainty of that, 1 sigma.",
-                    &BeltTapedDistance::left_out_sigma_mm,
-                    number(kSigmaMm))
-          .required("set_aside",
-                    "It contradicts the others and was not used.",
-                    &BeltTapedDistance::rejected,
-                    boolean());
-  return record;
+Record<BeltTapedDistance> taped_distance_record() {
+  return Record<BeltTapedDistance>("a fitted distance")
+      .required("set",
+                "Number of the file of holes, from 0.",
+                &BeltTapedDistance::set,
+                index_number(0, kMostSets))
+      .required("between", "Its ends.", &BeltTapedDistance::words)
+      .required("measured_mm",
+                "Taped distance, without the hook offset.",
+                &BeltTapedDistance::measured_mm,
+                kMillimetres)
+      .required("off_mm", "Taped minus fitted.", &BeltTapedDistance::residual_mm, kMillimetres)
+      .required("left_out_mm",
+                "Taped minus the prediction of a fit without it.",
+                &BeltTapedDistance::left_out_mm,
+                kMillimetres)
+      .required("left_out_sigma_mm",
+                "Uncertainty of that, 1 sigma.",
+                &BeltTapedDistance::left_out_sigma_mm,
+                kSigmaMm)
+      .required(
+          "set_aside", "It contradicts the others and was not used.", &BeltTapedDistance::rejected);
 }
 
 struct StatedDisplacement {
@@ -83,16 +72,16 @@ const Record<StatedDisplacement>& displacement_record() {
           .required("size_mm",
                     "Its prior sigma, on each axis.",
                     &StatedDisplacement::size_mm,
-                    number(kPositiveMm))
+                    kPositiveMm)
           .required("reach_mm",
                     "Length over which it changes.",
                     &StatedDisplacement::reach_mm,
-                    number(kPositiveMm))
+                    kPositiveMm)
           .required("places",
                     "For each place x, y, and the displacement of the tool in x and y from the "
                     "position given by its upper two belts; mm.",
                     &StatedDisplacement::places,
-                    list(list(number(kMillimetres), kNumbersOfAPlace), 1))
+                    list(list(kMillimetres, kNumbersOfAPlace), 1))
           .check([](const Cursor& at, StatedDisplacement& stated) {
             for (const auto& place : stated.places) {
               if (place.size() != kNumbersOfAPlace && at.clean())
@@ -131,20 +120,14 @@ struct StatedSheet {
   double rotation_rad = 0.0;
 };
 
-const Record<StatedSheet>& stated_sheet_record() {
-  static const auto record =
-      Record<StatedSheet>("where the sheet lies")
-          .required("x_mm",
-                    "x of the sheet, to the right of the origin of commands.",
-                    &StatedSheet::x_mm,
-                    number(kMillimetres))
-          .required(
-              "y_mm", "y of the sheet, up from there.", &StatedSheet::y_mm, number(kMillimetres))
-          .required("rotation_rad",
-                    "Rotation, counter-clockwise.",
-                    &StatedSheet::rotation_rad,
-                    number(kAngle));
-  return record;
+Record<StatedSheet> stated_sheet_record() {
+  return Record<StatedSheet>("where the sheet lies")
+      .required("x_mm",
+                "x of the sheet, to the right of the origin of commands.",
+                &StatedSheet::x_mm,
+                kMillimetres)
+      .required("y_mm", "y of the sheet, up from there.", &StatedSheet::y_mm, kMillimetres)
+      .required("rotation_rad", "Rotation, counter-clockwise.", &StatedSheet::rotation_rad, kAngle);
 }
 
 void read_holes_covariance(const Cursor& at, HolesWithBelts& holes) {
@@ -189,24 +172,24 @@ const Record<HolesWithBelts>& holes_with_belts_record() {
           .required("machine",
                     "The machine, with the anchors in force when the holes were cut.",
                     &HolesWithBelts::machine,
-                    object(belt_machine_record()))
+                    belt_machine_record())
           .required("holes",
                     "Holes of the first file, whose sheet defines the frame of the map.",
                     &HolesWithBelts::holes,
-                    list(object(belt_hole_record())))
+                    list(belt_hole_record()))
           .required("distances",
                     "All taped distances.",
                     &HolesWithBelts::distances,
-                    list(object(taped_distance_record())))
+                    list(taped_distance_record()))
           .required("noise_factor",
                     "Estimated noise of tape and holes, relative to the given one.",
                     &HolesWithBelts::noise_factor,
-                    number(kFactor))
+                    kFactor)
           .required(
               "left_out_rms_mm",
               "Rms of the distances left out one at a time, without those that were rejected.",
               &HolesWithBelts::left_out_rms_mm,
-              number(kSigmaMm))
+              kSigmaMm)
           .custom(
               "displacement",
               "Displacement of the tool from the position given by its upper two belts; absent: "

@@ -25,34 +25,31 @@ struct StatedAnchor {
   std::optional<double> z_mm;
 };
 
-const Record<StatedAnchor>& anchor_record() {
-  static const auto record =
-      Record<StatedAnchor>("an anchor")
-          .optional("x_mm",
-                    "x of the point where the belt leaves the frame, to the right of the bottom "
-                    "left anchor. Given for all four anchors or for none.",
-                    &StatedAnchor::x_mm,
-                    number_in("mm"))
-          .optional(
-              "y_mm",
-              "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
-              &StatedAnchor::y_mm,
-              number_in("mm"))
-          .optional("z_mm",
-                    "Its height above the bed; default: the firmware's.",
-                    &StatedAnchor::z_mm,
-                    number_in("mm"));
-  return record;
+Record<StatedAnchor> anchor_record() {
+  return Record<StatedAnchor>("an anchor")
+      .optional("x_mm",
+                "x of the point where the belt leaves the frame, to the right of the bottom "
+                "left anchor. Given for all four anchors or for none.",
+                &StatedAnchor::x_mm,
+                number_in("mm"))
+      .optional("y_mm",
+                "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
+                &StatedAnchor::y_mm,
+                number_in("mm"))
+      .optional("z_mm",
+                "Its height above the bed; default: the firmware's.",
+                &StatedAnchor::z_mm,
+                number_in("mm"));
 }
 
 const Record<PerBelt<StatedAnchor>>& anchors_record() {
   using Anchors = PerBelt<StatedAnchor>;
   static const auto record =
       Record<Anchors>("four anchors")
-          .required("tl", "Top left.", &Anchors::tl, object(anchor_record()))
-          .required("tr", "Top right.", &Anchors::tr, object(anchor_record()))
-          .required("bl", "Bottom left, the origin.", &Anchors::bl, object(anchor_record()))
-          .required("br", "Bottom right, on the x axis.", &Anchors::br, object(anchor_record()));
+          .required("tl", "Top left.", &Anchors::tl, anchor_record())
+          .required("tr", "Top right.", &Anchors::tr, anchor_record())
+          .required("bl", "Bottom left, the origin.", &Anchors::bl, anchor_record())
+          .required("br", "Bottom right, on the x axis.", &Anchors::br, anchor_record());
   return record;
 }
 
@@ -87,13 +84,11 @@ std::optional<Json> written_anchors(const BeltMachine& machine) {
   return anchors_record().write(stated);
 }
 
-const Record<BeltMachine>& belt_record() {
-  static const auto record =
-      Record<BeltMachine>("a belt").optional("turn_mm",
-                                             "Belt length for one turn of the encoder.",
-                                             &BeltMachine::belt_turn_mm,
-                                             number_in("mm"));
-  return record;
+Record<BeltMachine> belt_record() {
+  return Record<BeltMachine>("a belt").optional("turn_mm",
+                                                "Belt length for one turn of the encoder.",
+                                                &BeltMachine::belt_turn_mm,
+                                                number_in("mm"));
 }
 
 constexpr Range kPull{"", 1e-3, 1e6};
@@ -133,20 +128,18 @@ void add_pull(Record<BeltPoint>& record) {
 
 using ThrownAway = PerBelt<std::vector<double>>;
 
-const Record<ThrownAway>& thrown_away_record() {
-  static const auto record =
-      Record<ThrownAway>("lengths of each belt")
-          .sparse("tl_mm", "Top left.", &ThrownAway::tl, list(number(kBeltLengthMm)))
-          .sparse("tr_mm", "Top right.", &ThrownAway::tr, list(number(kBeltLengthMm)))
-          .sparse("bl_mm", "Bottom left.", &ThrownAway::bl, list(number(kBeltLengthMm)))
-          .sparse("br_mm", "Bottom right.", &ThrownAway::br, list(number(kBeltLengthMm)));
-  return record;
+Record<ThrownAway> thrown_away_record() {
+  return Record<ThrownAway>("lengths of each belt")
+      .sparse("tl_mm", "Top left.", &ThrownAway::tl, list(kBeltLengthMm))
+      .sparse("tr_mm", "Top right.", &ThrownAway::tr, list(kBeltLengthMm))
+      .sparse("bl_mm", "Bottom left.", &ThrownAway::bl, list(kBeltLengthMm))
+      .sparse("br_mm", "Bottom right.", &ThrownAway::br, list(kBeltLengthMm));
 }
 
 void add_lengths(Record<BeltPoint>& record) {
   using Lengths = PerBelt<double>;
   const auto length = [&](const char* key, const char* meaning, double Lengths::*belt) {
-    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), number(kBeltLengthMm));
+    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), kBeltLengthMm);
   };
   length("tl_mm",
          "Length of the top left belt as the controller prints it; the machine's lengths says what "
@@ -189,42 +182,38 @@ void add_command(Record<BeltPoint>& record) {
   });
 }
 
-const Record<BeltPoint>& belt_point_record() {
-  static const auto record = [] {
-    Record<BeltPoint> point("a place");
-    add_lengths(point);
-    add_command(point);
-    point.optional("order",
-                   "Number of the visit. Either all places have one, all different, or none has.",
-                   &BeltPoint::order,
-                   integer(0, 1000000));
-    point.computed(
-        "pulled",
-        "Belts that a motor tensioned at the reading while the others held; default: those for the "
-        "frame's orientation.",
-        false,
-        list(belt_word()),
-        [](BeltPoint& p, const std::vector<Belt>& found) {
-          p.pulled.emplace();
-          for (const Belt belt : kBelts) {
-            if (std::find(found.begin(), found.end(), belt) != found.end())
-              p.pulled->push_back(belt);
-          }
-        },
-        [](const BeltPoint& p) { return p.pulled; });
-    add_pull(point);
-    point.computed(
-        "thrown_away",
-        "Single readings that the controller discarded here.",
-        false,
-        object(thrown_away_record()),
-        [](BeltPoint& p, const ThrownAway& found) { p.thrown_away_mm = found; },
-        [](const BeltPoint& p) {
-          return p.thrown_away_mm == ThrownAway{} ? std::nullopt : std::optional(p.thrown_away_mm);
-        });
-    return point;
-  }();
-  return record;
+Record<BeltPoint> belt_point_record() {
+  Record<BeltPoint> point("a place");
+  add_lengths(point);
+  add_command(point);
+  point.optional("order",
+                 "Number of the visit. Either all places have one, all different, or none has.",
+                 &BeltPoint::order,
+                 integer(0, 1000000));
+  point.computed(
+      "pulled",
+      "Belts that a motor tensioned at the reading while the others held; default: those for the "
+      "frame's orientation.",
+      false,
+      list(belt_word()),
+      [](BeltPoint& p, const std::vector<Belt>& found) {
+        p.pulled.emplace();
+        for (const Belt belt : kBelts) {
+          if (std::find(found.begin(), found.end(), belt) != found.end()) p.pulled->push_back(belt);
+        }
+      },
+      [](const BeltPoint& p) { return p.pulled; });
+  add_pull(point);
+  point.computed(
+      "thrown_away",
+      "Single readings that the controller discarded here.",
+      false,
+      object(thrown_away_record()),
+      [](BeltPoint& p, const ThrownAway& found) { p.thrown_away_mm = found; },
+      [](const BeltPoint& p) {
+        return p.thrown_away_mm == ThrownAway{} ? std::nullopt : std::optional(p.thrown_away_mm);
+      });
+  return point;
 }
 
 const Record<model::BedPoint>& hole_place_record() {
@@ -282,24 +271,17 @@ void add_end(Record<BeltDistance>& record,
       });
 }
 
-const Record<BeltDistance>& belt_distance_record() {
-  static const auto record = [] {
-    Record<BeltDistance> distance("a taped distance");
-    add_end(distance,
-            "from",
-            "A place by its number from 0, an anchor, or a hole cut by the machine.",
-            &BeltDistance::from);
-    add_end(distance, "to", "The other end, in the same form.", &BeltDistance::to);
-    distance
-        .required(
-            "distance_mm", "The tape reading.", &BeltDistance::distance_mm, number(kBeltDistanceMm))
-        .optional("sigma_mm",
-                  "Noise of this reading, 1 sigma.",
-                  &BeltDistance::sigma_mm,
-                  number(kTapeSigmaMm));
-    return distance;
-  }();
-  return record;
+Record<BeltDistance> belt_distance_record() {
+  Record<BeltDistance> distance("a taped distance");
+  add_end(distance,
+          "from",
+          "A place by its number from 0, an anchor, or a hole cut by the machine.",
+          &BeltDistance::from);
+  add_end(distance, "to", "The other end, in the same form.", &BeltDistance::to);
+  distance.required("distance_mm", "The tape reading.", &BeltDistance::distance_mm, kBeltDistanceMm)
+      .optional(
+          "sigma_mm", "Noise of this reading, 1 sigma.", &BeltDistance::sigma_mm, kTapeSigmaMm);
+  return distance;
 }
 
 }  // namespace
@@ -308,8 +290,8 @@ const Record<FirmwareFit>& firmware_fit_record() {
   constexpr Range kMisfit{"mm", 0.0, 10000.0};
   static const auto record =
       Record<FirmwareFit>("the machine's own words of its fit")
-          .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, number(kMisfit))
-          .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, number(kMisfit));
+          .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, kMisfit)
+          .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, kMisfit);
   return record;
 }
 
@@ -320,12 +302,9 @@ const Record<BeltPrediction>& prediction_record() {
                     "Number of predicted readings of lower belts.",
                     &BeltPrediction::readings,
                     index_number(0, kMostReadings))
-          .required("rms_mm",
-                    "Rms of reading minus prediction.",
-                    &BeltPrediction::rms_mm,
-                    number(kSpreadMm))
           .required(
-              "largest_mm", "Largest difference.", &BeltPrediction::largest_mm, number(kSpreadMm));
+              "rms_mm", "Rms of reading minus prediction.", &BeltPrediction::rms_mm, kSpreadMm)
+          .required("largest_mm", "Largest difference.", &BeltPrediction::largest_mm, kSpreadMm);
   return record;
 }
 
@@ -341,15 +320,14 @@ const Record<BeltScale>& scale_record() {
           .required("residuals_mm",
                     "Taped minus fitted, for each distance.",
                     &BeltScale::residuals_mm,
-                    list(number(kMisfitMm)));
+                    list(kMisfitMm));
   return record;
 }
 
 const Record<BeltMachine>& belt_machine_record() {
   static const auto record = [] {
     Record<BeltMachine> machine("a machine with four belts");
-    machine
-        .optional("name", "Name of the machine in messages and pages.", &BeltMachine::name, text())
+    machine.optional("name", "Name of the machine in messages and pages.", &BeltMachine::name)
         .custom("anchors",
                 "Where the belts leave the frame; absent: not known yet.",
                 false,
@@ -406,23 +384,23 @@ const Record<BeltMachine>& belt_machine_record() {
 
 const Record<MeasuredBelts>& belts_record() {
   static const auto record = Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
-                                 .sparse("name", "Name of the set.", &MeasuredBelts::name, text())
+                                 .sparse("name", "Name of the set.", &MeasuredBelts::name)
                                  .optional("machine",
                                            "The machine with its settings in force.",
                                            &MeasuredBelts::machine,
-                                           object(belt_machine_record()))
+                                           belt_machine_record())
                                  .required("points",
                                            "The places, in any order.",
                                            &MeasuredBelts::points,
-                                           list(object(belt_point_record())))
+                                           list(belt_point_record()))
                                  .sparse("distances",
                                          "Taped distances; without one the scale is unknown.",
                                          &MeasuredBelts::distances,
-                                         list(object(belt_distance_record())))
+                                         list(belt_distance_record()))
                                  .optional("firmware_fit",
                                            "The machine's report of its own fit.",
                                            &MeasuredBelts::firmware_fit,
-                                           object(firmware_fit_record()));
+                                           firmware_fit_record());
   return record;
 }
 

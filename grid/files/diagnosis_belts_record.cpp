@@ -21,101 +21,87 @@ using diagnosis::ToolError;
 constexpr Range kPerMetre{"mm a metre", 0.0, 1e4};
 constexpr int kMostVisits = 1000000000;
 
-const Record<DiagnosedCoordinate>& diagnosed_coordinate_record() {
-  static const auto record =
-      Record<DiagnosedCoordinate>("a coordinate of an anchor with causes")
-          .required("coordinate",
-                    "Which coordinate of which anchor.",
-                    &DiagnosedCoordinate::name,
-                    one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
-          .optional("stated_mm",
-                    "Value in the belts' file.",
-                    &DiagnosedCoordinate::stated_mm,
-                    number(kMillimetres))
-          .required("before_mm",
-                    "Fitted with the anchors alone.",
-                    &DiagnosedCoordinate::before_mm,
-                    number(kMillimetres))
-          .required("fitted_mm",
-                    "Fitted with the named causes.",
-                    &DiagnosedCoordinate::fitted_mm,
-                    number(kMillimetres))
-          .required("sigma_mm",
-                    "Uncertainty of that, 1 sigma.",
-                    &DiagnosedCoordinate::sigma_mm,
-                    number(kSigmaMm));
-  return record;
+Record<DiagnosedCoordinate> diagnosed_coordinate_record() {
+  return Record<DiagnosedCoordinate>("a coordinate of an anchor with causes")
+      .required("coordinate",
+                "Which coordinate of which anchor.",
+                &DiagnosedCoordinate::name,
+                one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
+      .optional(
+          "stated_mm", "Value in the belts' file.", &DiagnosedCoordinate::stated_mm, kMillimetres)
+      .required("before_mm",
+                "Fitted with the anchors alone.",
+                &DiagnosedCoordinate::before_mm,
+                kMillimetres)
+      .required("fitted_mm",
+                "Fitted with the named causes.",
+                &DiagnosedCoordinate::fitted_mm,
+                kMillimetres)
+      .required(
+          "sigma_mm", "Uncertainty of that, 1 sigma.", &DiagnosedCoordinate::sigma_mm, kSigmaMm);
 }
 
-const Record<BeltPlacePicture>& belt_place_record() {
-  static const auto record = [] {
-    Record<BeltPlacePicture> place("a place with its belts");
-    using model::FramePoint;
-    place
-        .required("x_mm",
-                  "x of the tool in the anchors' frame, with the causes.",
-                  path(&BeltPlacePicture::at, &FramePoint::x_mm),
-                  number(kMillimetres))
-        .required("y_mm",
-                  "y of the tool in the anchors' frame, up, with the causes.",
-                  path(&BeltPlacePicture::at, &FramePoint::y_mm),
-                  number(kMillimetres));
-    place
-        .optional("order",
-                  "Number of the visit.",
-                  &BeltPlacePicture::order,
-                  integer(-kMostVisits, kMostVisits))
-        .required("before_mm",
-                  "Reading minus fitted value of each belt, with the anchors alone.",
-                  &BeltPlacePicture::before_mm,
-                  object(per_belt_record<double>(number(kAnyNumber))))
-        .required("after_mm",
-                  "The same with the causes.",
-                  &BeltPlacePicture::after_mm,
-                  object(per_belt_record<double>(number(kAnyNumber))))
-        .required("bad",
-                  "True if the reading was left out.",
-                  &BeltPlacePicture::bad,
-                  object(per_belt_record<bool>(boolean())));
-    return place;
-  }();
-  return record;
+Record<BeltPlacePicture> belt_place_record() {
+  Record<BeltPlacePicture> place("a place with its belts");
+  using model::FramePoint;
+  place
+      .required("x_mm",
+                "x of the tool in the anchors' frame, with the causes.",
+                path(&BeltPlacePicture::at, &FramePoint::x_mm),
+                kMillimetres)
+      .required("y_mm",
+                "y of the tool in the anchors' frame, up, with the causes.",
+                path(&BeltPlacePicture::at, &FramePoint::y_mm),
+                kMillimetres);
+  place
+      .optional("order",
+                "Number of the visit.",
+                &BeltPlacePicture::order,
+                integer(-kMostVisits, kMostVisits))
+      .required("before_mm",
+                "Reading minus fitted value of each belt, with the anchors alone.",
+                &BeltPlacePicture::before_mm,
+                per_belt_record<double>(number(kAnyNumber)))
+      .required("after_mm",
+                "The same with the causes.",
+                &BeltPlacePicture::after_mm,
+                per_belt_record<double>(number(kAnyNumber)))
+      .required("bad",
+                "True if the reading was left out.",
+                &BeltPlacePicture::bad,
+                per_belt_record<bool>(boolean()));
+  return place;
 }
 
-const Record<ToolError>& tool_record() {
-  static const auto record =
-      Record<ToolError>("the tool's error")
-          .optional("stated_mm",
-                    "Rms over the measured places with the anchors in force, including the "
-                    "uncertainty from the readings; 0 if no anchors are in force.",
-                    &ToolError::stated_mm,
-                    number(kSigmaMm))
-          .required("before_mm",
-                    "The same with the anchors fitted alone.",
-                    &ToolError::before_mm,
-                    number(kSigmaMm))
-          .required("after_mm",
-                    "Uncertainty from the readings, with the causes.",
-                    &ToolError::after_mm,
-                    number(kSigmaMm))
-          .optional("scale_mm_per_m",
-                    "Uncertainty of a metre, 1 sigma, if a tape determines the scale.",
-                    &ToolError::scale_mm_per_m,
-                    number(kPerMetre));
-  return record;
+Record<ToolError> tool_record() {
+  return Record<ToolError>("the tool's error")
+      .optional("stated_mm",
+                "Rms over the measured places with the anchors in force, including the "
+                "uncertainty from the readings; 0 if no anchors are in force.",
+                &ToolError::stated_mm,
+                kSigmaMm)
+      .required(
+          "before_mm", "The same with the anchors fitted alone.", &ToolError::before_mm, kSigmaMm)
+      .required("after_mm",
+                "Uncertainty from the readings, with the causes.",
+                &ToolError::after_mm,
+                kSigmaMm)
+      .optional("scale_mm_per_m",
+                "Uncertainty of a metre, 1 sigma, if a tape determines the scale.",
+                &ToolError::scale_mm_per_m,
+                kPerMetre);
 }
 
-const Record<SecondPass>& second_pass_record() {
-  static const auto record = Record<SecondPass>("a second pass")
-                                 .required("times",
-                                           "Tension relative to the first pass.",
-                                           &SecondPass::times,
-                                           number({"", 1.0, 100.0}))
-                                 .required("raises_probability_to",
-                                           "Probability of a single right name afterwards.",
-                                           &SecondPass::raises_probability_to,
-                                           number(kShare));
-  return record;
+Record<SecondPass> second_pass_record() {
+  return Record<SecondPass>("a second pass")
+      .required("times",
+                "Tension relative to the first pass.",
+                &SecondPass::times,
+                number({"", 1.0, 100.0}))
+      .required("raises_probability_to",
+                "Probability of a single right name afterwards.",
+                &SecondPass::raises_probability_to,
+                kShare);
 }
 
 }  // namespace
@@ -127,7 +113,7 @@ const Record<BeltsFindings>& belts_findings_record() {
         .required("machine",
                   "The machine, with anchors fitted together with the causes.",
                   &BeltsFindings::machine,
-                  object(belt_machine_record()))
+                  belt_machine_record())
         .required("coordinates",
                   "The five free coordinates of the frame.",
                   &BeltsFindings::coordinates,
@@ -135,16 +121,14 @@ const Record<BeltsFindings>& belts_findings_record() {
         .required("spread_before_mm",
                   "Rms of one belt's reading over the checks, anchors alone.",
                   &BeltsFindings::spread_before_mm,
-                  number(kSigmaMm))
-        .required("spread_mm",
-                  "The same with the causes.",
-                  &BeltsFindings::residual_sigma_mm,
-                  number(kSigmaMm))
+                  kSigmaMm)
+        .required(
+            "spread_mm", "The same with the causes.", &BeltsFindings::residual_sigma_mm, kSigmaMm)
         .required("rms_before_mm",
                   "Rms over all readings, as in the machine's own message; anchors alone.",
                   &BeltsFindings::rms_before_mm,
-                  number(kSigmaMm))
-        .required("rms_mm", "The same with the causes.", &BeltsFindings::rms_mm, number(kSigmaMm))
+                  kSigmaMm)
+        .required("rms_mm", "The same with the causes.", &BeltsFindings::rms_mm, kSigmaMm)
         .required("checks",
                   "Readings minus unknowns, which include the sizes of causes.",
                   &BeltsFindings::checks,
@@ -153,32 +137,32 @@ const Record<BeltsFindings>& belts_findings_record() {
                   "Lower belts predicted from the upper two, each half of the places from the "
                   "other; anchors alone.",
                   &BeltsFindings::prediction_before,
-                  object(prediction_record()))
+                  prediction_record())
         .optional("foretold",
                   "The same with the causes, their sizes fitted to each half.",
                   &BeltsFindings::prediction,
-                  object(prediction_record()))
+                  prediction_record())
         .required("tool",
                   "Error of the tool, with free position and rotation of the frame.",
                   &BeltsFindings::tool,
-                  object(tool_record()))
+                  tool_record())
         .optional("scale",
                   "True length divided by the belts' length, if a tape determines it.",
                   &BeltsFindings::scale,
-                  object(scale_record()))
+                  scale_record())
         .optional("firmware_fit",
                   "The machine's report of its own fit.",
                   &BeltsFindings::firmware_fit,
-                  object(firmware_fit_record()))
+                  firmware_fit_record())
         .optional("second_pass",
                   "All places measured again with more tension, if that separates causes that "
                   "nothing less separates.",
                   &BeltsFindings::second_pass,
-                  object(second_pass_record()))
+                  second_pass_record())
         .required("places",
                   "Each place, in the order of the file.",
                   &BeltsFindings::places,
-                  list(object(belt_place_record())));
+                  list(belt_place_record()));
     return found;
   }();
   return record;

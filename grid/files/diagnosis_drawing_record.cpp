@@ -12,38 +12,28 @@ using diagnosis::DrawingFindings;
 using diagnosis::DrawnSetting;
 using diagnosis::DrawnValue;
 
-const Record<DrawnSetting>& drawn_setting_record() {
-  static const auto record =
-      Record<DrawnSetting>("a setting of a plotter")
-          .required("name", "Name of the parameter, with its unit.", &DrawnSetting::name, text())
-          .required("set", "Value in the controller.", &DrawnSetting::set, number(kAnyNumber))
-          .required("found",
-                    "Value estimated from the drawing together with the named causes.",
-                    &DrawnSetting::found,
-                    number(kAnyNumber))
-          .required(
-              "sigma", "Uncertainty of that, 1 sigma.", &DrawnSetting::sigma, number(kNotNegative))
-          .required("off",
-                    "True if the two differ by more than three sigmas.",
-                    &DrawnSetting::off,
-                    boolean());
-  return record;
+Record<DrawnSetting> drawn_setting_record() {
+  return Record<DrawnSetting>("a setting of a plotter")
+      .required("name", "Name of the parameter, with its unit.", &DrawnSetting::name)
+      .required("set", "Value in the controller.", &DrawnSetting::set, kAnyNumber)
+      .required("found",
+                "Value estimated from the drawing together with the named causes.",
+                &DrawnSetting::found,
+                kAnyNumber)
+      .required("sigma", "Uncertainty of that, 1 sigma.", &DrawnSetting::sigma, kNotNegative)
+      .required("off", "True if the two differ by more than three sigmas.", &DrawnSetting::off);
 }
 
-const Record<DrawnValue>& drawn_value_record() {
-  static const auto record =
-      Record<DrawnValue>("a measure of a drawing")
-          .required("name", "The length or the bow, by its crosses.", &DrawnValue::name, text())
-          .required("measured_mm", "The reading.", &DrawnValue::measured_mm, number(kAnyNumber))
-          .required("explained_mm",
-                    "The value predicted by the estimated settings and the named causes.",
-                    &DrawnValue::explained_mm,
-                    number(kAnyNumber))
-          .required("rejected",
-                    "True if it contradicts the others and was left out.",
-                    &DrawnValue::rejected,
-                    boolean());
-  return record;
+Record<DrawnValue> drawn_value_record() {
+  return Record<DrawnValue>("a measure of a drawing")
+      .required("name", "The length or the bow, by its crosses.", &DrawnValue::name)
+      .required("measured_mm", "The reading.", &DrawnValue::measured_mm, kAnyNumber)
+      .required("explained_mm",
+                "The value predicted by the estimated settings and the named causes.",
+                &DrawnValue::explained_mm,
+                kAnyNumber)
+      .required(
+          "rejected", "True if it contradicts the others and was left out.", &DrawnValue::rejected);
 }
 
 void take_cause_of_cords(CauseId& cause) {
@@ -57,15 +47,15 @@ void take_cause_of_cords(CauseId& cause) {
 const Record<DrawingFindings>& drawing_findings_record() {
   static const auto record =
       Record<DrawingFindings>("what a drawing tells")
-          .required("plotter", "Name of the plotter.", &DrawingFindings::plotter, text())
+          .required("plotter", "Name of the plotter.", &DrawingFindings::plotter)
           .required("settings",
                     "All settings of the controller.",
                     &DrawingFindings::settings,
-                    list(object(drawn_setting_record())))
+                    list(drawn_setting_record()))
           .required("measures",
                     "The measures of the drawing, in order.",
                     &DrawingFindings::measures,
-                    list(object(drawn_value_record())));
+                    list(drawn_value_record()));
   return record;
 }
 

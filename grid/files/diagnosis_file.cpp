@@ -23,79 +23,61 @@ using diagnosis::Outlier;
 using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
-const Record<StatedNoise>& stated_noise_record() {
-  static const auto record = Record<StatedNoise>("the noise as it was said")
-                                 .required("length_mm",
-                                           "Noise of a chain reading, 1 sigma.",
-                                           &StatedNoise::length_mm,
-                                           number(kNotNegative))
-                                 .required("position_mm",
-                                           "Noise of a mark's position, 1 sigma on each axis.",
-                                           &StatedNoise::position_mm,
-                                           number(kNotNegative))
-                                 .required("dof",
-                                           "How well that is known, in degrees of freedom.",
-                                           &StatedNoise::dof,
-                                           number(kNotNegative));
-  return record;
+Record<StatedNoise> stated_noise_record() {
+  return Record<StatedNoise>("the noise as it was said")
+      .required(
+          "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNotNegative)
+      .required("position_mm",
+                "Noise of a mark's position, 1 sigma on each axis.",
+                &StatedNoise::position_mm,
+                kNotNegative)
+      .required(
+          "dof", "How well that is known, in degrees of freedom.", &StatedNoise::dof, kNotNegative);
 }
 
-const Record<VisitingOrder>& line_order_record() {
-  static const auto record =
-      Record<VisitingOrder>("an order of visits line by line")
-          .required(
-              "rows", "True: row by row. False: column by column.", &VisitingOrder::rows, boolean())
-          .required("serpentine",
-                    "True if every second line was driven in the opposite direction.",
-                    &VisitingOrder::serpentine,
-                    boolean())
-          .required("from_right",
-                    "True if the first mark is on the right.",
-                    &VisitingOrder::from_right,
-                    boolean())
-          .required("from_below",
-                    "True if the first mark is at the bottom.",
-                    &VisitingOrder::from_below,
-                    boolean());
-  return record;
+Record<VisitingOrder> line_order_record() {
+  return Record<VisitingOrder>("an order of visits line by line")
+      .required("rows", "True: row by row. False: column by column.", &VisitingOrder::rows)
+      .required("serpentine",
+                "True if every second line was driven in the opposite direction.",
+                &VisitingOrder::serpentine)
+      .required("from_right", "True if the first mark is on the right.", &VisitingOrder::from_right)
+      .required(
+          "from_below", "True if the first mark is at the bottom.", &VisitingOrder::from_below);
 }
 
-const Record<diagnosis::VisitingOrderFound>& visiting_order_record() {
+Record<diagnosis::VisitingOrderFound> visiting_order_record() {
   using Found = diagnosis::VisitingOrderFound;
-  static const auto record =
-      Record<Found>("an order of visits that was found")
-          .required("order",
-                    "The most probable of the sixteen orders line by line.",
-                    &Found::order,
-                    object(line_order_record()))
-          .required("corner_known",
-                    "False: the readings determine the lines and the direction along them, not the "
-                    "corner; the probability is for any corner.",
-                    &Found::corner_known,
-                    boolean())
-          .required("probability",
-                    "Probability that the marks were visited in this order and the readings depend "
-                    "on it.",
-                    &Found::probability,
-                    number(kShare));
-  return record;
+  return Record<Found>("an order of visits that was found")
+      .required("order",
+                "The most probable of the sixteen orders line by line.",
+                &Found::order,
+                line_order_record())
+      .required("corner_known",
+                "False: the readings determine the lines and the direction along them, not the "
+                "corner; the probability is for any corner.",
+                &Found::corner_known)
+      .required("probability",
+                "Probability that the marks were visited in this order and the readings depend "
+                "on it.",
+                &Found::probability,
+                kShare);
 }
 
-const Record<StatedTape>& stated_tape_record() {
-  static const auto record = Record<StatedTape>("the noise of holes and a tape as it was said")
-                                 .required("tape_sigma_mm",
-                                           "Noise of a tape reading, 1 sigma.",
-                                           &StatedTape::tape_sigma_mm,
-                                           number(kNotNegative))
-                                 .required("hole_sigma_mm",
-                                           "Error of a hole's position, 1 sigma on each axis.",
-                                           &StatedTape::hole_sigma_mm,
-                                           number(kNotNegative))
-                                 .required("dof",
-                                           "How well these are known, in degrees of freedom.",
-                                           &StatedTape::dof,
-                                           number(kNotNegative));
-  return record;
+Record<StatedTape> stated_tape_record() {
+  return Record<StatedTape>("the noise of holes and a tape as it was said")
+      .required("tape_sigma_mm",
+                "Noise of a tape reading, 1 sigma.",
+                &StatedTape::tape_sigma_mm,
+                kNotNegative)
+      .required("hole_sigma_mm",
+                "Error of a hole's position, 1 sigma on each axis.",
+                &StatedTape::hole_sigma_mm,
+                kNotNegative)
+      .required("dof",
+                "How well these are known, in degrees of freedom.",
+                &StatedTape::dof,
+                kNotNegative);
 }
 
 /// The displacement that explains a bad point; or the residual of a bad distance or belt.
@@ -114,16 +96,16 @@ const Record<Shift>& shift_record() {
           .optional("x_mm",
                     "x that its tool would need to have had, minus the x written down.",
                     &Shift::x_mm,
-                    number(kMillimetres))
+                    kMillimetres)
           .optional("y_mm",
                     "y that its tool would need to have had, minus the y written down.",
                     &Shift::y_mm,
-                    number(kMillimetres))
+                    kMillimetres)
           .optional("off_mm",
                     "For a distance: how much too long it was read.",
                     &Shift::residual_mm,
-                    number(kMillimetres))
-          .required("sigmas", "The same in sigmas.", &Shift::sigmas, number(kNotNegative))
+                    kMillimetres)
+          .required("sigmas", "The same in sigmas.", &Shift::sigmas, kNotNegative)
           .optional("belt",
                     "For belts: the belt that is off; absent: the whole place.",
                     &Shift::belt,
@@ -232,26 +214,23 @@ void distance_keys(Record<Diagnosis>& record) {
             return object.observations == Observations::points ? std::nullopt
                                                                : std::optional(object.observations);
           })
-      .sparse("holes",
-              "The holes, for pictures.",
-              &Diagnosis::holes,
-              list(object(hole_picture_record())))
+      .sparse("holes", "The holes, for pictures.", &Diagnosis::holes, list(hole_picture_record()))
       .sparse("distances",
               "The distances, for pictures.",
               &Diagnosis::distances,
-              list(object(distance_picture_record())))
+              list(distance_picture_record()))
       .optional("stated_tape",
                 "The given noise of holes and tape.",
                 &Diagnosis::stated_tape,
-                object(stated_tape_record()))
+                stated_tape_record())
       .optional("belts",
                 "Results for four belts, if these were diagnosed.",
                 &Diagnosis::belts,
-                object(belts_findings_record()))
+                belts_findings_record())
       .optional("drawing",
                 "Results for a V-plotter's test drawing, if that was diagnosed.",
                 &Diagnosis::drawing,
-                object(drawing_findings_record()));
+                drawing_findings_record());
 }
 
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
@@ -288,68 +267,67 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
 Record<Diagnosis> make_diagnosis_record() {
   Record<Diagnosis> record("a diagnosis", kDiagnosisFormat);
   record.required("verdict", "Kind of answer.", &Diagnosis::verdict, verdict_word())
-      .required("sentence", "The answer.", &Diagnosis::sentence, text())
+      .required("sentence", "The answer.", &Diagnosis::sentence)
       .required(
           "what_to_do", "What to do now, most urgent first.", &Diagnosis::what_to_do, list(text()))
-      .required("not_proved", "What the answer does not prove.", &Diagnosis::not_proved, text())
+      .required("not_proved", "What the answer does not prove.", &Diagnosis::not_proved)
       .required("notes", "Further notes for the reader.", &Diagnosis::notes, list(text()))
       .required(
           "causes",
           "The named cause; or the set, most probable first; or the causes that act together.",
           &Diagnosis::causes,
-          list(object(cause_record())))
+          list(cause_record()))
       .required("hypotheses",
                 "Every explanation with its probability, most probable first.",
                 &Diagnosis::hypotheses,
-                list(object(hypothesis_record())))
+                list(hypothesis_record()))
       .required("left_over",
                 "What remains after the causes are removed.",
                 &Diagnosis::left_over,
-                object(left_over_record()))
+                left_over_record())
       .optional("tool_today",
                 "Error of the machine as it is used today, over the measured part: the first "
                 "number of a fit, at least the effect of a claimed law at the points. Absent for "
                 "belts and if no map can be made.",
                 &Diagnosis::tool_today,
-                object(error_summary_record()))
+                error_summary_record())
       .optional("visiting_order",
                 "The order of the visits, if it was not recorded and the readings determine it: "
                 "the causes are for this order. Absent otherwise.",
                 &Diagnosis::visiting_order,
-                object(visiting_order_record()))
+                visiting_order_record())
       .optional("unexplained",
                 "What remains besides the causes.",
                 &Diagnosis::unexplained,
-                object(unexplained_record()))
-      .optional(
-          "budget", "Breakdown of the error.", &Diagnosis::budget, object(error_budget_record()));
+                unexplained_record())
+      .optional("budget", "Breakdown of the error.", &Diagnosis::budget, error_budget_record());
   outlier_keys(record);
   record
       .required("not_testable",
                 "Effects that these data cannot test.",
                 &Diagnosis::not_testable,
-                list(object(not_testable_record())))
+                list(not_testable_record()))
       .required("bounds",
                 "Upper limits for causes that were not found.",
                 &Diagnosis::bounds,
-                list(object(bound_record())))
+                list(bound_record()))
       .sparse("declared",
               "What these readings show about each declared effect of the machine's file; absent "
               "if there is none.",
               &Diagnosis::declared,
-              list(object(declared_answer_record())))
+              list(declared_answer_record()))
       .required("settings",
                 "The machine's numbers, as in its file and calibrated.",
                 &Diagnosis::settings,
-                list(object(calibrated_setting_record())))
+                list(calibrated_setting_record()))
       .optional("gain",
                 "Improvement by the cause at points that it was not fitted to.",
                 &Diagnosis::improvement,
-                object(improvement_record()))
+                improvement_record())
       .required("next_measurements",
                 "What to measure next, most informative first.",
                 &Diagnosis::next_measurements,
-                list(object(next_measurement_record())))
+                list(next_measurement_record()))
       .custom(
           "extended_machine",
           "The machine with what was found.",
@@ -369,42 +347,35 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("data_corrections",
                 "Effects on the data (a tape's scale), not on the machine.",
                 &Diagnosis::data_corrections,
-                list(object(effect_record())))
+                list(effect_record()))
       .required("noise_factor",
                 "Estimated noise divided by the given noise.",
                 &Diagnosis::noise_factor,
-                number(kNotNegative))
+                kNotNegative)
       .required("family_wise_p",
                 "How often noise alone lets any effect look as strong.",
                 &Diagnosis::family_wise_p,
-                number(kShare))
-      .required("points",
-                "The points, for pictures.",
-                &Diagnosis::points,
-                list(object(point_picture_record())))
+                kShare)
+      .required(
+          "points", "The points, for pictures.", &Diagnosis::points, list(point_picture_record()))
       .required("seed", "Seed of the draws for significance.", &Diagnosis::seed, seed_number())
-      .required("grid_name", "Name of the grid.", &Diagnosis::grid_name, text())
-      .optional("stated_noise",
-                "The given noise.",
-                &Diagnosis::stated_noise,
-                object(stated_noise_record()))
+      .required("grid_name", "Name of the grid.", &Diagnosis::grid_name)
+      .optional("stated_noise", "The given noise.", &Diagnosis::stated_noise, stated_noise_record())
       .optional("stability",
                 "Whether the name survives when points are left out.",
                 &Diagnosis::stability,
-                object(stability_record()))
+                stability_record())
       .sparse("bed_parts",
               "Results without each quarter of the bed, over which the probabilities are averaged; "
               "absent without a pattern.",
               &Diagnosis::bed_parts,
-              list(object(bed_part_record())))
+              list(bed_part_record()))
       .sparse("sessions",
               "Results for each of several sessions; absent if nothing is named.",
               &Diagnosis::sessions,
-              list(object(session_record())))
-      .optional("held_out_grid",
-                "Another grid, predicted.",
-                &Diagnosis::transferred,
-                object(transfer_record()));
+              list(session_record()))
+      .optional(
+          "held_out_grid", "Another grid, predicted.", &Diagnosis::transferred, transfer_record());
   distance_keys(record);
   add_made_by_key(record).check(check_diagnosis);
   return record;

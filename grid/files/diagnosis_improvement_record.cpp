@@ -115,8 +115,7 @@ Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
           return held != nullptr ? std::optional<Json>(figure.write(*held)) : std::nullopt;
         });
   }
-  if (floor != nullptr)
-    record.required("noise_floor", "From noise alone.", floor, number(kSigmaMm));
+  if (floor != nullptr) record.required("noise_floor", "From noise alone.", floor, kSigmaMm);
   return record;
 }
 
@@ -136,16 +135,12 @@ void error_figures(Record<T>& record, const std::array<ErrorRow<T>, kCount>& row
 const Record<HeldOutImprovement>& improvement_record() {
   static const auto record = [] {
     Record<HeldOutImprovement> improvement("the gain");
-    improvement.required(
-        "scheme", "How points were left out.", &HeldOutImprovement::scheme, text());
+    improvement.required("scheme", "How points were left out.", &HeldOutImprovement::scheme);
     error_figures(improvement, kImprovementRows);
     improvement
-        .required("drop_mm2",
-                  "Reduction of the mean square.",
-                  &HeldOutImprovement::drop_mm2,
-                  number(kSigmaMm))
         .required(
-            "drop_share", "The same as a share.", &HeldOutImprovement::drop_share, number(kShare))
+            "drop_mm2", "Reduction of the mean square.", &HeldOutImprovement::drop_mm2, kSigmaMm)
+        .required("drop_share", "The same as a share.", &HeldOutImprovement::drop_share, kShare)
         .required("folds",
                   "Number of times that points were left out.",
                   &HeldOutImprovement::folds,
@@ -166,7 +161,7 @@ const Record<HeldOutImprovement>& improvement_record() {
 const Record<Transfer>& transfer_record() {
   static const auto record = [] {
     Record<Transfer> transfer("another grid predicted");
-    transfer.required("to", "Name of the grid.", &Transfer::to, text())
+    transfer.required("to", "Name of the grid.", &Transfer::to)
         .required("points", "Number of its points.", &Transfer::points, index_number());
     error_figures(transfer, kTransferRows);
     return transfer;

@@ -47,11 +47,11 @@ void place_keys(Record<T>& record) {
       .required("x_mm",
                 "x, to the right of the bed's middle, or of the marks' origin.",
                 path(&T::mark, &model::MarkPoint::x_mm),
-                number(kMillimetres))
+                kMillimetres)
       .required("y_mm",
                 "y, up from the bed's middle, or from the marks' origin.",
                 path(&T::mark, &model::MarkPoint::y_mm),
-                number(kMillimetres));
+                kMillimetres);
 }
 
 }  // namespace
@@ -99,16 +99,14 @@ const Record<NextMeasurement>& next_measurement_record() {
     };
     coordinate("x_mm", "x of the place.", &model::MarkPoint::x_mm);
     coordinate("y_mm", "y of the place, up.", &model::MarkPoint::y_mm);
-    next.required(
-            "sigma", "Required accuracy, 1 sigma.", &NextMeasurement::sigma, number(kNotNegative))
+    next.required("sigma", "Required accuracy, 1 sigma.", &NextMeasurement::sigma, kNotNegative)
         .required("raises_probability_to",
                   "Probability of a single right name afterwards.",
                   &NextMeasurement::raises_probability_to,
-                  number(kShare))
+                  kShare)
         .sparse("from",
                 "For a distance: the hole at one end; for belts an anchor, point or hole.",
-                &NextMeasurement::from,
-                text())
+                &NextMeasurement::from)
         .sparse("to", "The other ends.", &NextMeasurement::to, list(text()))
         .sparse("pulled",
                 "For a place of four belts: belts that a motor pulls there; default: those for the "
@@ -135,7 +133,7 @@ const Record<HolePicture>& hole_picture_record() {
   static const auto record = [] {
     Record<HolePicture> hole("a hole");
     hole.required(
-        "name", "Any word; without one the holes are numbered from 0.", &HolePicture::name, text());
+        "name", "Any word; without one the holes are numbered from 0.", &HolePicture::name);
     place_keys(hole);
     pair_key(hole,
              "commanded_mm",
@@ -152,33 +150,30 @@ const Record<DistancePicture>& distance_picture_record() {
   static const auto record =
       Record<DistancePicture>("a distance")
           .required("index", "Its number in the file.", &DistancePicture::index, index_number())
-          .required("from", "A hole's name or number.", &DistancePicture::from, text())
+          .required("from", "A hole's name or number.", &DistancePicture::from)
           .required("to",
                     "A hole's name or number, or an edge: left, right, top, bottom.",
-                    &DistancePicture::to,
-                    text())
-          .required("bad", "Left out as wrong.", &DistancePicture::bad, boolean())
-          .required("read_mm", "The tape reading.", &DistancePicture::read_mm, number(kMillimetres))
+                    &DistancePicture::to)
+          .required("bad", "Left out as wrong.", &DistancePicture::bad)
+          .required("read_mm", "The tape reading.", &DistancePicture::read_mm, kMillimetres)
           .required("before_mm",
                     "Measured minus predicted by the calibrated machine.",
                     &DistancePicture::before_mm,
-                    number(kMillimetres))
+                    kMillimetres)
           .required("after_mm",
                     "The same with the named causes.",
                     &DistancePicture::after_mm,
-                    number(kMillimetres))
+                    kMillimetres)
           .required("noise_sigma_mm",
                     "1 sigma of the noise there.",
                     &DistancePicture::noise_sigma_mm,
-                    number(kNotNegative))
-          .required("best_mm",
-                    "Effect of the named cause.",
-                    &DistancePicture::best_mm,
-                    number(kMillimetres))
+                    kNotNegative)
+          .required(
+              "best_mm", "Effect of the named cause.", &DistancePicture::best_mm, kMillimetres)
           .required("rival_mm",
                     "Effect that the rival would have.",
                     &DistancePicture::rival_mm,
-                    number(kMillimetres));
+                    kMillimetres);
   return record;
 }
 
@@ -194,7 +189,7 @@ const Record<PointPicture>& point_picture_record() {
                   "Number of the visit. Either all points have one, all different, or none has.",
                   &PointPicture::order,
                   integer(-kMostOrder, kMostOrder))
-        .required("bad", "True if it was left out as wrong.", &PointPicture::bad, boolean())
+        .required("bad", "True if it was left out as wrong.", &PointPicture::bad)
         .required("before_mm",
                   "Measured minus predicted by the calibrated machine.",
                   &PointPicture::before_mm,

@@ -46,7 +46,8 @@ Value<const Effect*> effect_word() {
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
   for (const auto table : {model::belts::belt_effects(), model::plotter::plotter_effects()}) {
     for (const Effect* effect : table)
-      if (model::effects::find_effect(effect->id) == nullptr) names.emplace_back(effect->id, effect);
+      if (model::effects::find_effect(effect->id) == nullptr)
+        names.emplace_back(effect->id, effect);
   }
   return choice<const Effect*>(std::move(names));
 }
@@ -129,11 +130,8 @@ namespace {
 const Record<ParameterEstimate>& estimate_record() {
   static const auto record =
       Record<ParameterEstimate>("a value with its sigma")
-          .required("value", "The value.", &ParameterEstimate::value, number(kAnyNumber))
-          .required("sigma",
-                    "Its uncertainty, 1 sigma.",
-                    &ParameterEstimate::sigma,
-                    number(kNotNegative));
+          .required("value", "The value.", &ParameterEstimate::value, kAnyNumber)
+          .required("sigma", "Its uncertainty, 1 sigma.", &ParameterEstimate::sigma, kNotNegative);
   return record;
 }
 
@@ -181,14 +179,11 @@ void parameter_keys(Record<T>& record) {
   });
 }
 
-const Record<SameCause>& same_cause_record() {
-  static const auto record = [] {
-    Record<SameCause> same("a cause of the same class");
-    cause_keys(same, kCause);
-    parameter_keys(same);
-    return same;
-  }();
-  return record;
+Record<SameCause> same_cause_record() {
+  Record<SameCause> same("a cause of the same class");
+  cause_keys(same, kCause);
+  parameter_keys(same);
+  return same;
 }
 
 /// The effect that is hardest to distinguish from a cause with these data.
@@ -204,7 +199,7 @@ const Record<Rival>& rival_record() {
     rival.required("rho",
                    "Collinearity of its signature with the cause's: 0 different, 1 the same.",
                    &Rival::collinearity,
-                   number(kShare));
+                   kShare);
     return rival;
   }();
   return record;
@@ -216,16 +211,16 @@ const Record<Cause>& cause_record() {
   static const auto record = [] {
     Record<Cause> cause("a cause");
     cause_keys(cause, kCause);
-    cause.required("probability", "Its probability.", &Cause::probability, number(kShare))
-        .required("delta", "Signal-to-noise ratio.", &Cause::signal_to_noise, number(kNotNegative))
+    cause.required("probability", "Its probability.", &Cause::probability, kShare)
+        .required("delta", "Signal-to-noise ratio.", &Cause::signal_to_noise, kNotNegative)
         .required("share_left",
                   "Share of its signature that the settings do not absorb.",
                   &Cause::share_left,
-                  number(kShare))
+                  kShare)
         .required("same_as",
                   "Causes that such data cannot distinguish from it, with their sizes.",
                   &Cause::same_as,
-                  list(object(same_cause_record())));
+                  list(same_cause_record()));
     parameter_keys(cause);
     cause.custom(
         "rival",
@@ -245,8 +240,7 @@ const Record<Cause>& cause_record() {
         });
     cause.required("order_assumed",
                    "It needs the order of the visits, which was not recorded.",
-                   &Cause::order_assumed,
-                   boolean());
+                   &Cause::order_assumed);
     return cause;
   }();
   return record;
@@ -259,11 +253,9 @@ const Record<Hypothesis>& hypothesis_record() {
     hypothesis.required("effect",
                         "An effect's name, or nothing, unknown, noise, bad_points; two together "
                         "are written first + second.",
-                        &Hypothesis::effect,
-                        text());
-    hypothesis.nullable("side", "Its side, or both sides equally.", &Hypothesis::side, text());
-    hypothesis.required(
-        "probability", "Its probability.", &Hypothesis::probability, number(kShare));
+                        &Hypothesis::effect);
+    hypothesis.nullable("side", "Its side, or both sides equally.", &Hypothesis::side);
+    hypothesis.required("probability", "Its probability.", &Hypothesis::probability, kShare);
     return hypothesis;
   }();
   return record;
@@ -272,16 +264,13 @@ const Record<Hypothesis>& hypothesis_record() {
 const Record<LeftOver>& left_over_record() {
   static const auto record = [] {
     Record<LeftOver> left("what is left over");
-    left.required(
-        "delta", "Signal-to-noise ratio.", &LeftOver::signal_to_noise, number(kNotNegative));
+    left.required("delta", "Signal-to-noise ratio.", &LeftOver::signal_to_noise, kNotNegative);
     left.nullable(
         "follows",
         "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.",
-        &LeftOver::follows,
-        text());
-    left.required("share", "Share of the whole.", &LeftOver::share, number(kShare))
-        .required(
-            "p_value", "How often noise alone gives as much.", &LeftOver::p_value, number(kShare));
+        &LeftOver::follows);
+    left.required("share", "Share of the whole.", &LeftOver::share, kShare)
+        .required("p_value", "How often noise alone gives as much.", &LeftOver::p_value, kShare);
     return left;
   }();
   return record;
@@ -291,7 +280,7 @@ const Record<NotTestable>& not_testable_record() {
   static const auto record = [] {
     Record<NotTestable> not_testable("an effect that could not be tested");
     cause_keys(not_testable, kCause);
-    not_testable.required("reason", "The reason.", &NotTestable::reason, text());
+    not_testable.required("reason", "The reason.", &NotTestable::reason);
     return not_testable;
   }();
   return record;
@@ -301,11 +290,8 @@ const Record<Bound>& bound_record() {
   static const auto record = [] {
     Record<Bound> bound("a bound");
     cause_keys(bound, kCause);
-    bound.required("parameter", "The parameter of the effect.", &Bound::parameter, text())
-        .required("upper_95",
-                  "Upper limit with 95 % probability.",
-                  &Bound::upper_95,
-                  number(kNotNegative));
+    bound.required("parameter", "The parameter of the effect.", &Bound::parameter)
+        .required("upper_95", "Upper limit with 95 % probability.", &Bound::upper_95, kNotNegative);
     return bound;
   }();
   return record;
@@ -326,10 +312,7 @@ const Record<DeclaredAnswer>& declared_answer_record() {
             "at its declared size; open: neither; not_testable: these readings cannot show it.",
             &DeclaredAnswer::says,
             choice<Says>(std::move(words)))
-        .required("probability",
-                  "Probability that it acts.",
-                  &DeclaredAnswer::probability,
-                  number(kShare));
+        .required("probability", "Probability that it acts.", &DeclaredAnswer::probability, kShare);
     return answer;
   }();
   return record;
@@ -339,24 +322,19 @@ const Record<CalibratedSetting>& calibrated_setting_record() {
   static const auto record =
       Record<CalibratedSetting>("a setting")
           .required("setting", "Name of the setting.", &CalibratedSetting::setting, setting_word())
-          .required("stated",
-                    "Value in the machine file.",
-                    &CalibratedSetting::stated,
-                    number(kAnyNumber))
+          .required("stated", "Value in the machine file.", &CalibratedSetting::stated, kAnyNumber)
           .required("stated_sigma",
                     "Its uncertainty there, 1 sigma.",
                     &CalibratedSetting::stated_sigma,
-                    number(kNotNegative))
-          .required(
-              "calibrated", "Calibrated value.", &CalibratedSetting::calibrated, number(kAnyNumber))
+                    kNotNegative)
+          .required("calibrated", "Calibrated value.", &CalibratedSetting::calibrated, kAnyNumber)
           .required("sigma",
                     "Uncertainty of the calibrated value, 1 sigma.",
                     &CalibratedSetting::sigma,
-                    number(kNotNegative))
+                    kNotNegative)
           .required("off",
                     "True if it differs by more than its uncertainty allows.",
-                    &CalibratedSetting::off,
-                    boolean());
+                    &CalibratedSetting::off);
   return record;
 }
 

@@ -76,62 +76,54 @@ void line_key(Record<Removal>& record) {
       });
 }
 
-const Record<Removal>& removal_record() {
-  static const auto record = [] {
-    Record<Removal> removal("points left out");
-    removal.required("what",
-                     "What was left out.",
-                     &Removal::what,
-                     choice<Removal::What>({{"point", Removal::What::point},
-                                            {"column", Removal::What::column},
-                                            {"row", Removal::What::row},
-                                            {"distance", Removal::What::distance},
-                                            {"hole", Removal::What::hole}}));
-    for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
-    line_key(removal);
-    removal
-        .required("points", "Number of points left out with it.", &Removal::points, index_number(1))
-        .required("verdict", "Verdict without it.", &Removal::verdict, verdict_word())
-        .required(
-            "causes", "Causes named without it.", &Removal::causes, list(object(cause_id_record())))
-        .required("stands", "True if the answer is the same.", &Removal::stands, boolean())
-        .required("probability",
-                  "Probability of the name without it.",
-                  &Removal::probability,
-                  number(kShare))
-        .required("support",
-                  "Share of the log evidence that depends on it, in natural logarithms.",
-                  &Removal::support,
-                  number(kAnyNumber))
-        .check([](const Cursor& at, Removal& object) {
-          if (!at.clean() || !at.has("what")) return;
-          const char* key = "at_mm";
-          const char* expected = "a number in mm";
-          for (const Numbered& numbered : kNumbered) {
-            if (numbered.what != object.what) continue;
-            key = numbered.key;
-            expected = numbered.expected;
-          }
-          const Cursor place = at.child(key);
-          if (place.json().is_null()) place.missing(expected);
-        });
-    return removal;
-  }();
-  return record;
+Record<Removal> removal_record() {
+  Record<Removal> removal("points left out");
+  removal.required("what",
+                   "What was left out.",
+                   &Removal::what,
+                   choice<Removal::What>({{"point", Removal::What::point},
+                                          {"column", Removal::What::column},
+                                          {"row", Removal::What::row},
+                                          {"distance", Removal::What::distance},
+                                          {"hole", Removal::What::hole}}));
+  for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
+  line_key(removal);
+  removal
+      .required("points", "Number of points left out with it.", &Removal::points, index_number(1))
+      .required("verdict", "Verdict without it.", &Removal::verdict, verdict_word())
+      .required("causes", "Causes named without it.", &Removal::causes, list(cause_id_record()))
+      .required("stands", "True if the answer is the same.", &Removal::stands)
+      .required("probability", "Probability of the name without it.", &Removal::probability, kShare)
+      .required("support",
+                "Share of the log evidence that depends on it, in natural logarithms.",
+                &Removal::support,
+                kAnyNumber)
+      .check([](const Cursor& at, Removal& object) {
+        if (!at.clean() || !at.has("what")) return;
+        const char* key = "at_mm";
+        const char* expected = "a number in mm";
+        for (const Numbered& numbered : kNumbered) {
+          if (numbered.what != object.what) continue;
+          key = numbered.key;
+          expected = numbered.expected;
+        }
+        const Cursor place = at.child(key);
+        if (place.json().is_null()) place.missing(expected);
+      });
+  return removal;
 }
 
 }  // namespace
 
 const Record<Stability>& stability_record() {
-  static const auto record = Record<Stability>("whether the name stands")
-                                 .required("probability",
-                                           "Smallest probability of the name.",
-                                           &Stability::probability,
-                                           number(kShare))
-                                 .required("removals",
-                                           "What was left out, one at a time.",
-                                           &Stability::removals,
-                                           list(object(removal_record())));
+  static const auto record =
+      Record<Stability>("whether the name stands")
+          .required(
+              "probability", "Smallest probability of the name.", &Stability::probability, kShare)
+          .required("removals",
+                    "What was left out, one at a time.",
+                    &Stability::removals,
+                    list(removal_record()));
   return record;
 }
 
@@ -139,8 +131,8 @@ namespace {
 
 void part_keys(Record<PartFinding>& part, const char* leading, const char* named) {
   part.required("units", "Number of readings in it.", &PartFinding::units, index_number())
-      .required("leading", leading, &PartFinding::likeliest, object(hypothesis_record()))
-      .required("named", named, &PartFinding::named, list(object(hypothesis_record())));
+      .required("leading", leading, &PartFinding::likeliest, hypothesis_record())
+      .required("named", named, &PartFinding::named, list(hypothesis_record()));
 }
 
 }  // namespace
@@ -151,7 +143,7 @@ const Record<PartFinding>& bed_part_record() {
     part.required("towards_rad",
                   "Direction of the quarter from the middle of the readings; from x towards y.",
                   &PartFinding::towards_rad,
-                  number(kAnyNumber));
+                  kAnyNumber);
     part_keys(part,
               "Most probable cause without it; nothing if none is more likely than not.",
               "The named causes, with their probabilities without it.");
@@ -163,7 +155,7 @@ const Record<PartFinding>& bed_part_record() {
 const Record<PartFinding>& session_record() {
   static const auto record = [] {
     Record<PartFinding> part("the probabilities of a session by itself");
-    part.required("session", "The file.", &PartFinding::session, text());
+    part.required("session", "The file.", &PartFinding::session);
     part_keys(
         part,
         "Most probable cause for its readings alone; nothing if none is more likely than not.",

@@ -36,19 +36,17 @@ struct DrawingInFile {
   std::vector<MeasureInFile> measures;
 };
 
-const Record<CrossInFile>& cross_record() {
-  static const auto record =
-      Record<CrossInFile>("a drawn cross")
-          .required("name", "Its name on the sheet.", &CrossInFile::name, text())
-          .required("x_mm",
-                    "Commanded x, to the right of the middle between the pins.",
-                    &CrossInFile::x_mm,
-                    number(kPlaceMm))
-          .required("y_mm",
-                    "Commanded y, up from the pins, so negative below them.",
-                    &CrossInFile::y_mm,
-                    number(kPlaceMm));
-  return record;
+Record<CrossInFile> cross_record() {
+  return Record<CrossInFile>("a drawn cross")
+      .required("name", "Its name on the sheet.", &CrossInFile::name)
+      .required("x_mm",
+                "Commanded x, to the right of the middle between the pins.",
+                &CrossInFile::x_mm,
+                kPlaceMm)
+      .required("y_mm",
+                "Commanded y, up from the pins, so negative below them.",
+                &CrossInFile::y_mm,
+                kPlaceMm);
 }
 
 void check_middle(const Cursor& at, MeasureInFile& measure) {
@@ -60,33 +58,28 @@ void check_middle(const Cursor& at, MeasureInFile& measure) {
     at.child("middle").expect("to be left out: a length has two ends alone");
 }
 
-const Record<MeasureInFile>& measure_record() {
+Record<MeasureInFile> measure_record() {
   using Kind = DrawnMeasure::Kind;
   using Measure = MeasureInFile;
-  static const auto record =
-      Record<Measure>("a measure on a drawing")
-          .required("kind",
-                    "A length between two crosses, or the bow of a line.",
-                    &Measure::kind,
-                    choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
-          .required("from", "The first cross.", &Measure::from, text())
-          .required("to", "The last cross.", &Measure::to, text())
-          .sparse("middle",
-                  "For a bow: the cross on the line at which it was measured.",
-                  &Measure::middle,
-                  text())
-          .nullable(
-              "value_mm",
-              "The reading; null: not measured. A bow is positive if the line is on the left, "
-              "looking from its first cross to its last.",
-              &Measure::value_mm,
-              number(kPlaceMm))
-          .optional("sigma_mm",
-                    "Noise of the reading, 1 sigma.",
-                    &Measure::sigma_mm,
-                    number({"mm", 0.01, 50.0}))
-          .check(check_middle);
-  return record;
+  return Record<Measure>("a measure on a drawing")
+      .required("kind",
+                "A length between two crosses, or the bow of a line.",
+                &Measure::kind,
+                choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
+      .required("from", "The first cross.", &Measure::from)
+      .required("to", "The last cross.", &Measure::to)
+      .sparse(
+          "middle", "For a bow: the cross on the line at which it was measured.", &Measure::middle)
+      .nullable("value_mm",
+                "The reading; null: not measured. A bow is positive if the line is on the left, "
+                "looking from its first cross to its last.",
+                &Measure::value_mm,
+                kPlaceMm)
+      .optional("sigma_mm",
+                "Noise of the reading, 1 sigma.",
+                &Measure::sigma_mm,
+                number({"mm", 0.01, 50.0}))
+      .check(check_middle);
 }
 
 bool has_cross(const DrawingInFile& drawing, const std::string& name) {
@@ -123,19 +116,17 @@ const Record<DrawingInFile>& drawing_record() {
   using Drawing = DrawingInFile;
   static const auto record =
       Record<Drawing>("a test drawing", kDrawingFormat)
-          .sparse("name", "Name of the drawing.", &Drawing::name, text())
+          .sparse("name", "Name of the drawing.", &Drawing::name)
           .required("set",
                     "The plotter with the settings in force when the page was drawn.",
                     &Drawing::set,
-                    object(set_plotter_record()))
-          .required("crosses",
-                    "The crosses of the page.",
-                    &Drawing::crosses,
-                    list(object(cross_record()), 3))
+                    set_plotter_record())
+          .required(
+              "crosses", "The crosses of the page.", &Drawing::crosses, list(cross_record(), 3))
           .required("measures",
                     "Readings of ruler and string.",
                     &Drawing::measures,
-                    list(object(measure_record())))
+                    list(measure_record()))
           .check(check_drawing);
   return record;
 }

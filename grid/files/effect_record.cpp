@@ -39,54 +39,50 @@ void check_parameter(const Cursor& at, DeclaredParameter& p) {
   if (p.meaning.empty()) p.meaning = place ? "where it sets in" : "how large it is";
 }
 
-const Record<DeclaredParameter>& parameter_record() {
-  static const auto record =
-      Record<DeclaredParameter>("a parameter of an effect")
-          .required("name",
-                    "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
-                    "per another as in mm_per_rad; any other end is a plain number.",
-                    &DeclaredParameter::name,
-                    text())
-          .sparse("symbol", "Its symbol in texts.", &DeclaredParameter::symbol, text())
-          .sparse("meaning", "What it is.", &DeclaredParameter::meaning, text())
-          .optional("role",
-                    "size: how large the effect is. place: where or when it sets in.",
-                    &DeclaredParameter::role,
-                    choice<ParameterRole>(
-                        {{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
-          .computed(
-              "null",
-              "The size at which there is no effect; default 0. A place has none.",
-              false,
-              number(kAnyNumber),
-              [](DeclaredParameter& p, double null) { p.null = null; },
-              [](const DeclaredParameter& p) {
-                return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
-              })
-          .computed(
-              "nominal",
-              "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
-              "middle of its bounds.",
-              false,
-              number(kAnyNumber),
-              [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
-              [](const DeclaredParameter& p) { return p.nominal; })
-          .required("prior_sigma",
-                    "Prior sigma of a size about null, of a place about nominal.",
-                    &DeclaredParameter::prior_sigma,
-                    number(kAnyNumber))
-          .required("lower", "The smallest value.", &DeclaredParameter::lower, number(kAnyNumber))
-          .required("upper", "The largest value.", &DeclaredParameter::upper, number(kAnyNumber))
-          .optional("whole",
-                    "It takes whole numbers only; for effects on a reading or a visit.",
-                    &DeclaredParameter::integer,
-                    boolean())
-          .optional("mirror_sign",
-                    "-1 if the mirrored machine has the negative value.",
-                    &DeclaredParameter::mirror_sign,
-                    number({"", -1.0, 1.0}))
-          .check(check_parameter);
-  return record;
+Record<DeclaredParameter> parameter_record() {
+  return Record<DeclaredParameter>("a parameter of an effect")
+      .required("name",
+                "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
+                "per another as in mm_per_rad; any other end is a plain number.",
+                &DeclaredParameter::name)
+      .sparse("symbol", "Its symbol in texts.", &DeclaredParameter::symbol)
+      .sparse("meaning", "What it is.", &DeclaredParameter::meaning)
+      .optional(
+          "role",
+          "size: how large the effect is. place: where or when it sets in.",
+          &DeclaredParameter::role,
+          choice<ParameterRole>({{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
+      .computed(
+          "null",
+          "The size at which there is no effect; default 0. A place has none.",
+          false,
+          number(kAnyNumber),
+          [](DeclaredParameter& p, double null) { p.null = null; },
+          [](const DeclaredParameter& p) {
+            return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
+          })
+      .computed(
+          "nominal",
+          "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
+          "middle of its bounds.",
+          false,
+          number(kAnyNumber),
+          [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
+          [](const DeclaredParameter& p) { return p.nominal; })
+      .required("prior_sigma",
+                "Prior sigma of a size about null, of a place about nominal.",
+                &DeclaredParameter::prior_sigma,
+                kAnyNumber)
+      .required("lower", "The smallest value.", &DeclaredParameter::lower, kAnyNumber)
+      .required("upper", "The largest value.", &DeclaredParameter::upper, kAnyNumber)
+      .optional("whole",
+                "It takes whole numbers only; for effects on a reading or a visit.",
+                &DeclaredParameter::integer)
+      .optional("mirror_sign",
+                "-1 if the mirrored machine has the negative value.",
+                &DeclaredParameter::mirror_sign,
+                number({"", -1.0, 1.0}))
+      .check(check_parameter);
 }
 
 std::string words_of_sizes(const Declaration& own) {
@@ -125,11 +121,10 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
 const Record<Declaration>& declaration_record() {
   static const auto record =
       Record<Declaration>("a declared effect", kEffectFormat)
-          .required("id", "Its name: small letters, digits and _.", &Declaration::id, text())
+          .required("id", "Its name: small letters, digits and _.", &Declaration::id)
           .sparse("instead_of",
                   "The effect of the catalogue that it replaces; default: none, it is added.",
-                  &Declaration::instead_of,
-                  text())
+                  &Declaration::instead_of)
           .required("acts_on",
                     "paper: where marks are written. chain: the length that is paid out. reading: "
                     "what is written down, by visits. visit: a single reading.",
@@ -150,30 +145,26 @@ const Record<Declaration>& declaration_record() {
           .required("parameters",
                     "Its size, followed by the place where it sets in, if it has one.",
                     &Declaration::parameters,
-                    list(object(parameter_record())))
+                    list(parameter_record()))
           .sparse("adds_mm",
                   "Formula for the amount added to a chain or a reading.",
-                  &Declaration::adds_mm,
-                  text())
-          .sparse(
-              "adds_x_mm", "Formula for the shift of a mark in x.", &Declaration::adds_x_mm, text())
-          .sparse(
-              "adds_y_mm", "Formula for the shift of a mark in y.", &Declaration::adds_y_mm, text())
+                  &Declaration::adds_mm)
+          .sparse("adds_x_mm", "Formula for the shift of a mark in x.", &Declaration::adds_x_mm)
+          .sparse("adds_y_mm", "Formula for the shift of a mark in y.", &Declaration::adds_y_mm)
           .sparse("elongation",
                   "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
                   "everything that is added.",
-                  &Declaration::elongation,
-                  text())
-          .required("cause", "The cause, in the words of a diagnosis.", &Declaration::cause, text())
-          .sparse("signature", "How it shows on the bed.", &Declaration::signature, text())
+                  &Declaration::elongation)
+          .required("cause", "The cause, in the words of a diagnosis.", &Declaration::cause)
+          .sparse("signature", "How it shows on the bed.", &Declaration::signature)
           .optional("remedy_kind",
                     "Where the remedy is applied.",
                     &Declaration::remedy_kind,
                     remedy_word())
-          .required("remedy", "What to do about it.", &Declaration::remedy, text())
-          .required("not_modelled", "What the formula omits.", &Declaration::not_modelled, text())
-          .sparse("typical", "Its usual size, in words.", &Declaration::typical, text())
-          .sparse("source", "Source of the formula.", &Declaration::source, text())
+          .required("remedy", "What to do about it.", &Declaration::remedy)
+          .required("not_modelled", "What the formula omits.", &Declaration::not_modelled)
+          .sparse("typical", "Its usual size, in words.", &Declaration::typical)
+          .sparse("source", "Source of the formula.", &Declaration::source)
           .check(check_words);
   return record;
 }

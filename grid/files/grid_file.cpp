@@ -39,37 +39,31 @@ struct StatedGrid {
   std::vector<StatedPoint> points;
 };
 
-const Record<StatedNoise>& noise_record() {
-  static const auto record =
-      Record<StatedNoise>("the noise")
-          .required("length_mm",
-                    "Noise of a chain reading, 1 sigma.",
-                    &StatedNoise::length_mm,
-                    number(kNoiseMm))
-          .required("position_mm",
-                    "Noise of a mark's position, 1 sigma on each axis.",
-                    &StatedNoise::position_mm,
-                    number(kNoiseMm))
-          .optional("dof",
-                    "How well these are known, in degrees of freedom; 15 means to about a fifth.",
-                    &StatedNoise::dof,
-                    number(kNoiseDof));
-  return record;
+Record<StatedNoise> noise_record() {
+  return Record<StatedNoise>("the noise")
+      .required(
+          "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNoiseMm)
+      .required("position_mm",
+                "Noise of a mark's position, 1 sigma on each axis.",
+                &StatedNoise::position_mm,
+                kNoiseMm)
+      .optional("dof",
+                "How well these are known, in degrees of freedom; 15 means to about a fifth.",
+                &StatedNoise::dof,
+                kNoiseDof);
 }
 
-const Record<SheetUncertainty>& sheet_uncertainty_record() {
+Record<SheetUncertainty> sheet_uncertainty_record() {
   using Sheet = SheetUncertainty;
-  static const auto record =
-      Record<Sheet>("the sheet's placement")
-          .required("shift_mm",
-                    "Uncertainty of the sheet's position, 1 sigma on each axis.",
-                    &Sheet::shift_mm,
-                    number({"mm", 0.0, 1000.0}))
-          .required("rotation_mrad",
-                    "Uncertainty of the sheet's rotation, 1 sigma.",
-                    &Sheet::rotation_mrad,
-                    number({"mrad", 0.0, 500.0}));
-  return record;
+  return Record<Sheet>("the sheet's placement")
+      .required("shift_mm",
+                "Uncertainty of the sheet's position, 1 sigma on each axis.",
+                &Sheet::shift_mm,
+                number({"mm", 0.0, 1000.0}))
+      .required("rotation_mrad",
+                "Uncertainty of the sheet's rotation, 1 sigma.",
+                &Sheet::rotation_mrad,
+                number({"mrad", 0.0, 500.0}));
 }
 
 const Record<StatedPoint>& point_record() {
@@ -79,25 +73,24 @@ const Record<StatedPoint>& point_record() {
           .required("x_mm",
                     "x of the tool. Null in a list that is not filled in yet.",
                     &Point::x_mm,
-                    number(kCoordinate))
+                    kCoordinate)
           .required("y_mm",
                     "y of the tool, up. Null in a list that is not filled in yet.",
                     &Point::y_mm,
-                    number(kCoordinate))
+                    kCoordinate)
           .optional("left_mm",
                     "Length of the left chain, as read or as commanded.",
                     &Point::left_mm,
-                    number(kLength))
+                    kLength)
           .optional("right_mm",
                     "Length of the right chain, as read or as commanded.",
                     &Point::right_mm,
-                    number(kLength))
+                    kLength)
           .optional("commanded_x_mm",
                     "Commanded x; the chain lengths are then those of the controller's kinematics.",
                     &Point::commanded_x_mm,
-                    number(kCoordinate))
-          .optional(
-              "commanded_y_mm", "Commanded y, up.", &Point::commanded_y_mm, number(kCoordinate))
+                    kCoordinate)
+          .optional("commanded_y_mm", "Commanded y, up.", &Point::commanded_y_mm, kCoordinate)
           .optional("order",
                     "Number of the visit. Either all points have one, all different, or none has.",
                     &Point::order,
@@ -147,28 +140,27 @@ void read_points(const Cursor& at, StatedGrid& grid) {
 const Record<StatedGrid>& grid_record() {
   static const auto record =
       Record<StatedGrid>("a grid", kGridFormat)
-          .optional("name", "Name of the session in messages and pages.", &StatedGrid::name, text())
+          .optional("name", "Name of the session in messages and pages.", &StatedGrid::name)
           .optional("machine",
                     "The machine with its settings in force; or machine_file.",
                     &StatedGrid::machine,
-                    object(machine_record()))
+                    machine_record())
           .sparse("machine_file",
                   "Path of the machine file, from this file.",
-                  &StatedGrid::machine_file,
-                  text())
+                  &StatedGrid::machine_file)
           .optional("noise",
                     "Noise of the readings. Missing values are estimated from repeated visits, or "
                     "assumed; none is taken below what the readings' digits leave.",
                     &StatedGrid::noise,
-                    object(noise_record()))
+                    noise_record())
           .optional("sheet",
                     "How accurately the marks' sheet was placed by hand; absent: exactly.",
                     &StatedGrid::sheet,
-                    object(sheet_uncertainty_record()))
+                    sheet_uncertainty_record())
           .sparse("readings",
                   "What was measured besides the points.",
                   &StatedGrid::readings,
-                  list(object(reading_record())))
+                  list(reading_record()))
           .custom("points",
                   "The measured points.",
                   true,

@@ -15,49 +15,45 @@
 namespace chaintrue::grid::files {
 namespace {
 
-const Record<Tape>& tape_record() {
-  static const auto record =
-      Record<Tape>("the tape")
-          .optional(
-              "sigma_mm",
-              "Noise of a tape reading, 1 sigma; not taken below what the readings' digits leave.",
-              &Tape::sigma_mm,
-              number(kTapeSigmaMm))
-          .optional("hook_offset_mm",
-                    "Amount by which each reading exceeds the distance.",
-                    &Tape::tape_zero_offset_mm,
-                    number(kTapeZeroOffsetMm))
-          .optional("hook_sigma_mm",
-                    "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
-                    &Tape::tape_zero_offset_sigma_mm,
-                    number(kHoleSigmaMm));
-  return record;
+Record<Tape> tape_record() {
+  return Record<Tape>("the tape")
+      .optional(
+          "sigma_mm",
+          "Noise of a tape reading, 1 sigma; not taken below what the readings' digits leave.",
+          &Tape::sigma_mm,
+          kTapeSigmaMm)
+      .optional("hook_offset_mm",
+                "Amount by which each reading exceeds the distance.",
+                &Tape::tape_zero_offset_mm,
+                kTapeZeroOffsetMm)
+      .optional("hook_sigma_mm",
+                "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
+                &Tape::tape_zero_offset_sigma_mm,
+                kHoleSigmaMm);
 }
 
-const Record<SheetSize>& sheet_record() {
-  static const auto record = Record<SheetSize>("the sheet")
-                                 .optional("width_mm",
-                                           "Width of the sheet, for distances to its edges.",
-                                           &SheetSize::width_mm,
-                                           number({"mm", 100.0, 20000.0}))
-                                 .optional("height_mm",
-                                           "Height of the sheet.",
-                                           &SheetSize::height_mm,
-                                           number({"mm", 100.0, 20000.0}))
-                                 .optional("size_sigma_mm",
-                                           "Uncertainty of its size, 1 sigma.",
-                                           &SheetSize::size_sigma_mm,
-                                           number({"mm", 0.0, 100.0}));
-  return record;
+Record<SheetSize> sheet_record() {
+  return Record<SheetSize>("the sheet")
+      .optional("width_mm",
+                "Width of the sheet, for distances to its edges.",
+                &SheetSize::width_mm,
+                number({"mm", 100.0, 20000.0}))
+      .optional("height_mm",
+                "Height of the sheet.",
+                &SheetSize::height_mm,
+                number({"mm", 100.0, 20000.0}))
+      .optional("size_sigma_mm",
+                "Uncertainty of its size, 1 sigma.",
+                &SheetSize::size_sigma_mm,
+                number({"mm", 0.0, 100.0}));
 }
 
 const Record<Hole>& hole_record() {
   static const auto record = [] {
     Record<Hole> hole("a hole");
-    hole.sparse(
-        "name", "Any word; without one the holes are numbered from 0.", &Hole::name, text());
+    hole.sparse("name", "Any word; without one the holes are numbered from 0.", &Hole::name);
     const auto coordinate = [&hole](const char* key, const char* meaning, auto member) {
-      hole.required(key, meaning, path(&Hole::commanded, member), number(kHoleCoordinate));
+      hole.required(key, meaning, path(&Hole::commanded, member), kHoleCoordinate);
     };
     coordinate("x_mm", "Commanded x of the hole.", &model::BedPoint::x_mm);
     coordinate("y_mm", "Commanded y of the hole, up.", &model::BedPoint::y_mm);
@@ -120,7 +116,7 @@ const Record<StatedDistance>& distance_record() {
         .optional("sigma_mm",
                   "Noise of this reading, if it differs from the tape's.",
                   &StatedDistance::sigma_mm,
-                  number(kTapeSigmaMm));
+                  kTapeSigmaMm);
     return distance;
   }();
   return record;
@@ -173,7 +169,7 @@ std::function<std::optional<Json>(const StatedHoles&)> list_writer(
 const Record<StatedHoles>& holes_record() {
   static const auto record =
       Record<StatedHoles>("a set of holes", kHolesFormat)
-          .optional("name", "Name of the set.", &StatedHoles::name, text())
+          .optional("name", "Name of the set.", &StatedHoles::name)
           .custom("machine",
                   "The machine with its settings in force; or machine_file.",
                   false,
@@ -187,29 +183,25 @@ const Record<StatedHoles>& holes_record() {
                   written_stated_machine)
           .sparse("machine_file",
                   "Path of the machine file, from this file.",
-                  &StatedHoles::machine_file,
-                  text())
-          .optional("tape",
-                    "Noise and hook offset of the tape.",
-                    &StatedHoles::tape,
-                    object(tape_record()))
+                  &StatedHoles::machine_file)
+          .optional("tape", "Noise and hook offset of the tape.", &StatedHoles::tape, tape_record())
           .optional(
               "hole_sigma_mm",
               "Distance of a hole from the position that its chains give, 1 sigma on each axis.",
               &StatedHoles::hole_sigma_mm,
-              number(kHoleSigmaMm))
+              kHoleSigmaMm)
           .optional("noise_dof",
                     "How well these are known, in degrees of freedom.",
                     &StatedHoles::noise_dof,
-                    number(kNoiseDof))
+                    kNoiseDof)
           .optional("sheet",
                     "Size of the sheet, for distances to its edges.",
                     &StatedHoles::sheet,
-                    object(sheet_record()))
+                    sheet_record())
           .sparse("readings",
                   "What was measured besides the distances.",
                   &StatedHoles::readings,
-                  list(object(reading_record())))
+                  list(reading_record()))
           .custom(
               "holes",
               "The holes as commanded.",

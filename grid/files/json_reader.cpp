@@ -83,7 +83,7 @@ class ObjectCodec : public Codec {
   [[nodiscard]] Json write(const void* value) const override { return record_.write_fields(value); }
 
  private:
-  const RecordTable& record_;
+  RecordTable record_;
   void (*reset_)(void*);
 };
 
@@ -152,9 +152,11 @@ void RecordTable::add_constant(Field field, const std::string& word) {
 }
 
 Expected RecordTable::expected() const {
-  return {noun(), [this]() -> Json {
-            if (format_ == nullptr) return schema();
-            const std::string name = name_of(*format_);
+  if (format_ == nullptr) {
+    return {noun(),
+            [table = std::make_shared<const RecordTable>(*this)] { return table->schema(); }};
+  }
+  return {noun(), [name = name_of(*format_)]() -> Json {
             return {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name)}};
           }};
 }

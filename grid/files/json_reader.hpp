@@ -16,18 +16,18 @@
 ///     std::vector<Hole> holes;
 ///   };
 ///
-///   const Record<Hole>& hole_record() {
-///     static const auto record = Record<Hole>("a hole")
-///         .required("name", "Its name.", &Hole::name, text())
-///         .required("x_mm", "Commanded x.", &Hole::x_mm, number({"mm", -20000, 20000}))
-///         .required("y_mm", "Commanded y, up.", &Hole::y_mm, number({"mm", -20000, 20000}))
-///         .optional("sigma_mm", "1 sigma on each axis.", &Hole::sigma_mm, number({"mm", 0, 50}));
-///     return record;
+///   constexpr Range kCoordinate{"mm", -20000, 20000};
+///   Record<Hole> hole_record() {
+///     return Record<Hole>("a hole")
+///         .required("name", "Its name.", &Hole::name)
+///         .required("x_mm", "Commanded x.", &Hole::x_mm, kCoordinate)
+///         .required("y_mm", "Commanded y, up.", &Hole::y_mm, kCoordinate)
+///         .optional("sigma_mm", "1 sigma on each axis.", &Hole::sigma_mm, Range{"mm", 0, 50});
 ///   }
-///   const Record<Holes>& holes_record() {
+///   const Record<Holes>& holes_record() {  // static: each file is read by the same table
 ///     static const auto record = Record<Holes>("a chaintrue_holes file", kHolesFormat)
-///         .sparse("name", "Name in messages.", &Holes::name, text())
-///         .required("holes", "The holes.", &Holes::holes, list(object(hole_record()), 2))
+///         .sparse("name", "Name in messages.", &Holes::name)
+///         .required("holes", "The holes.", &Holes::holes, list(hole_record(), 2))
 ///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
 ///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
 ///         });
@@ -49,8 +49,8 @@
 ///   nullable   may be absent or null; written as null when it is empty
 /// path(&Plan::bed, &Bed::width_mm) is a member of a member.
 ///
-/// Values: number, integer, boolean, text, choice (an enum by its names), one_of (a text from a
-/// list), object, list, dictionary. `Record::computed` sets and gets what is not a member;
+/// Values: a Range for a number, a Record for an object, integer, choice (an enum by its names),
+/// one_of (a text from a list), list, dictionary; a std::string and a bool need none. `Record::computed` sets and gets what is not a member;
 /// `Record::custom` takes a pair of functions for whatever does not fit (a variant, a list that
 /// notes which of its elements were wrong). Keys are written in the order they are declared.
 /// "comment" is allowed in every object and not kept.
@@ -62,6 +62,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -130,8 +131,7 @@ class RecordTable {
   RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
 
   [[nodiscard]] const std::string& noun() const { return noun_; }
-  /// What is expected of an object; for a file's record a reference to that file's schema. The
-  /// record must outlive it.
+  /// What is expected of an object; for a file's record a reference to that file's schema.
   [[nodiscard]] Expected expected() const;
   /// Schema of the object itself, also for a file's record.
   [[nodiscard]] Json schema() const;
@@ -186,13 +186,17 @@ class RecordTable {
   std::vector<Json> rules_;
 };
 
-/// `reset` makes a new object of the old before it is read; null keeps it.
+/// `reset` makes a new object of the old before it is read; null keeps it. The codec has the record's
+/// table for itself.
 [[nodiscard]] std::shared_ptr<const Codec> object_codec(const RecordTable& record,
                                                         void (*reset)(void*));
 
 template <class T>
 class Record : public RecordTable {
   using Text = std::string_view;
+  /// The member alone decides the type, so that a range or a record may stand for its value.
+  template <class V>
+  using ValueOf = std::type_identity_t<Value<V>>;
 
  public:
   /// `noun` with its article, for messages such as "expected a sprocket".
@@ -202,43 +206,67 @@ class Record : public RecordTable {
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
   template <class V>
-  Record& required(Text key, Text meaning, V T::*member, const Value<V>& value) {
+  Record& required(Text key,
+                   Text meaning,
+                   V T::*member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     return required(key, meaning, path(member), value);
   }
   template <class V>
-  Record& required(Text key, Text meaning, MemberPath<T, V> member, const Value<V>& value) {
+  Record& required(Text key,
+                   Text meaning,
+                   MemberPath<T, V> member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     add_plain(field(key, meaning, true, member.offset), value.codec);
     return *this;
   }
 
   template <class V>
-  Record& optional(Text key, Text meaning, V T::*member, const Value<V>& value) {
+  Record& optional(Text key,
+                   Text meaning,
+                   V T::*member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     return optional(key, meaning, path(member), value);
   }
   template <class V>
-  Record& optional(Text key, Text meaning, MemberPath<T, V> member, const Value<V>& value) {
+  Record& optional(Text key,
+                   Text meaning,
+                   MemberPath<T, V> member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     add_defaulted(field(key, meaning, false, member.offset), value.codec, &make);
     return *this;
   }
 
   template <class V>
-  Record& optional(Text key, Text meaning, std::optional<V> T::*member, const Value<V>& value) {
+  Record& optional(Text key,
+                   Text meaning,
+                   std::optional<V> T::*member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     add_optional(field(key, meaning, false, path(member).offset), value.codec, kOptionalAccess<V>);
     return *this;
   }
 
   template <class V>
-  Record& sparse(Text key, Text meaning, V T::*member, const Value<V>& value) {
+  Record& sparse(Text key,
+                 Text meaning,
+                 V T::*member,
+                 const ValueOf<V>& value = value_of_type<V>()) {
     return add_if_empty(key, meaning, member, value, IfEmpty::absent);
   }
 
   template <class V>
-  Record& nullable(Text key, Text meaning, V T::*member, const Value<V>& value) {
+  Record& nullable(Text key,
+                   Text meaning,
+                   V T::*member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     return add_if_empty(key, meaning, member, value, IfEmpty::null);
   }
 
   template <class V>
-  Record& nullable(Text key, Text meaning, std::optional<V> T::*member, const Value<V>& value) {
+  Record& nullable(Text key,
+                   Text meaning,
+                   std::optional<V> T::*member,
+                   const ValueOf<V>& value = value_of_type<V>()) {
     add_optional(field(key, meaning, false, path(member).offset),
                  value.codec,
                  kOptionalAccess<V>,
@@ -319,6 +347,8 @@ class Record : public RecordTable {
 
   [[nodiscard]] Json write(const T& object) const { return write_fields(&object); }
 
+  operator Value<T>() const { return object(*this); }  // NOLINT: tables name the record alone
+
  private:
   class CustomMember : public Member {
    public:
@@ -342,7 +372,7 @@ class Record : public RecordTable {
   }
   template <class V>
   Record& add_if_empty(
-      Text key, Text meaning, V T::*member, const Value<V>& value, IfEmpty::As written) {
+      Text key, Text meaning, V T::*member, const ValueOf<V>& value, IfEmpty::As written) {
     add_plain(
         field(key, meaning, false, path(member).offset), value.codec, {&is_empty<V>, written});
     return *this;
@@ -354,10 +384,13 @@ class Record : public RecordTable {
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
-/// The record must outlive the value: records are static.
 template <class T>
 [[nodiscard]] Value<T> object(const Record<T>& record) {
   return Value<T>(object_codec(record, [](void* value) { *static_cast<T*>(value) = T{}; }));
+}
+template <class T>
+[[nodiscard]] Value<std::vector<T>> list(const Record<T>& record, std::size_t fewest = 0) {
+  return list(object(record), fewest);
 }
 
 /// `problems` has the file's name and receives the warnings. \throws InputError with every problem

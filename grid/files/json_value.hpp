@@ -120,12 +120,25 @@ class FunctionCodec : public Codec {
   Write write_;
 };
 
-/// A codec with its type. `expected` may be replaced for a custom field.
+template <class V>
+struct Value;
+[[nodiscard]] Value<double> number(Range range);
+[[nodiscard]] Value<bool> boolean();
+[[nodiscard]] Value<std::string> text();
+
+/// A codec with its type. `expected` may be replaced for a custom field. Ranges and records
+/// (json_reader.hpp) stand for the values that they describe.
 template <class V>
 struct Value {
-  explicit Value(std::shared_ptr<const Codec> own) : codec(std::move(own)), expected(codec->expected()) {}
-  Value(typename FunctionCodec<V>::Read read, typename FunctionCodec<V>::Write write, Expected in_words)
-      : Value(std::make_shared<FunctionCodec<V>>(std::move(read), std::move(write), std::move(in_words))) {}
+  Value(const Range& range)  // NOLINT: tables name the range alone
+      requires std::is_same_v<V, double> : Value(number(range)) {}
+  explicit Value(std::shared_ptr<const Codec> own)
+      : codec(std::move(own)), expected(codec->expected()) {}
+  Value(typename FunctionCodec<V>::Read read,
+        typename FunctionCodec<V>::Write write,
+        Expected in_words)
+      : Value(std::make_shared<FunctionCodec<V>>(
+            std::move(read), std::move(write), std::move(in_words))) {}
 
   [[nodiscard]] std::optional<V> read(const Cursor& at) const {
     V value{};
@@ -137,16 +150,23 @@ struct Value {
   Expected expected;
 };
 
+/// What the type says already: a text, true or false.
+template <class V>
+[[nodiscard]] Value<V> value_of_type() {
+  if constexpr (std::is_same_v<V, bool>) {
+    return boolean();
+  } else {
+    return text();
+  }
+}
+
 /// `schema` with that default if it is a number, a choice, a boolean or a non-empty list of these.
 /// Texts have no default.
 [[nodiscard]] Json with_default(Json schema, const Json& value);
 /// Schema of a number in its range.
 [[nodiscard]] Json number_schema(const Range& range);
 
-[[nodiscard]] Value<double> number(Range range);
 [[nodiscard]] Value<int> integer(int least, int most);
-[[nodiscard]] Value<bool> boolean();
-[[nodiscard]] Value<std::string> text();
 [[nodiscard]] Value<std::string> one_of(const std::vector<std::string>& names);
 
 /// A named value of a trivially copyable type of at most eight bytes.
@@ -154,14 +174,16 @@ struct NamedBytes {
   std::string name;
   std::array<std::byte, 8> value{};
 };
-[[nodiscard]] std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size);
+[[nodiscard]] std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names,
+                                                        std::size_t size);
 
 /// A value by its name, such as an enum.
 template <class E>
 [[nodiscard]] Value<E> choice(const std::vector<std::pair<std::string, E>>& names) {
   static_assert(std::is_trivially_copyable_v<E> && sizeof(E) <= sizeof(NamedBytes::value));
   std::vector<NamedBytes> all;
-  for (const auto& [name, value] : names) std::memcpy(all.emplace_back(NamedBytes{name}).value.data(), &value, sizeof(E));
+  for (const auto& [name, value] : names)
+    std::memcpy(all.emplace_back(NamedBytes{name}).value.data(), &value, sizeof(E));
   return Value<E>(choice_codec(std::move(all), sizeof(E)));
 }
 
@@ -191,6 +213,9 @@ inline constexpr ListAccess kListAccess = {
 template <class V>
 [[nodiscard]] Value<std::vector<V>> list(const Value<V>& element, std::size_t fewest = 0) {
   return Value<std::vector<V>>(list_codec(element.codec, kListAccess<V>, fewest));
+}
+[[nodiscard]] inline Value<std::vector<double>> list(const Range& range, std::size_t fewest = 0) {
+  return list(number(range), fewest);
 }
 
 /// Schema of an object whose keys are not known in advance.

@@ -34,54 +34,46 @@ using model::Sled;
 using model::Sprocket;
 using model::Uncertainty;
 
-const Record<Bed>& bed_record() {
-  static const auto record = Record<Bed>("a bed")
-                                 .required("width_mm",
-                                           "Width of the sheet that the machine can cut.",
-                                           &Bed::width_mm,
-                                           number_in("mm"))
-                                 .required("height_mm",
-                                           "Height of that sheet. The origin of all coordinates is "
-                                           "its middle, x to the right, y up.",
-                                           &Bed::height_mm,
-                                           number_in("mm"));
-  return record;
+Record<Bed> bed_record() {
+  return Record<Bed>("a bed")
+      .required("width_mm",
+                "Width of the sheet that the machine can cut.",
+                &Bed::width_mm,
+                number_in("mm"))
+      .required("height_mm",
+                "Height of that sheet. The origin of all coordinates is "
+                "its middle, x to the right, y up.",
+                &Bed::height_mm,
+                number_in("mm"));
 }
 
-const Record<MotorPosition>& motor_record() {
-  static const auto record =
-      Record<MotorPosition>("a motor's position")
-          .required("x_mm",
-                    "x of the motor's axis, from the middle of the bed to the right.",
-                    &MotorPosition::x_mm,
-                    number_in("mm"))
-          .required("y_mm",
-                    "y of the motor's axis, up from the middle of the bed.",
-                    &MotorPosition::y_mm,
-                    number_in("mm"));
-  return record;
+Record<MotorPosition> motor_record() {
+  return Record<MotorPosition>("a motor's position")
+      .required("x_mm",
+                "x of the motor's axis, from the middle of the bed to the right.",
+                &MotorPosition::x_mm,
+                number_in("mm"))
+      .required("y_mm",
+                "y of the motor's axis, up from the middle of the bed.",
+                &MotorPosition::y_mm,
+                number_in("mm"));
 }
 
-const Record<PerSide<MotorPosition>>& motors_record() {
+Record<PerSide<MotorPosition>> motors_record() {
   using Motors = PerSide<MotorPosition>;
-  static const auto record =
-      Record<Motors>("the motors")
-          .required("left", "The left motor.", &Motors::left, object(motor_record()))
-          .required("right", "The right motor.", &Motors::right, object(motor_record()));
-  return record;
+  return Record<Motors>("the motors")
+      .required("left", "The left motor.", &Motors::left, motor_record())
+      .required("right", "The right motor.", &Motors::right, motor_record());
 }
 
-const Record<Sprocket>& sprocket_record() {
-  static const auto record =
-      Record<Sprocket>("a sprocket")
-          .required("teeth", "Number of teeth of a sprocket.", &Sprocket::teeth, integer(1, 1000))
-          .required(
-              "pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, number_in("mm"))
-          .optional("radius_mm",
-                    "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
-                    &Sprocket::radius_mm,
-                    number_in("mm"));
-  return record;
+Record<Sprocket> sprocket_record() {
+  return Record<Sprocket>("a sprocket")
+      .required("teeth", "Number of teeth of a sprocket.", &Sprocket::teeth, integer(1, 1000))
+      .required("pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, number_in("mm"))
+      .optional("radius_mm",
+                "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
+                &Sprocket::radius_mm,
+                number_in("mm"));
 }
 
 const Record<Ring>& ring_record() {
@@ -132,70 +124,61 @@ std::optional<Json> write_attachment(const Machine& machine) {
   return brackets_record().write(std::get<Brackets>(machine.attachment));
 }
 
-const Record<Chain>& chain_record() {
-  static const auto record = Record<Chain>("a chain")
-                                 .required("mass_kg_per_m",
-                                           "Mass of a metre of chain.",
-                                           &Chain::mass_kg_per_m,
-                                           number_in("kg/m"))
-                                 .required("compliance_per_n",
-                                           "Strain of the chain per newton; 0: none.",
-                                           &Chain::compliance_per_n,
-                                           number_in("1/N"));
-  return record;
+Record<Chain> chain_record() {
+  return Record<Chain>("a chain")
+      .required(
+          "mass_kg_per_m", "Mass of a metre of chain.", &Chain::mass_kg_per_m, number_in("kg/m"))
+      .required("compliance_per_n",
+                "Strain of the chain per newton; 0: none.",
+                &Chain::compliance_per_n,
+                number_in("1/N"));
 }
 
-const Record<ChainLengths>& chain_zero_record() {
-  static const auto record = Record<ChainLengths>("the chain zeros")
-                                 .optional("left_mm",
-                                           "Added to every reading of the left chain.",
-                                           &ChainLengths::left_mm,
-                                           number_in("mm"))
-                                 .optional("right_mm",
-                                           "Added to every reading of the right chain.",
-                                           &ChainLengths::right_mm,
-                                           number_in("mm"));
-  return record;
+Record<ChainLengths> chain_zero_record() {
+  return Record<ChainLengths>("the chain zeros")
+      .optional("left_mm",
+                "Added to every reading of the left chain.",
+                &ChainLengths::left_mm,
+                number_in("mm"))
+      .optional("right_mm",
+                "Added to every reading of the right chain.",
+                &ChainLengths::right_mm,
+                number_in("mm"));
 }
 
-const Record<Sled>& sled_record() {
-  static const auto record = Record<Sled>("a sled").required(
+Record<Sled> sled_record() {
+  return Record<Sled>("a sled").required(
       "mass_kg", "Mass of the sled with its router.", &Sled::mass_kg, number_in("kg"));
-  return record;
 }
 
-const Record<Frame>& frame_record() {
-  static const auto record =
-      Record<Frame>("a frame").required("tilt_from_vertical_deg",
-                                        "Angle by which the frame leans back; 0: upright.",
-                                        &Frame::tilt_from_vertical_deg,
-                                        number_in("degrees"));
-  return record;
+Record<Frame> frame_record() {
+  return Record<Frame>("a frame").required("tilt_from_vertical_deg",
+                                           "Angle by which the frame leans back; 0: upright.",
+                                           &Frame::tilt_from_vertical_deg,
+                                           number_in("degrees"));
 }
 
-const Record<Uncertainty>& uncertainty_record() {
-  static const auto record =
-      Record<Uncertainty>("the uncertainties")
-          .optional("motor_position_mm",
-                    "Uncertainty of each coordinate of a motor, 1 sigma.",
-                    &Uncertainty::motor_position_mm,
-                    number_in("mm"))
-          .optional("chain_zero_mm",
-                    "Uncertainty of each chain's zero, 1 sigma.",
-                    &Uncertainty::chain_zero_mm,
-                    number_in("mm"))
-          .optional("ring_radius_mm",
-                    "Uncertainty of the ring's radius, 1 sigma.",
-                    &Uncertainty::ring_radius_mm,
-                    number_in("mm"))
-          .check([](const Cursor& at, Uncertainty&) {
-            for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
-              const Cursor value = at.child(key);
-              if (!at.has(key) || value.json().is_null())
-                value.warn("not given, its default is assumed");
-            }
-          });
-  return record;
+Record<Uncertainty> uncertainty_record() {
+  return Record<Uncertainty>("the uncertainties")
+      .optional("motor_position_mm",
+                "Uncertainty of each coordinate of a motor, 1 sigma.",
+                &Uncertainty::motor_position_mm,
+                number_in("mm"))
+      .optional("chain_zero_mm",
+                "Uncertainty of each chain's zero, 1 sigma.",
+                &Uncertainty::chain_zero_mm,
+                number_in("mm"))
+      .optional("ring_radius_mm",
+                "Uncertainty of the ring's radius, 1 sigma.",
+                &Uncertainty::ring_radius_mm,
+                number_in("mm"))
+      .check([](const Cursor& at, Uncertainty&) {
+        for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
+          const Cursor value = at.child(key);
+          if (!at.has(key) || value.json().is_null())
+            value.warn("not given, its default is assumed");
+        }
+      });
 }
 
 const Record<Controller>& controller_record() {
@@ -213,7 +196,7 @@ const Record<Controller>& controller_record() {
           .optional("settings",
                     "The firmware's settings, by GroundControl's names.",
                     &Controller::settings,
-                    object(controller_settings_record()));
+                    controller_settings_record());
   return record;
 }
 
@@ -371,10 +354,7 @@ const Record<model::AppliedEffect>& effect_record() {
   using model::AppliedEffect;
   static const auto record =
       Record<AppliedEffect>("an effect")
-          .required("effect",
-                    "Its name, as chaintrue effects lists them.",
-                    &AppliedEffect::effect,
-                    text())
+          .required("effect", "Its name, as chaintrue effects lists them.", &AppliedEffect::effect)
           .sparse("side",
                   "Where it acts; none for effects without a side.",
                   &AppliedEffect::side,
@@ -386,20 +366,17 @@ const Record<model::AppliedEffect>& effect_record() {
           .optional("probability",
                     "Its probability, if a diagnosis added it; absent if a person did.",
                     &AppliedEffect::probability,
-                    number(kShare));
+                    kShare);
   return record;
 }
 
 const Record<Machine>& machine_record() {
   static const auto record =
       Record<Machine>("a machine", kMachineFormat)
-          .optional("name", "Name of the machine in messages and pages.", &Machine::name, text())
-          .required(
-              "bed", "The sheet that the machine can cut.", &Machine::bed, object(bed_record()))
-          .required(
-              "motors", "Positions of the motors' axes.", &Machine::motors, object(motors_record()))
-          .required(
-              "sprocket", "The sprocket on a motor.", &Machine::sprocket, object(sprocket_record()))
+          .optional("name", "Name of the machine in messages and pages.", &Machine::name)
+          .required("bed", "The sheet that the machine can cut.", &Machine::bed, bed_record())
+          .required("motors", "Positions of the motors' axes.", &Machine::motors, motors_record())
+          .required("sprocket", "The sprocket on a motor.", &Machine::sprocket, sprocket_record())
           .required("feed",
                     "Side of the sprocket over which the chain leaves.",
                     &Machine::feed,
@@ -413,22 +390,18 @@ const Record<Machine>& machine_record() {
                    }},
                   read_attachment,
                   write_attachment)
-          .required(
-              "chain", "The chain's mass and stretch.", &Machine::chain, object(chain_record()))
+          .required("chain", "The chain's mass and stretch.", &Machine::chain, chain_record())
           .optional("chain_zero",
                     "Added to every reading of a chain.",
                     &Machine::chain_zero,
-                    object(chain_zero_record()))
-          .required("sled", "The sled.", &Machine::sled, object(sled_record()))
-          .required("frame",
-                    "The frame that carries everything.",
-                    &Machine::frame,
-                    object(frame_record()))
+                    chain_zero_record())
+          .required("sled", "The sled.", &Machine::sled, sled_record())
+          .required("frame", "The frame that carries everything.", &Machine::frame, frame_record())
           .optional("uncertainty",
                     "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
                     "are assumed and reported.",
                     &Machine::uncertainty,
-                    object(uncertainty_record()))
+                    uncertainty_record())
           .custom(
               "controller",
               "The firmware and its settings; default: an ideal one that uses the machine file as "
@@ -450,7 +423,7 @@ const Record<Machine>& machine_record() {
           .sparse("effects",
                   "Known causes of error, part of the machine.",
                   &Machine::effects,
-                  list(object(effect_record())))
+                  list(effect_record()))
           .check(check_machine);
   return record;
 }

@@ -21,36 +21,32 @@ namespace {
 constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kSigmaFactor{"", 1.0, 1e6};
 
-const Record<model::MarkPoint>& mark_record() {
-  static const auto record =
-      Record<model::MarkPoint>("a point")
-          .required("x_mm",
-                    "x of the tool. Null in a list that is not filled in yet.",
-                    &model::MarkPoint::x_mm,
-                    number(kPlaceMm))
-          .required("y_mm",
-                    "y of the tool, up. Null in a list that is not filled in yet.",
-                    &model::MarkPoint::y_mm,
-                    number(kPlaceMm));
-  return record;
+Record<model::MarkPoint> mark_record() {
+  return Record<model::MarkPoint>("a point")
+      .required("x_mm",
+                "x of the tool. Null in a list that is not filled in yet.",
+                &model::MarkPoint::x_mm,
+                kPlaceMm)
+      .required("y_mm",
+                "y of the tool, up. Null in a list that is not filled in yet.",
+                &model::MarkPoint::y_mm,
+                kPlaceMm);
 }
 
-const Record<OutsideRule>& outside_record() {
-  static const auto record =
-      Record<OutsideRule>("what the map does beyond its points")
-          .required("way",
-                    "Behaviour outside the measured part.",
-                    &OutsideRule::way,
-                    choice<Outside>({{"continued", Outside::continued},
-                                     {"refuse", Outside::refuse},
-                                     {"fade", Outside::fade},
-                                     {"linear", Outside::linear},
-                                     {"clamp", Outside::clamp}}))
-          .optional("fade_width_mm",
-                    "For fade: distance over which the correction goes to zero.",
-                    &OutsideRule::fade_width_mm,
-                    number(kFadeWidthMm));
-  return record;
+Record<OutsideRule> outside_record() {
+  return Record<OutsideRule>("what the map does beyond its points")
+      .required("way",
+                "Behaviour outside the measured part.",
+                &OutsideRule::way,
+                choice<Outside>({{"continued", Outside::continued},
+                                 {"refuse", Outside::refuse},
+                                 {"fade", Outside::fade},
+                                 {"linear", Outside::linear},
+                                 {"clamp", Outside::clamp}}))
+      .optional("fade_width_mm",
+                "For fade: distance over which the correction goes to zero.",
+                &OutsideRule::fade_width_mm,
+                kFadeWidthMm);
 }
 
 Value<NoiseSource> noise_source() {
@@ -62,40 +58,27 @@ Value<NoiseSource> noise_source() {
   return choice<NoiseSource>(std::move(names));
 }
 
-const Record<MapNoise>& map_noise_record() {
-  static const auto record =
-      Record<MapNoise>("the noise that the fit went by")
-          .required("length_mm",
-                    "Noise of a chain reading, 1 sigma.",
-                    &MapNoise::length_mm,
-                    number(kNotNegative))
-          .required("position_mm",
-                    "Noise of a position, 1 sigma on each axis.",
-                    &MapNoise::position_mm,
-                    number(kNotNegative))
-          .required("source", "Where it comes from.", &MapNoise::source, noise_source())
-          .required("factor_found",
-                    "Scatter of the points relative to this noise.",
-                    &MapNoise::factor_found,
-                    number(kNotNegative));
-  return record;
+Record<MapNoise> map_noise_record() {
+  return Record<MapNoise>("the noise that the fit went by")
+      .required(
+          "length_mm", "Noise of a chain reading, 1 sigma.", &MapNoise::length_mm, kNotNegative)
+      .required("position_mm",
+                "Noise of a position, 1 sigma on each axis.",
+                &MapNoise::position_mm,
+                kNotNegative)
+      .required("source", "Where it comes from.", &MapNoise::source, noise_source())
+      .required("factor_found",
+                "Scatter of the points relative to this noise.",
+                &MapNoise::factor_found,
+                kNotNegative);
 }
 
-const Record<HeldOutError>& held_out_record() {
-  static const auto record =
-      Record<HeldOutError>("errors of points left out")
-          .required(
-              "chain", "In a chain's length.", &HeldOutError::chain, object(error_summary_record()))
-          .required("tool", "At the tool.", &HeldOutError::tool, object(error_summary_record()))
-          .required("tool_x_rms_mm",
-                    "At the tool, in x.",
-                    &HeldOutError::tool_x_rms_mm,
-                    number(kNotNegative))
-          .required("tool_y_rms_mm",
-                    "At the tool, in y.",
-                    &HeldOutError::tool_y_rms_mm,
-                    number(kNotNegative));
-  return record;
+Record<HeldOutError> held_out_record() {
+  return Record<HeldOutError>("errors of points left out")
+      .required("chain", "In a chain's length.", &HeldOutError::chain, error_summary_record())
+      .required("tool", "At the tool.", &HeldOutError::tool, error_summary_record())
+      .required("tool_x_rms_mm", "At the tool, in x.", &HeldOutError::tool_x_rms_mm, kNotNegative)
+      .required("tool_y_rms_mm", "At the tool, in y.", &HeldOutError::tool_y_rms_mm, kNotNegative);
 }
 
 constexpr const char* kRelativeTo =
@@ -103,143 +86,115 @@ constexpr const char* kRelativeTo =
     "one sigma, relative "
     "to the true machine";
 
-const Record<MapAccuracy>& accuracy_record() {
-  static const auto record =
-      Record<MapAccuracy>("the map's own error")
-          .constant("relative_to", "What the errors are relative to.", kRelativeTo)
-          .required("leave_one_out",
-                    "Errors of points predicted by a map without them, one at a time.",
-                    &MapAccuracy::leave_one_out,
-                    object(held_out_record()))
-          .required("blocked",
-                    "The same with a block of the bed left out at a time.",
-                    &MapAccuracy::blocked,
-                    object(held_out_record()))
-          .required("expected_tool",
-                    "Expected error of the tool over the measured part.",
-                    &MapAccuracy::expected_tool,
-                    object(error_summary_record()))
-          .required("expected_worst_at",
-                    "Where it is largest.",
-                    &MapAccuracy::expected_worst_at,
-                    object(mark_record()));
-  return record;
+Record<MapAccuracy> accuracy_record() {
+  return Record<MapAccuracy>("the map's own error")
+      .constant("relative_to", "What the errors are relative to.", kRelativeTo)
+      .required("leave_one_out",
+                "Errors of points predicted by a map without them, one at a time.",
+                &MapAccuracy::leave_one_out,
+                held_out_record())
+      .required("blocked",
+                "The same with a block of the bed left out at a time.",
+                &MapAccuracy::blocked,
+                held_out_record())
+      .required("expected_tool",
+                "Expected error of the tool over the measured part.",
+                &MapAccuracy::expected_tool,
+                error_summary_record())
+      .required("expected_worst_at",
+                "Where it is largest.",
+                &MapAccuracy::expected_worst_at,
+                mark_record());
 }
 
-const Record<SettingResult>& setting_record() {
-  static const auto record =
-      Record<SettingResult>("a setting")
-          .required("setting", "Name of the setting.", &SettingResult::setting, setting_word())
-          .required(
-              "stated", "Value in the machine file.", &SettingResult::stated, number(kAnyNumber))
-          .required(
-              "calibrated", "Calibrated value.", &SettingResult::calibrated, number(kAnyNumber))
-          .required("sigma",
-                    "Uncertainty of the calibrated value, 1 sigma.",
-                    &SettingResult::sigma,
-                    number(kNotNegative))
-          .required("off",
-                    "True if it differs by more than its uncertainty allows.",
-                    &SettingResult::off,
-                    boolean());
-  return record;
+Record<SettingResult> setting_record() {
+  return Record<SettingResult>("a setting")
+      .required("setting", "Name of the setting.", &SettingResult::setting, setting_word())
+      .required("stated", "Value in the machine file.", &SettingResult::stated, kAnyNumber)
+      .required("calibrated", "Calibrated value.", &SettingResult::calibrated, kAnyNumber)
+      .required("sigma",
+                "Uncertainty of the calibrated value, 1 sigma.",
+                &SettingResult::sigma,
+                kNotNegative)
+      .required(
+          "off", "True if it differs by more than its uncertainty allows.", &SettingResult::off);
 }
 
-const Record<MapPoint>& map_point_record() {
+Record<MapPoint> map_point_record() {
   using model::ChainLengths;
   using model::MarkPoint;
-  static const auto record =
-      Record<MapPoint>("a measured point")
-          .required("x_mm",
-                    "x, to the right of the bed's middle, or of the marks' origin.",
-                    path(&MapPoint::mark, &MarkPoint::x_mm),
-                    number(kPlaceMm))
-          .required("y_mm",
-                    "y, up from the bed's middle, or from the marks' origin.",
-                    path(&MapPoint::mark, &MarkPoint::y_mm),
-                    number(kPlaceMm))
-          .required("left_mm",
-                    "The left chain.",
-                    path(&MapPoint::lengths, &ChainLengths::left_mm),
-                    number(kPlaceMm))
-          .required("right_mm",
-                    "The right chain.",
-                    path(&MapPoint::lengths, &ChainLengths::right_mm),
-                    number(kPlaceMm))
-          .required("bad", "True if the fit left it out.", &MapPoint::bad, boolean())
-          .required("distance_sigmas",
-                    "Its distance from the prediction of the others, in sigmas.",
-                    &MapPoint::distance_sigmas,
-                    number(kNotNegative))
-          .required("as_stated_mm",
-                    "Measured position minus that of the machine file.",
-                    &MapPoint::as_stated_mm,
-                    pair_of_numbers(kErrorMm))
-          .required("sheet_placed_mm",
-                    "The same after the best placement of the sheet.",
-                    &MapPoint::sheet_placed_mm,
-                    pair_of_numbers(kErrorMm))
-          .required("mapped_mm",
-                    "The same with the map.",
-                    &MapPoint::mapped_mm,
-                    pair_of_numbers(kErrorMm))
-          .required("left_out_mm",
-                    "The same with a map made without it.",
-                    &MapPoint::left_out_mm,
-                    pair_of_numbers(kErrorMm));
-  return record;
+  return Record<MapPoint>("a measured point")
+      .required("x_mm",
+                "x, to the right of the bed's middle, or of the marks' origin.",
+                path(&MapPoint::mark, &MarkPoint::x_mm),
+                kPlaceMm)
+      .required("y_mm",
+                "y, up from the bed's middle, or from the marks' origin.",
+                path(&MapPoint::mark, &MarkPoint::y_mm),
+                kPlaceMm)
+      .required(
+          "left_mm", "The left chain.", path(&MapPoint::lengths, &ChainLengths::left_mm), kPlaceMm)
+      .required("right_mm",
+                "The right chain.",
+                path(&MapPoint::lengths, &ChainLengths::right_mm),
+                kPlaceMm)
+      .required("bad", "True if the fit left it out.", &MapPoint::bad)
+      .required("distance_sigmas",
+                "Its distance from the prediction of the others, in sigmas.",
+                &MapPoint::distance_sigmas,
+                kNotNegative)
+      .required("as_stated_mm",
+                "Measured position minus that of the machine file.",
+                &MapPoint::as_stated_mm,
+                pair_of_numbers(kErrorMm))
+      .required("sheet_placed_mm",
+                "The same after the best placement of the sheet.",
+                &MapPoint::sheet_placed_mm,
+                pair_of_numbers(kErrorMm))
+      .required(
+          "mapped_mm", "The same with the map.", &MapPoint::mapped_mm, pair_of_numbers(kErrorMm))
+      .required("left_out_mm",
+                "The same with a map made without it.",
+                &MapPoint::left_out_mm,
+                pair_of_numbers(kErrorMm));
 }
 
-const Record<MirrorTest>& mirror_record() {
-  static const auto record =
-      Record<MirrorTest>("the mirror claim")
-          .required("points",
-                    "Number of points whose mirror image was measured.",
-                    &MirrorTest::points,
-                    index_number())
-          .required("difference",
-                    "Right chain minus left chain at the mirrored place.",
-                    &MirrorTest::difference,
-                    object(error_summary_record()))
-          .required("mean_mm", "Mean difference.", &MirrorTest::mean_mm, number(kErrorMm))
-          .required("worst_at",
-                    "Where the difference is largest.",
-                    &MirrorTest::worst_at,
-                    object(mark_record()))
-          .required("worst_signed_mm",
-                    "The difference there.",
-                    &MirrorTest::worst_signed_mm,
-                    number(kErrorMm))
-          .required("holds",
-                    "True if noise alone explains the difference.",
-                    &MirrorTest::holds,
-                    boolean())
-          .required("sentence", "The same in words.", &MirrorTest::sentence, text());
-  return record;
+Record<MirrorTest> mirror_record() {
+  return Record<MirrorTest>("the mirror claim")
+      .required("points",
+                "Number of points whose mirror image was measured.",
+                &MirrorTest::points,
+                index_number())
+      .required("difference",
+                "Right chain minus left chain at the mirrored place.",
+                &MirrorTest::difference,
+                error_summary_record())
+      .required("mean_mm", "Mean difference.", &MirrorTest::mean_mm, kErrorMm)
+      .required(
+          "worst_at", "Where the difference is largest.", &MirrorTest::worst_at, mark_record())
+      .required("worst_signed_mm", "The difference there.", &MirrorTest::worst_signed_mm, kErrorMm)
+      .required("holds", "True if noise alone explains the difference.", &MirrorTest::holds)
+      .required("sentence", "The same in words.", &MirrorTest::sentence);
 }
 
-const Record<DistancesUsed>& distances_record() {
+Record<DistancesUsed> distances_record() {
   constexpr int kMost = 1000000;
-  static const auto record =
-      Record<DistancesUsed>("the distances between holes")
-          .required("used", "Number of distances used.", &DistancesUsed::used, integer(0, kMost))
-          .required("set_aside",
-                    "Number of distances left out.",
-                    &DistancesUsed::rejected,
-                    integer(0, kMost))
-          .required("tape_sigma_mm",
-                    "Noise of the tape in the fit, 1 sigma.",
-                    &DistancesUsed::tape_sigma_mm,
-                    number(kNotNegative))
-          .required("left_out_all",
-                    "Errors of distances predicted by a map without them.",
-                    &DistancesUsed::left_out_all,
-                    object(error_summary_record()))
-          .required("left_out_good",
-                    "The same without the rejected distances.",
-                    &DistancesUsed::left_out_good,
-                    object(error_summary_record()));
-  return record;
+  return Record<DistancesUsed>("the distances between holes")
+      .required("used", "Number of distances used.", &DistancesUsed::used, integer(0, kMost))
+      .required(
+          "set_aside", "Number of distances left out.", &DistancesUsed::rejected, integer(0, kMost))
+      .required("tape_sigma_mm",
+                "Noise of the tape in the fit, 1 sigma.",
+                &DistancesUsed::tape_sigma_mm,
+                kNotNegative)
+      .required("left_out_all",
+                "Errors of distances predicted by a map without them.",
+                &DistancesUsed::left_out_all,
+                error_summary_record())
+      .required("left_out_good",
+                "The same without the rejected distances.",
+                &DistancesUsed::left_out_good,
+                error_summary_record());
 }
 
 void check_map(const Cursor& at, MapContents& map) {
@@ -284,7 +239,7 @@ void add_surface(Record<MapContents>& record,
 
 Record<MapContents> make_map_record() {
   Record<MapContents> record("a chaintrue_map file", kMapFormat);
-  record.optional("name", "Name of the grid.", &MapContents::name, text());
+  record.optional("name", "Name of the grid.", &MapContents::name);
   add_surface<ModelSurface>(record,
                             "on_machine",
                             "A calibrated machine with residual surfaces; or direct.",
@@ -294,18 +249,16 @@ Record<MapContents> make_map_record() {
                              "Splines through the lengths, without a machine; or on_machine.",
                              direct_part_record());
   record
-      .required("domain_mm",
-                "Where the map can be evaluated.",
-                &MapContents::domain,
-                object(rectangle_record()))
+      .required(
+          "domain_mm", "Where the map can be evaluated.", &MapContents::domain, rectangle_record())
       .required("hull",
                 "Corners of the measured part, counter-clockwise.",
                 &MapContents::hull,
-                list(object(mark_record()), 3))
+                list(mark_record(), 3))
       .required("edge_mm",
                 "Places closer to the hull than this count as on its edge.",
                 &MapContents::edge_mm,
-                number(kNotNegative))
+                kNotNegative)
       .computed(
           "outside",
           "Behaviour outside the hull.",
@@ -328,26 +281,24 @@ Record<MapContents> make_map_record() {
                        ? std::nullopt
                        : std::optional(map.sigma_factor_beyond);
           })
-      .required(
-          "noise", "The noise used by the fit.", &MapContents::noise, object(map_noise_record()))
-      .required(
-          "accuracy", "The map's own error.", &MapContents::accuracy, object(accuracy_record()))
+      .required("noise", "The noise used by the fit.", &MapContents::noise, map_noise_record())
+      .required("accuracy", "The map's own error.", &MapContents::accuracy, accuracy_record())
       .required("settings",
                 "The machine's numbers, as in its file and calibrated.",
                 &MapContents::settings,
-                list(object(setting_record())))
+                list(setting_record()))
       .required("points",
                 "The points that it was made from.",
                 &MapContents::points,
-                list(object(map_point_record())))
+                list(map_point_record()))
       .optional("mirror",
                 "Whether one chain's surface is the other's, mirrored.",
                 &MapContents::mirror,
-                object(mirror_record()))
+                mirror_record())
       .optional("distances",
                 "For a map from holes and a tape.",
                 &MapContents::distances,
-                object(distances_record()))
+                distances_record())
       .required("notes", "Notes for the reader, in sentences.", &MapContents::notes, list(text()));
   add_content_hash(add_made_by_key(record), "Hash of everything else; an edited map is refused.")
       .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})

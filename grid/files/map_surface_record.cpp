@@ -15,60 +15,52 @@ namespace {
 
 Value<Numbers> numbers(std::size_t fewest = 0) { return list(number(kAnyNumber), fewest); }
 
-const Record<model::SheetPlacement>& sheet_placement_record() {
-  static const auto record = Record<model::SheetPlacement>("a sheet's placement")
-                                 .required("x_mm",
-                                           "x of the marks' origin on the bed.",
-                                           &model::SheetPlacement::x_mm,
-                                           number(kPlaceMm))
-                                 .required("y_mm",
-                                           "y of the marks' origin on the bed, up.",
-                                           &model::SheetPlacement::y_mm,
-                                           number(kPlaceMm))
-                                 .required("rotation_rad",
-                                           "Rotation of the marks, counter-clockwise.",
-                                           &model::SheetPlacement::rotation_rad,
-                                           number({"rad", -7.0, 7.0}));
-  return record;
+Record<model::SheetPlacement> sheet_placement_record() {
+  return Record<model::SheetPlacement>("a sheet's placement")
+      .required(
+          "x_mm", "x of the marks' origin on the bed.", &model::SheetPlacement::x_mm, kPlaceMm)
+      .required(
+          "y_mm", "y of the marks' origin on the bed, up.", &model::SheetPlacement::y_mm, kPlaceMm)
+      .required("rotation_rad",
+                "Rotation of the marks, counter-clockwise.",
+                &model::SheetPlacement::rotation_rad,
+                number({"rad", -7.0, 7.0}));
 }
 
-const Record<SplinePart>& spline_record() {
-  static const auto record =
-      Record<SplinePart>("a residual surface")
-          .required("rectangle_mm",
-                    "Where the splines are defined.",
-                    &SplinePart::rectangle,
-                    object(rectangle_record()))
-          .required(
-              "x_intervals", "Equal intervals along x.", &SplinePart::x_intervals, integer(1, 1000))
-          .required(
-              "y_intervals", "Equal intervals along y.", &SplinePart::y_intervals, integer(1, 1000))
-          .required("scale_left",
-                    "Correction of the left chain per mm of length.",
-                    &SplinePart::scale_left,
-                    number({"", -0.1, 0.1}))
-          .required("scale_right",
-                    "Correction of the right chain per mm of length.",
-                    &SplinePart::scale_right,
-                    number({"", -0.1, 0.1}))
-          .required("coefficients_left_mm",
-                    "Coefficients of cubic B-splines for the left chain, y varying fastest: "
-                    "(x_intervals + 3) (y_intervals + 3) values.",
-                    &SplinePart::left_mm,
-                    numbers())
-          .required("coefficients_right_mm",
-                    "Coefficients for the right chain, in the same order.",
-                    &SplinePart::right_mm,
-                    numbers())
-          .check([](const Cursor& at, SplinePart& part) {
-            if (!at.clean()) return;
-            const auto size =
-                static_cast<std::size_t>((part.x_intervals + 3) * (part.y_intervals + 3));
-            const std::string expected = fmt::format("{} coefficients, as the intervals say", size);
-            if (part.left_mm.size() != size) at.child("coefficients_left_mm").expect(expected);
-            if (part.right_mm.size() != size) at.child("coefficients_right_mm").expect(expected);
-          });
-  return record;
+Record<SplinePart> spline_record() {
+  return Record<SplinePart>("a residual surface")
+      .required("rectangle_mm",
+                "Where the splines are defined.",
+                &SplinePart::rectangle,
+                rectangle_record())
+      .required(
+          "x_intervals", "Equal intervals along x.", &SplinePart::x_intervals, integer(1, 1000))
+      .required(
+          "y_intervals", "Equal intervals along y.", &SplinePart::y_intervals, integer(1, 1000))
+      .required("scale_left",
+                "Correction of the left chain per mm of length.",
+                &SplinePart::scale_left,
+                number({"", -0.1, 0.1}))
+      .required("scale_right",
+                "Correction of the right chain per mm of length.",
+                &SplinePart::scale_right,
+                number({"", -0.1, 0.1}))
+      .required("coefficients_left_mm",
+                "Coefficients of cubic B-splines for the left chain, y varying fastest: "
+                "(x_intervals + 3) (y_intervals + 3) values.",
+                &SplinePart::left_mm,
+                numbers())
+      .required("coefficients_right_mm",
+                "Coefficients for the right chain, in the same order.",
+                &SplinePart::right_mm,
+                numbers())
+      .check([](const Cursor& at, SplinePart& part) {
+        if (!at.clean()) return;
+        const auto size = static_cast<std::size_t>((part.x_intervals + 3) * (part.y_intervals + 3));
+        const std::string expected = fmt::format("{} coefficients, as the intervals say", size);
+        if (part.left_mm.size() != size) at.child("coefficients_left_mm").expect(expected);
+        if (part.right_mm.size() != size) at.child("coefficients_right_mm").expect(expected);
+      });
 }
 
 void check_model_part(const Cursor& at, ModelPart& part) {
@@ -91,20 +83,16 @@ Value<interp::EndCondition> end_condition() {
                                        {"clamped", interp::EndCondition::clamped}});
 }
 
-const Record<interp::AxisEnds>& axis_ends_record() {
-  static const auto record =
-      Record<interp::AxisEnds>("the conditions at both ends of an axis")
-          .required("low", "At the smaller end.", &interp::AxisEnds::low, end_condition())
-          .required("high", "At the larger end.", &interp::AxisEnds::high, end_condition());
-  return record;
+Record<interp::AxisEnds> axis_ends_record() {
+  return Record<interp::AxisEnds>("the conditions at both ends of an axis")
+      .required("low", "At the smaller end.", &interp::AxisEnds::low, end_condition())
+      .required("high", "At the larger end.", &interp::AxisEnds::high, end_condition());
 }
 
-const Record<interp::TensorEnds>& ends_record() {
-  static const auto record =
-      Record<interp::TensorEnds>("the conditions at the edges")
-          .required("x", "Along x.", &interp::TensorEnds::x, object(axis_ends_record()))
-          .required("y", "Along y.", &interp::TensorEnds::y, object(axis_ends_record()));
-  return record;
+Record<interp::TensorEnds> ends_record() {
+  return Record<interp::TensorEnds>("the conditions at the edges")
+      .required("x", "Along x.", &interp::TensorEnds::x, axis_ends_record())
+      .required("y", "Along y.", &interp::TensorEnds::y, axis_ends_record());
 }
 
 bool rises(const Numbers& values) {
@@ -149,29 +137,25 @@ void check_lattice_part(const Cursor& at, LatticePart& part) {
       {{"left_mm", &part.left_mm}, {"right_mm", &part.right_mm}, {"doubt_mm", &part.doubt_mm}});
 }
 
-const Record<LatticePart>& lattice_part_record() {
-  static const auto record =
-      Record<LatticePart>("splines through what the machine leaves at every node")
-          .required(
-              "x_nodes_mm", "Nodes along x, increasing.", &LatticePart::x_nodes_mm, numbers(2))
-          .required(
-              "y_nodes_mm", "Nodes along y, increasing.", &LatticePart::y_nodes_mm, numbers(2))
-          .required("left_mm",
-                    "Left chain at every node: one list for each x.",
-                    &LatticePart::left_mm,
-                    list(numbers(2), 2))
-          .required(
-              "right_mm", "Right chain at every node.", &LatticePart::right_mm, list(numbers(2), 2))
-          .required("doubt_mm",
-                    "Uncertainty of the value at each node.",
-                    &LatticePart::doubt_mm,
-                    list(list(number(kNotNegative), 2), 2))
-          .required("interpolation_sigma_mm",
-                    "Error of the splines between nodes, 1 sigma.",
-                    &LatticePart::interpolation_sigma_mm,
-                    number(kNotNegative))
-          .check(check_lattice_part);
-  return record;
+Record<LatticePart> lattice_part_record() {
+  return Record<LatticePart>("splines through what the machine leaves at every node")
+      .required("x_nodes_mm", "Nodes along x, increasing.", &LatticePart::x_nodes_mm, numbers(2))
+      .required("y_nodes_mm", "Nodes along y, increasing.", &LatticePart::y_nodes_mm, numbers(2))
+      .required("left_mm",
+                "Left chain at every node: one list for each x.",
+                &LatticePart::left_mm,
+                list(numbers(2), 2))
+      .required(
+          "right_mm", "Right chain at every node.", &LatticePart::right_mm, list(numbers(2), 2))
+      .required("doubt_mm",
+                "Uncertainty of the value at each node.",
+                &LatticePart::doubt_mm,
+                list(list(kNotNegative, 2), 2))
+      .required("interpolation_sigma_mm",
+                "Error of the splines between nodes, 1 sigma.",
+                &LatticePart::interpolation_sigma_mm,
+                kNotNegative)
+      .check(check_lattice_part);
 }
 
 double seven_digits(double value) {
@@ -208,10 +192,10 @@ Eigen::MatrixXd to_matrix(const std::vector<Numbers>& lists) {
 const Record<interp::Rectangle>& rectangle_record() {
   static const auto record =
       Record<interp::Rectangle>("a rectangle in mm")
-          .required("x_min", "Left edge.", &interp::Rectangle::x_min, number(kPlaceMm))
-          .required("x_max", "Right edge.", &interp::Rectangle::x_max, number(kPlaceMm))
-          .required("y_min", "Lower edge.", &interp::Rectangle::y_min, number(kPlaceMm))
-          .required("y_max", "Upper edge.", &interp::Rectangle::y_max, number(kPlaceMm))
+          .required("x_min", "Left edge.", &interp::Rectangle::x_min, kPlaceMm)
+          .required("x_max", "Right edge.", &interp::Rectangle::x_max, kPlaceMm)
+          .required("y_min", "Lower edge.", &interp::Rectangle::y_min, kPlaceMm)
+          .required("y_max", "Upper edge.", &interp::Rectangle::y_max, kPlaceMm)
           .check([](const Cursor& at, interp::Rectangle& r) {
             if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
               at.expect("a rectangle whose maxima lie above its minima");
@@ -226,12 +210,9 @@ const Record<ModelPart>& model_part_record() {
     for (auto setting : model::kMachineSettings) words.emplace_back(model::name(setting));
     for (auto setting : model::kSheetSettings) words.emplace_back(model::name(setting));
     return Record<ModelPart>("a surface on a machine")
+        .required("machine", "The calibrated machine.", &ModelPart::machine, machine_record())
         .required(
-            "machine", "The calibrated machine.", &ModelPart::machine, object(machine_record()))
-        .required("sheet",
-                  "Placement of the marks' sheet.",
-                  &ModelPart::sheet,
-                  object(sheet_placement_record()))
+            "sheet", "Placement of the marks' sheet.", &ModelPart::sheet, sheet_placement_record())
         .required("unknown_settings",
                   "The settings that were calibrated, in the order of the covariance.",
                   &ModelPart::unknown_settings,
@@ -239,7 +220,7 @@ const Record<ModelPart>& model_part_record() {
         .required("residual",
                   "Correction added to the machine's lengths.",
                   &ModelPart::residual,
-                  object(spline_record()))
+                  spline_record())
         .required("covariance_factor",
                   "Triangular root of the covariance of settings, scales and coefficients; lower "
                   "triangle, row by row.",
@@ -248,7 +229,7 @@ const Record<ModelPart>& model_part_record() {
         .optional("lattice",
                   "For a full grid of marks: splines through the residuals at every node.",
                   &ModelPart::lattice,
-                  object(lattice_part_record()))
+                  lattice_part_record())
         .check(check_model_part);
   }();
   return record;
@@ -265,12 +246,11 @@ const Record<DirectPart>& direct_part_record() {
                     list(numbers(2), 2))
           .required(
               "right_mm", "Right chain at every node.", &DirectPart::right_mm, list(numbers(2), 2))
-          .required(
-              "ends", "End conditions of the splines.", &DirectPart::ends, object(ends_record()))
+          .required("ends", "End conditions of the splines.", &DirectPart::ends, ends_record())
           .required("interpolation_sigma_mm",
                     "Error of the splines between nodes, 1 sigma.",
                     &DirectPart::interpolation_sigma_mm,
-                    number(kNotNegative))
+                    kNotNegative)
           .check(check_direct_part);
   return record;
 }

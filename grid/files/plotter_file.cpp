@@ -12,12 +12,10 @@
 namespace chaintrue::grid::files {
 namespace {
 
-const Record<FoundSetting>& found_setting_record() {
-  static const auto record =
-      Record<FoundSetting>("a setting that was found")
-          .required("value", "Its value.", &FoundSetting::value, number(kMillimetres))
-          .required("sigma", "Its uncertainty, 1 sigma.", &FoundSetting::sigma, number(kSigmaMm));
-  return record;
+Record<FoundSetting> found_setting_record() {
+  return Record<FoundSetting>("a setting that was found")
+      .required("value", "Its value.", &FoundSetting::value, kMillimetres)
+      .required("sigma", "Its uncertainty, 1 sigma.", &FoundSetting::sigma, kSigmaMm);
 }
 
 void check_correlations(const Cursor& at, FoundPlotter& found) {
@@ -46,40 +44,35 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
                     ProblemKind::impossible);
 }
 
-const Record<FoundPlotter>& found_plotter_record() {
+Record<FoundPlotter> found_plotter_record() {
   using Found = FoundPlotter;
   const auto setting = [] { return object(found_setting_record()); };
-  static const auto record =
-      Record<Found>("the settings that a drawing found")
-          .required(
-              "pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting())
-          .required("pin_rise_mm",
-                    "Height of the right pin above the left.",
-                    &Found::pin_rise_mm,
-                    setting())
-          .required("zero_left_mm",
-                    "Excess of the controller's length of the left cord.",
-                    &Found::zero_left_mm,
-                    setting())
-          .required("zero_right_mm",
-                    "Excess of the controller's length of the right cord.",
-                    &Found::zero_right_mm,
-                    setting())
-          .required("scale_left_mm_per_m",
-                    "Excess of the controller's length per metre of the left cord.",
-                    &Found::scale_left_mm_per_m,
-                    setting())
-          .required("scale_right_mm_per_m",
-                    "Excess of the controller's length per metre of the right cord.",
-                    &Found::scale_right_mm_per_m,
-                    setting())
-          .required("correlations",
-                    "Correlations of each of these six, in this order, with those after it: 15 "
-                    "numbers, used for the expected error of compensated drawings.",
-                    &Found::correlations,
-                    list(number({"", -1.0, 1.0})))
-          .check(check_correlations);
-  return record;
+  return Record<Found>("the settings that a drawing found")
+      .required("pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting())
+      .required(
+          "pin_rise_mm", "Height of the right pin above the left.", &Found::pin_rise_mm, setting())
+      .required("zero_left_mm",
+                "Excess of the controller's length of the left cord.",
+                &Found::zero_left_mm,
+                setting())
+      .required("zero_right_mm",
+                "Excess of the controller's length of the right cord.",
+                &Found::zero_right_mm,
+                setting())
+      .required("scale_left_mm_per_m",
+                "Excess of the controller's length per metre of the left cord.",
+                &Found::scale_left_mm_per_m,
+                setting())
+      .required("scale_right_mm_per_m",
+                "Excess of the controller's length per metre of the right cord.",
+                &Found::scale_right_mm_per_m,
+                setting())
+      .required("correlations",
+                "Correlations of each of these six, in this order, with those after it: 15 "
+                "numbers, used for the expected error of compensated drawings.",
+                &Found::correlations,
+                list(number({"", -1.0, 1.0})))
+      .check(check_correlations);
 }
 
 /// A machine of these settings must be one.
@@ -100,11 +93,11 @@ const Record<KnownPlotter>& plotter_record() {
         .required("set",
                   "The plotter with its controller's settings.",
                   &KnownPlotter::set,
-                  object(set_plotter_record()))
+                  set_plotter_record())
         .optional("found",
                   "Results of a test drawing; absent before one was measured.",
                   &KnownPlotter::found,
-                  object(found_plotter_record()));
+                  found_plotter_record());
     add_made_by_key(plotter).check(check_found);
     return plotter;
   }();

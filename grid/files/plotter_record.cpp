@@ -16,117 +16,102 @@ using model::PlotterFirmware;
 using model::PlotterMachine;
 using model::PlotterUncertainty;
 
-const Record<Gondola>& gondola_record() {
-  static const auto record =
-      Record<Gondola>("a gondola")
-          .optional("spacing_mm",
-                    "Between the two points where the cords hold it; 0: both cords end at the pen.",
-                    &Gondola::spacing_mm,
-                    number_in("mm"))
-          .optional("pen_below_mm",
-                    "Distance of the pen below the middle between those points, hanging level.",
-                    &Gondola::pen_below_mm,
-                    number_in("mm"))
-          .optional("pen_right_mm",
-                    "Distance of the pen to the right of that middle.",
-                    &Gondola::pen_right_mm,
-                    number_in("mm"))
-          .optional("mass_below_mm",
-                    "Distance of the centre of mass below that middle.",
-                    &Gondola::mass_below_mm,
-                    number_in("mm"))
-          .optional("mass_right_mm",
-                    "Distance of the centre of mass to the right of that middle.",
-                    &Gondola::mass_right_mm,
-                    number_in("mm"))
-          .required("mass_kg", "Mass of everything that hangs.", &Gondola::mass_kg, number_in("kg"))
-          .optional("standoff_mm",
-                    "Extra distance from the wall of the cords' ends at the gondola, relative to "
-                    "those at the wall.",
-                    &Gondola::standoff_mm,
-                    number_in("mm"));
-  return record;
+Record<Gondola> gondola_record() {
+  return Record<Gondola>("a gondola")
+      .optional("spacing_mm",
+                "Between the two points where the cords hold it; 0: both cords end at the pen.",
+                &Gondola::spacing_mm,
+                number_in("mm"))
+      .optional("pen_below_mm",
+                "Distance of the pen below the middle between those points, hanging level.",
+                &Gondola::pen_below_mm,
+                number_in("mm"))
+      .optional("pen_right_mm",
+                "Distance of the pen to the right of that middle.",
+                &Gondola::pen_right_mm,
+                number_in("mm"))
+      .optional("mass_below_mm",
+                "Distance of the centre of mass below that middle.",
+                &Gondola::mass_below_mm,
+                number_in("mm"))
+      .optional("mass_right_mm",
+                "Distance of the centre of mass to the right of that middle.",
+                &Gondola::mass_right_mm,
+                number_in("mm"))
+      .required("mass_kg", "Mass of everything that hangs.", &Gondola::mass_kg, number_in("kg"))
+      .optional("standoff_mm",
+                "Extra distance from the wall of the cords' ends at the gondola, relative to "
+                "those at the wall.",
+                &Gondola::standoff_mm,
+                number_in("mm"));
 }
 
-const Record<Cord>& cord_record() {
-  static const auto record =
-      Record<Cord>("a cord")
-          .optional(
-              "mass_kg_per_m", "Mass of a metre of cord.", &Cord::mass_kg_per_m, number_in("kg/m"))
-          .optional("compliance_per_n",
-                    "Strain of a cord per newton; 0: none.",
-                    &Cord::compliance_per_n,
-                    number_in("1/N"))
-          .optional(
-              "tooth_mm",
-              "Length lost when a motor slips: a tooth of the belt, or a full step of a spool.",
-              &Cord::tooth_mm,
-              number_in("mm"));
-  return record;
+Record<Cord> cord_record() {
+  return Record<Cord>("a cord")
+      .optional(
+          "mass_kg_per_m", "Mass of a metre of cord.", &Cord::mass_kg_per_m, number_in("kg/m"))
+      .optional("compliance_per_n",
+                "Strain of a cord per newton; 0: none.",
+                &Cord::compliance_per_n,
+                number_in("1/N"))
+      .optional("tooth_mm",
+                "Length lost when a motor slips: a tooth of the belt, or a full step of a spool.",
+                &Cord::tooth_mm,
+                number_in("mm"));
 }
 
-const Record<DrawingArea>& area_record() {
-  static const auto record =
-      Record<DrawingArea>("a drawing area")
-          .required("left_mm", "Left limit of the pen.", &DrawingArea::left_mm, number_in("mm"))
-          .required("right_mm", "Right limit of the pen.", &DrawingArea::right_mm, number_in("mm"))
-          .required("top_mm",
-                    "Upper limit of the pen; the pins are at 0.",
-                    &DrawingArea::top_mm,
-                    number_in("mm"))
-          .required(
-              "bottom_mm", "Lower limit of the pen.", &DrawingArea::bottom_mm, number_in("mm"));
-  return record;
+Record<DrawingArea> area_record() {
+  return Record<DrawingArea>("a drawing area")
+      .required("left_mm", "Left limit of the pen.", &DrawingArea::left_mm, number_in("mm"))
+      .required("right_mm", "Right limit of the pen.", &DrawingArea::right_mm, number_in("mm"))
+      .required("top_mm",
+                "Upper limit of the pen; the pins are at 0.",
+                &DrawingArea::top_mm,
+                number_in("mm"))
+      .required("bottom_mm", "Lower limit of the pen.", &DrawingArea::bottom_mm, number_in("mm"));
 }
 
-const Record<ChainLengths>& cord_zero_record() {
-  static const auto record = Record<ChainLengths>("the zeros of the cords")
-                                 .optional("left_mm",
-                                           "Excess of the controller's length of the left cord.",
-                                           &ChainLengths::left_mm,
-                                           number_in("mm"))
-                                 .optional("right_mm",
-                                           "Excess of the controller's length of the right cord.",
-                                           &ChainLengths::right_mm,
-                                           number_in("mm"));
-  return record;
+Record<ChainLengths> cord_zero_record() {
+  return Record<ChainLengths>("the zeros of the cords")
+      .optional("left_mm",
+                "Excess of the controller's length of the left cord.",
+                &ChainLengths::left_mm,
+                number_in("mm"))
+      .optional("right_mm",
+                "Excess of the controller's length of the right cord.",
+                &ChainLengths::right_mm,
+                number_in("mm"));
 }
 
-const Record<ChainLengths>& cord_scale_record() {
-  static const auto record =
-      Record<ChainLengths>("the scales of the cords")
-          .optional("left_mm_per_m",
-                    "Excess of the controller's length per metre of the left cord.",
-                    &ChainLengths::left_mm,
-                    number_in("mm/m"))
-          .optional("right_mm_per_m",
-                    "Excess of the controller's length per metre of the right cord.",
-                    &ChainLengths::right_mm,
-                    number_in("mm/m"));
-  return record;
+Record<ChainLengths> cord_scale_record() {
+  return Record<ChainLengths>("the scales of the cords")
+      .optional("left_mm_per_m",
+                "Excess of the controller's length per metre of the left cord.",
+                &ChainLengths::left_mm,
+                number_in("mm/m"))
+      .optional("right_mm_per_m",
+                "Excess of the controller's length per metre of the right cord.",
+                &ChainLengths::right_mm,
+                number_in("mm/m"));
 }
 
-const Record<PlotterUncertainty>& uncertainty_of_plotter_record() {
+Record<PlotterUncertainty> uncertainty_of_plotter_record() {
   using Sigmas = PlotterUncertainty;
-  static const auto record =
-      Record<Sigmas>("the uncertainties of a V-plotter")
-          .optional("pin_spacing_mm",
-                    "Uncertainty of the distance between the pins, 1 sigma.",
-                    &Sigmas::pin_spacing_mm,
-                    number_in("mm"))
-          .optional("pin_rise_mm",
-                    "Uncertainty of the right pin's height above the left, 1 sigma.",
-                    &Sigmas::pin_rise_mm,
-                    number_in("mm"))
-          .optional("zero_mm",
-                    "Uncertainty of each cord's zero, 1 sigma.",
-                    &Sigmas::zero_mm,
-                    number_in("mm"))
-          .optional("scale_mm_per_m",
-                    "Uncertainty of the length per motor turn, 1 sigma.",
-                    &Sigmas::scale_mm_per_m,
-                    number_in("mm/m"));
-  return record;
+  return Record<Sigmas>("the uncertainties of a V-plotter")
+      .optional("pin_spacing_mm",
+                "Uncertainty of the distance between the pins, 1 sigma.",
+                &Sigmas::pin_spacing_mm,
+                number_in("mm"))
+      .optional("pin_rise_mm",
+                "Uncertainty of the right pin's height above the left, 1 sigma.",
+                &Sigmas::pin_rise_mm,
+                number_in("mm"))
+      .optional(
+          "zero_mm", "Uncertainty of each cord's zero, 1 sigma.", &Sigmas::zero_mm, number_in("mm"))
+      .optional("scale_mm_per_m",
+                "Uncertainty of the length per motor turn, 1 sigma.",
+                &Sigmas::scale_mm_per_m,
+                number_in("mm/m"));
 }
 
 void check_plotter_machine(const Cursor& at, PlotterMachine& machine) {
@@ -134,79 +119,67 @@ void check_plotter_machine(const Cursor& at, PlotterMachine& machine) {
   report_impossible(at, model::problems_of(machine));
 }
 
-const Record<PlotterMachine>& plotter_machine_record() {
+Record<PlotterMachine> plotter_machine_record() {
   using model::Feed;
   using Plotter = PlotterMachine;
-  static const auto record =
-      Record<Plotter>("a V-plotter's machine")
-          .optional("name", "Its name.", &Plotter::name, text())
-          .required("pin_spacing_mm",
-                    "Distance between the two points on the wall from which the cords come: pins, "
-                    "or axles of the pulleys.",
-                    &Plotter::pin_spacing_mm,
-                    number_in("mm"))
-          .optional("pin_rise_mm",
-                    "Height of the right point above the left.",
-                    &Plotter::pin_rise_mm,
-                    number_in("mm"))
-          .required(
-              "motors",
-              "Location of the motors with the pulleys or spools that count.",
-              &Plotter::motors,
-              choice<MotorPlace>({{"wall", MotorPlace::wall}, {"gondola", MotorPlace::gondola}}))
-          .optional("feed",
-                    "Side of its pulley over which a cord leaves.",
-                    &Plotter::feed,
-                    choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
-          .optional("pulley_radius_mm",
-                    "Radius of the cord on its pulley; 0: straight to the pin.",
-                    &Plotter::pulley_radius_mm,
-                    number_in("mm"))
-          .required(
-              "gondola", "What hangs on the cords.", &Plotter::gondola, object(gondola_record()))
-          .optional("cord", "The cords, or belts.", &Plotter::cord, object(cord_record()))
-          .optional("zero",
-                    "Known excess of the controller's length of each cord, which is corrected.",
-                    &Plotter::zero_mm,
-                    object(cord_zero_record()))
-          .optional(
-              "scale", "The same per metre.", &Plotter::scale_mm_per_m, object(cord_scale_record()))
-          .required("area",
-                    "Allowed positions of the pen, from the middle between the pins.",
-                    &Plotter::area,
-                    object(area_record()))
-          .optional("uncertainty",
-                    "Uncertainties of the settings, 1 sigma.",
-                    &Plotter::uncertainty,
-                    object(uncertainty_of_plotter_record()))
-          .check(check_plotter_machine);
-  return record;
+  return Record<Plotter>("a V-plotter's machine")
+      .optional("name", "Its name.", &Plotter::name)
+      .required("pin_spacing_mm",
+                "Distance between the two points on the wall from which the cords come: pins, "
+                "or axles of the pulleys.",
+                &Plotter::pin_spacing_mm,
+                number_in("mm"))
+      .optional("pin_rise_mm",
+                "Height of the right point above the left.",
+                &Plotter::pin_rise_mm,
+                number_in("mm"))
+      .required("motors",
+                "Location of the motors with the pulleys or spools that count.",
+                &Plotter::motors,
+                choice<MotorPlace>({{"wall", MotorPlace::wall}, {"gondola", MotorPlace::gondola}}))
+      .optional("feed",
+                "Side of its pulley over which a cord leaves.",
+                &Plotter::feed,
+                choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
+      .optional("pulley_radius_mm",
+                "Radius of the cord on its pulley; 0: straight to the pin.",
+                &Plotter::pulley_radius_mm,
+                number_in("mm"))
+      .required("gondola", "What hangs on the cords.", &Plotter::gondola, gondola_record())
+      .optional("cord", "The cords, or belts.", &Plotter::cord, cord_record())
+      .optional("zero",
+                "Known excess of the controller's length of each cord, which is corrected.",
+                &Plotter::zero_mm,
+                cord_zero_record())
+      .optional("scale", "The same per metre.", &Plotter::scale_mm_per_m, cord_scale_record())
+      .required("area",
+                "Allowed positions of the pen, from the middle between the pins.",
+                &Plotter::area,
+                area_record())
+      .optional("uncertainty",
+                "Uncertainties of the settings, 1 sigma.",
+                &Plotter::uncertainty,
+                uncertainty_of_plotter_record())
+      .check(check_plotter_machine);
 }
 
-const Record<model::PerSide<double>>& steps_record() {
+Record<model::PerSide<double>> steps_record() {
   using Steps = model::PerSide<double>;
-  static const auto record =
-      Record<Steps>("steps per millimetre")
-          .required("left", "Of the left motor; 0: unknown.", &Steps::left, number({"", 0.0, 1e5}))
-          .required(
-              "right", "Of the right motor; 0: unknown.", &Steps::right, number({"", 0.0, 1e5}));
-  return record;
+  return Record<Steps>("steps per millimetre")
+      .required("left", "Of the left motor; 0: unknown.", &Steps::left, number({"", 0.0, 1e5}))
+      .required("right", "Of the right motor; 0: unknown.", &Steps::right, number({"", 0.0, 1e5}));
 }
 
-const Record<BedPoint>& wall_point_record() {
-  static const auto record =
-      Record<BedPoint>("a place on the wall")
-          .required("x_mm", "x, to the right.", &BedPoint::x_mm, number(kPlaceMm))
-          .required("y_mm", "y, up.", &BedPoint::y_mm, number(kPlaceMm));
-  return record;
+Record<BedPoint> wall_point_record() {
+  return Record<BedPoint>("a place on the wall")
+      .required("x_mm", "x, to the right.", &BedPoint::x_mm, kPlaceMm)
+      .required("y_mm", "y, up.", &BedPoint::y_mm, kPlaceMm);
 }
 
-const Record<PenCommands>& pen_record() {
-  static const auto record =
-      Record<PenCommands>("the pen's commands")
-          .required("up", "The line of G-code that lifts the pen.", &PenCommands::up, text())
-          .required("down", "The line of G-code that lowers it.", &PenCommands::down, text());
-  return record;
+Record<PenCommands> pen_record() {
+  return Record<PenCommands>("the pen's commands")
+      .required("up", "The line of G-code that lifts the pen.", &PenCommands::up)
+      .required("down", "The line of G-code that lowers it.", &PenCommands::down);
 }
 
 void check_set_plotter(const Cursor& at, SetPlotter& set) {
@@ -241,28 +214,25 @@ const Record<SetPlotter>& set_plotter_record() {
           .required("machine",
                     "The machine with the controller's settings.",
                     &SetPlotter::machine,
-                    object(plotter_machine_record()))
+                    plotter_machine_record())
           .optional("steps_per_mm",
                     "As set in the controller.",
                     &SetPlotter::steps_per_mm,
-                    object(steps_record()))
+                    steps_record())
           .optional("home",
                     "Position that the controller assumes when it is switched on, from the middle "
                     "between the pins. For all but a mural.",
                     &SetPlotter::home,
-                    object(wall_point_record()))
+                    wall_point_record())
           .optional("pins_middle",
                     "The middle between the pins in the controller's own coordinates.",
                     &SetPlotter::pins_middle,
-                    object(wall_point_record()))
+                    wall_point_record())
           .optional("homed_offset_mm",
                     "Homed step offset of a mural.",
                     &SetPlotter::homed_offset_mm,
                     number({"mm", -1000.0, 1000.0}))
-          .optional("pen",
-                    "Commands that lift and lower the pen.",
-                    &SetPlotter::pen,
-                    object(pen_record()))
+          .optional("pen", "Commands that lift and lower the pen.", &SetPlotter::pen, pen_record())
           .optional("feed_mm_per_min",
                     "Feed for the test page.",
                     &SetPlotter::feed_mm_per_min,

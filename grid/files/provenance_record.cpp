@@ -6,15 +6,12 @@
 namespace chaintrue::grid::files {
 namespace {
 
-const Record<SourceFile>& source_file_record() {
-  static const auto record =
-      Record<SourceFile>("a file that was read")
-          .required("name", "Its name, without folders.", &SourceFile::name, text())
-          .required("sha256",
-                    "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.",
-                    &SourceFile::sha256,
-                    text());
-  return record;
+Record<SourceFile> source_file_record() {
+  return Record<SourceFile>("a file that was read")
+      .required("name", "Its name, without folders.", &SourceFile::name)
+      .required("sha256",
+                "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.",
+                &SourceFile::sha256);
 }
 
 }  // namespace
@@ -22,9 +19,8 @@ const Record<SourceFile>& source_file_record() {
 const Record<Provenance>& provenance_record() {
   static const auto record =
       Record<Provenance>("where a result comes from")
-          .required("version", "Version of chaintrue.", &Provenance::version, text())
-          .required(
-              "verb", "Verb of the command, or function, that made it.", &Provenance::verb, text())
+          .required("version", "Version of chaintrue.", &Provenance::version)
+          .required("verb", "Verb of the command, or function, that made it.", &Provenance::verb)
           .required("options",
                     "Options as given, with files without their folders and without those that "
                     "name an output.",
@@ -33,7 +29,7 @@ const Record<Provenance>& provenance_record() {
           .required("inputs",
                     "The files that were read, in order.",
                     &Provenance::inputs,
-                    list(object(source_file_record())));
+                    list(source_file_record()));
   return record;
 }
 

@@ -70,9 +70,8 @@ Value<model::Setting> setting_word() {
 const Record<ErrorSummary>& error_summary_record() {
   static const auto record =
       Record<ErrorSummary>("rms and maximum")
-          .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, number(kNotNegative))
-          .required(
-              "maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, number(kNotNegative));
+          .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, kNotNegative)
+          .required("maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, kNotNegative);
   return record;
 }
 

@@ -58,73 +58,61 @@ Value<GridLevel> grid_size(int least) {
            }}};
 }
 
-const Record<NoiseLevel>& noise_level_record() {
-  static const auto record = Record<NoiseLevel>("a noise")
-                                 .required("length_mm",
-                                           "Noise of a chain reading, 1 sigma.",
-                                           &NoiseLevel::length_mm,
-                                           number({"mm", 0.0, 100.0}))
-                                 .required("position_mm",
-                                           "Noise of a mark's position, 1 sigma on each axis.",
-                                           &NoiseLevel::position_mm,
-                                           number({"mm", 0.0, 100.0}));
-  return record;
+Record<NoiseLevel> noise_level_record() {
+  return Record<NoiseLevel>("a noise")
+      .required("length_mm",
+                "Noise of a chain reading, 1 sigma.",
+                &NoiseLevel::length_mm,
+                number({"mm", 0.0, 100.0}))
+      .required("position_mm",
+                "Noise of a mark's position, 1 sigma on each axis.",
+                &NoiseLevel::position_mm,
+                number({"mm", 0.0, 100.0}));
 }
 
-const Record<StatedMachine>& stated_machine_record() {
-  static const auto record =
-      Record<StatedMachine>("a machine")
-          .required(
-              "name", "Name of the machine in messages and pages.", &StatedMachine::name, text())
-          .required("machine_file",
-                    "Path of the true machine, from this file.",
-                    &StatedMachine::machine_file,
-                    text())
-          .sparse("stated_file",
-                  "Path of the machine that the owner assumes; default: the true one.",
-                  &StatedMachine::stated_file,
-                  text())
-          .optional("model",
-                    "The physics used to simulate readings.",
-                    &StatedMachine::model,
-                    choice<Model>({{"straight", Model::straight},
-                                   {"wrap", Model::wrap},
-                                   {"firmware", Model::firmware},
-                                   {"one_shot", Model::one_shot},
-                                   {"inextensible", Model::inextensible},
-                                   {"elastic", Model::elastic},
-                                   {"elastic_3d", Model::elastic_3d}}))
-          .optional("unmodelled_mm",
-                    "Size of smooth errors outside every model.",
-                    &StatedMachine::unmodelled_mm,
-                    number({"mm", 0.0, 100.0}));
-  return record;
+Record<StatedMachine> stated_machine_record() {
+  return Record<StatedMachine>("a machine")
+      .required("name", "Name of the machine in messages and pages.", &StatedMachine::name)
+      .required(
+          "machine_file", "Path of the true machine, from this file.", &StatedMachine::machine_file)
+      .sparse("stated_file",
+              "Path of the machine that the owner assumes; default: the true one.",
+              &StatedMachine::stated_file)
+      .optional("model",
+                "The physics used to simulate readings.",
+                &StatedMachine::model,
+                choice<Model>({{"straight", Model::straight},
+                               {"wrap", Model::wrap},
+                               {"firmware", Model::firmware},
+                               {"one_shot", Model::one_shot},
+                               {"inextensible", Model::inextensible},
+                               {"elastic", Model::elastic},
+                               {"elastic_3d", Model::elastic_3d}}))
+      .optional("unmodelled_mm",
+                "Size of smooth errors outside every model.",
+                &StatedMachine::unmodelled_mm,
+                number({"mm", 0.0, 100.0}));
 }
 
-const Record<EffectsLevel>& effects_record() {
-  static const auto record =
-      Record<EffectsLevel>("hidden effects")
-          .required("name", "Name of this level in results.", &EffectsLevel::name, text())
-          .required("effects",
-                    "Effects of the true machine that are hidden from the fit.",
-                    &EffectsLevel::effects,
-                    list(object(effect_record())));
-  return record;
+Record<EffectsLevel> effects_record() {
+  return Record<EffectsLevel>("hidden effects")
+      .required("name", "Name of this level in results.", &EffectsLevel::name)
+      .required("effects",
+                "Effects of the true machine that are hidden from the fit.",
+                &EffectsLevel::effects,
+                list(effect_record()));
 }
 
-const Record<UseLevel>& use_record() {
-  static const auto record =
-      Record<UseLevel>("a machine that the map is used on")
-          .required("name", "Name of this level in results.", &UseLevel::name, text())
-          .sparse("effects",
-                  "Effects that it has besides those of the measured machine.",
-                  &UseLevel::effects,
-                  list(object(effect_record())))
-          .optional("another_of_the_build",
-                    "A different machine of the same build, with its settings drawn anew.",
-                    &UseLevel::another_of_the_build,
-                    boolean());
-  return record;
+Record<UseLevel> use_record() {
+  return Record<UseLevel>("a machine that the map is used on")
+      .required("name", "Name of this level in results.", &UseLevel::name)
+      .sparse("effects",
+              "Effects that it has besides those of the measured machine.",
+              &UseLevel::effects,
+              list(effect_record()))
+      .optional("another_of_the_build",
+                "A different machine of the same build, with its settings drawn anew.",
+                &UseLevel::another_of_the_build);
 }
 
 SweepSpec default_sweep() {
@@ -159,11 +147,9 @@ Record<StatedSweep> make_record() {
                                              {"direct_parabolic", SurfaceLevel::direct_parabolic},
                                              {"direct_natural", SurfaceLevel::direct_natural}});
   return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
-      .required("name", "Name of the sweep.", of_spec(&SweepSpec::name), text())
-      .optional("question",
-                "The question it answers, in a sentence.",
-                of_spec(&SweepSpec::question),
-                text())
+      .required("name", "Name of the sweep.", of_spec(&SweepSpec::name))
+      .optional(
+          "question", "The question it answers, in a sentence.", of_spec(&SweepSpec::question))
       .optional("seed",
                 "Seed of the random draws; the same seed gives the same numbers.",
                 of_spec(&SweepSpec::seed),
@@ -178,12 +164,10 @@ Record<StatedSweep> make_record() {
                 integer(0, 10'000))
       .optional("draw_settings",
                 "Draw motors and zeros from the machine's uncertainty.",
-                of_spec(&SweepSpec::draw_settings),
-                boolean())
+                of_spec(&SweepSpec::draw_settings))
       .optional("whole_bed",
                 "Evaluate the map over the whole bed, not only the measured part.",
-                of_spec(&SweepSpec::whole_bed),
-                boolean())
+                of_spec(&SweepSpec::whole_bed))
       .computed(
           "evaluation",
           "Columns x rows of places where the map is compared with the truth.",
@@ -207,7 +191,7 @@ Record<StatedSweep> make_record() {
       .optional("noises",
                 "Noise of the readings; a factor.",
                 of_spec(&SweepSpec::noises),
-                list(object(noise_level_record()), 1))
+                list(noise_level_record(), 1))
       .optional("jitters_mm",
                 "Largest distance of the sled from its mark; a factor.",
                 of_spec(&SweepSpec::jitters_mm),
@@ -217,15 +201,15 @@ Record<StatedSweep> make_record() {
       .required("machines",
                 "The machines; a factor.",
                 &StatedSweep::machines,
-                list(object(stated_machine_record()), 1))
+                list(stated_machine_record(), 1))
       .optional("effects",
                 "Hidden effects; a factor.",
                 of_spec(&SweepSpec::effects),
-                list(object(effects_record()), 1))
+                list(effects_record(), 1))
       .optional("used_on",
                 "The machine that the map is used on; a factor.",
                 of_spec(&SweepSpec::uses),
-                list(object(use_record()), 1));
+                list(use_record(), 1));
 }
 
 const Record<StatedSweep>& sweep_record() {
