@@ -40,7 +40,10 @@ constexpr Card kCards[] = {{"belt_stretch", false, false, 0.002, 0.006, false},
 /// The last two are asked for by name alone: the frozen sets are drawn from the others.
 constexpr std::size_t kDrawnCards = std::size(kCards) - 2;
 
-std::vector<std::array<double, 2>> raster(const BeltFrame& frame, int columns, int rows, Dice& dice) {
+std::vector<std::array<double, 2>> raster(const BeltFrame& frame,
+                                          int columns,
+                                          int rows,
+                                          Dice& dice) {
   const double width = frame.anchors[3][0];
   const double height = 0.5 * (frame.anchors[0][1] + frame.anchors[1][1]);
   std::vector<std::array<double, 2>> all;
@@ -69,7 +72,9 @@ BeltFrame drawn_frame(Dice& dice) {
 
 /// Every anchor gives along its belt in proportion to the belt's tension: the pulled ones by the
 /// secret's size at the frame's own pull.
-void let_anchors_give(const BeltSession& session, double give_mm_per_n, std::vector<FourLengths>& read) {
+void let_anchors_give(const BeltSession& session,
+                      double give_mm_per_n,
+                      std::vector<FourLengths>& read) {
   for (std::size_t n = 0; n < read.size(); ++n) {
     const auto& [x, y] = session.commands[n];
     FourLengths held{};
@@ -122,8 +127,7 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
       if (secret.effect == "belt_scale") read[n][i] /= 1.0 + secret.size;
       if (secret.effect == "belt_zero") read[n][i] += secret.size;
       if (secret.effect == "drift") read[n][i] += secret.size * (visit + static_cast<double>(n));
-      if (secret.effect == "tooth_skip" &&
-          visit + static_cast<int>(n) >= secret.first_visit)
+      if (secret.effect == "tooth_skip" && visit + static_cast<int>(n) >= secret.first_visit)
         read[n][i] += kToothMm * secret.size;
       if (secret.effect == "zero_shift" && visit + static_cast<int>(n) >= secret.first_visit)
         read[n][i] += secret.size;
@@ -132,23 +136,24 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
   return read;
 }
 
-std::vector<FourLengths> less(std::vector<FourLengths> read, const std::vector<FourLengths>& plain) {
+std::vector<FourLengths> less(std::vector<FourLengths> read,
+                              const std::vector<FourLengths>& plain) {
   for (std::size_t n = 0; n < read.size(); ++n) {
     for (std::size_t i = 0; i < 4; ++i) read[n][i] -= plain[n][i];
   }
   return read;
 }
 
-/// The projected signature of each cause of the catalogue at its usual size, as unit vectors;
+/// The projected signature of each cause of the catalogue at its usual size, as spaces;
 /// causes that set in do so at every visit.
-std::vector<Eigen::VectorXd> rivals_of(const BeltFrame& frame,
-                                       const std::vector<std::array<double, 2>>& commands,
-                                       const std::vector<FourLengths>& plain,
-                                       const AnchorProjection& projection) {
-  std::vector<Eigen::VectorXd> rivals;
+std::vector<Rival> rivals_of(const BeltFrame& frame,
+                             const std::vector<std::array<double, 2>>& commands,
+                             const std::vector<FourLengths>& plain,
+                             const AnchorProjection& projection) {
+  std::vector<Rival> rivals;
   const auto add = [&](const std::vector<FourLengths>& change) {
     const Eigen::VectorXd left = projection.left_of(change);
-    if (left.norm() > 1e-6) rivals.push_back(left.normalized());
+    if (left.norm() > 1e-6) rivals.push_back({.basis = left.normalized()});
   };
   for (const Card& card : kCards) {
     const std::string effect = card.effect;
@@ -195,29 +200,23 @@ void add_law(const BeltRecipe& recipe,
   constexpr int kDraws = 500;
   const std::vector<FourLengths> plain = readings(draw.frame, BeltSecret{}, commands);
   const AnchorProjection projection(draw.frame, commands);
-  const std::vector<Eigen::VectorXd> rivals = rivals_of(draw.frame, commands, plain, projection);
+  const std::vector<Rival> rivals = rivals_of(draw.frame, commands, plain, projection);
   for (int n = 0; n < kDraws; ++n) {
-    BeltLaw law = drawn_belt_law(*recipe.law, commands, dice);
+    HiddenLaw law = drawn_belt_law(*recipe.law, commands, dice);
+    const std::size_t belt = law.component;
     std::vector<FourLengths> added(commands.size(), FourLengths{});
-    for (std::size_t k = 0; k < commands.size(); ++k) {
-      added[k][law.belt] = value_of(
-          law, draw.frame, commands[k][0], commands[k][1], plain[k][law.belt]);
-    }
-    const Eigen::VectorXd left = projection.left_of(added);
-    double likest = 0.0;
-    for (const Eigen::VectorXd& rival : rivals)
-      likest = std::max(likest, std::abs(rival.dot(left)) / std::max(left.norm(), 1e-12));
-    const double own = left.norm() * std::sqrt(std::max(0.0, 1.0 - likest * likest));
+    for (std::size_t k = 0; k < commands.size(); ++k)
+      added[k][belt] = law_value(law, site_of(draw.frame, belt, commands[k], plain[k][belt]));
+    const double own = unexplained(projection.left_of(added), rivals);
     if (!(own > 1e-3)) continue;
-    law.strength = dice.log_uniform(recipe.least_law, recipe.most_law);
-    const bool slopes = law.family == BeltLawFamily::slope_from_x || law.family == BeltLawFamily::slope_from_y;
-    const double size = dice.log_uniform(0.5, 6.0) * (slopes ? 4.0 : 1.0);
-    draw.noise_mm = size * own / law.strength;
+    const double strength = dice.log_uniform(recipe.least_law, recipe.most_law);
+    const double size = dice.log_uniform(0.5, 6.0) * (is_slope(law.family) ? 4.0 : 1.0);
+    draw.noise_mm = size * own / strength;
     if (draw.noise_mm < 0.1 || draw.noise_mm > 1.0) continue;
     law.size_mm = size * dice.sign();
     for (std::size_t k = 0; k < commands.size(); ++k)
-      draw.lengths_mm[k][law.belt] += law.size_mm * added[k][law.belt];
-    draw.secret.law = std::move(law);
+      draw.lengths_mm[k][belt] += law.size_mm * added[k][belt];
+    draw.secret.law = SizedLaw{std::move(law), strength};
     return;
   }
   throw std::runtime_error("draw_belts: no law fits");

@@ -27,7 +27,7 @@ struct BeltSecret {
   int first_visit = 0;
   double strength = 0.0;
   std::vector<std::array<int, 2>> bad;  ///< point and belt (tl, tr, bl, br) of bad readings
-  std::optional<BeltLaw> law;
+  std::optional<SizedLaw> law;
 };
 
 struct BeltRecipe {
@@ -39,14 +39,14 @@ struct BeltRecipe {
   /// All points once with each: sizes and the strength are those of the first.
   std::vector<double> pulls = {1.0};
   /// A law or a field as well, of a strength in this range; of recipes with one pull.
-  std::optional<BeltLawFamily> law{};
+  std::optional<LawFamily> law{};
   double least_law = 12.0;
   double most_law = 40.0;
 };
 
 struct BeltDraw {
   BeltSecret secret;
-  BeltFrame frame;  ///< the true one, before anything moved
+  BeltFrame frame;                      ///< the true one, before anything moved
   std::vector<FourLengths> lengths_mm;  ///< slanting, belts alone; in the order of the visits
   std::vector<double> pulls;            ///< at each, as the recipe has them
   double noise_mm = 0.0;

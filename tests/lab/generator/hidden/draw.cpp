@@ -12,7 +12,6 @@
 namespace chaintrue::generator {
 namespace {
 
-
 /// Effects that a mix draws from; zero_shift, the last, is asked for by name alone, so that the frozen
 /// sets stay what they are.
 constexpr std::size_t kDrawn = kCauses - 1;
@@ -56,15 +55,6 @@ TrueMachine stated_machine(const Recipe& recipe, Dice& dice) {
   return m;
 }
 
-TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
-  for (Vec2& axis : m.axis) {
-    axis.x += 1.5 * factor * dice.normal();
-    axis.y += 1.5 * factor * dice.normal();
-  }
-  for (double& zero : m.chain_zero_mm) zero += 0.5 * factor * dice.normal();
-  return m;
-}
-
 // The size that gives the required delta: the secant method on log delta over log size, which is
 // linear for most effects.
 std::optional<SizedEffect> sized(const Yardstick& yardstick, Hidden effect, double wanted) {
@@ -103,9 +93,9 @@ std::optional<SizedEffect> sized(const Yardstick& yardstick, Hidden effect, doub
 
 // Whole links: any of the pairs with a delta in range, with equal probability.
 std::optional<SizedEffect> whole_links(const Yardstick& yardstick,
-                                 Hidden effect,
-                                 Range range,
-                                 Dice& dice) {
+                                       Hidden effect,
+                                       Range range,
+                                       Dice& dice) {
   std::vector<SizedEffect> fitting;
   const int last = yardstick.visits().back().number;
   const int first = effect.cause == Cause::tooth_skip ? 1 : 0;
@@ -130,7 +120,10 @@ std::optional<SizedEffect> whole_links(const Yardstick& yardstick,
 }
 
 // Side and place are drawn again up to 30 times before the effect is dropped.
-std::optional<SizedEffect> draw_effect(const Yardstick& yardstick, Cause cause, Range range, Dice& dice) {
+std::optional<SizedEffect> draw_effect(const Yardstick& yardstick,
+                                       Cause cause,
+                                       Range range,
+                                       Dice& dice) {
   const CauseCard& c = card(cause);
   for (int n = 0; n < 30; ++n) {
     Hidden effect{cause, c.sides[dice.below(c.sides.size())], 0.0, 0.0};
@@ -145,7 +138,8 @@ std::optional<SizedEffect> draw_effect(const Yardstick& yardstick, Cause cause, 
     if (c.place == Place::visit) {
       // A tenth of the session at least on either side, or the shift is bad readings.
       const auto count = yardstick.visits().size();
-      effect.place = yardstick.visits()[count / 10 + 1 + dice.below(count - 2 * (count / 10) - 1)].number;
+      effect.place =
+          yardstick.visits()[count / 10 + 1 + dice.below(count - 2 * (count / 10) - 1)].number;
     }
     if (c.place == Place::angle) {
       const auto known = yardstick.angles(effect.where == Where::left ? 0 : 1);
@@ -217,10 +211,7 @@ void draw_unlisted(const Yardstick& yardstick, Answer& answer, Dice& dice) {
     std::vector<Vec2> shifts;
     for (const Visit& v : yardstick.visits()) shifts.push_back(shift(u, v.place));
     const Signature s = yardstick.signature_of_shifts(shifts);
-    const double whole = s.norm();
-    double best = 0.0;
-    for (const Rival& r : rivals) best = std::max(best, likeness(s, r));
-    const double left = whole * std::sqrt(std::max(0.0, 1.0 - best * best));
+    const double whole = s.norm(), left = unexplained(s, rivals);
     if (!(left > 1e-3)) continue;
     u.size_mm = dice.log_uniform(10.0, 20.0) / left;
     // A larger size would be noticed.
@@ -237,9 +228,9 @@ std::vector<Visit> true_visits(const std::vector<PlannedVisit>& planned, Dice& d
   std::vector<Visit> visits;
   for (const PlannedVisit& p : planned) {
     const double alongside = p.repeat ? 2.0 : 8.0;
-    visits.push_back(
-        {{p.place.x + dice.uniform(-alongside, alongside), p.place.y + dice.uniform(-alongside, alongside)},
-         static_cast<int>(visits.size())});
+    visits.push_back({{p.place.x + dice.uniform(-alongside, alongside),
+                       p.place.y + dice.uniform(-alongside, alongside)},
+                      static_cast<int>(visits.size())});
   }
   return visits;
 }
@@ -289,7 +280,8 @@ void slip(std::vector<HiddenMachine::Note>& notes, Answer& answer, Dice& dice) {
     };
     if (std::any_of(answer.bad_points.begin(), answer.bad_points.end(), near)) continue;
     answer.bad_points.push_back(i);
-    const double far = dice.uniform(8.0, 20.0), angle = dice.uniform(-std::numbers::pi, std::numbers::pi);
+    const double far = dice.uniform(8.0, 20.0),
+                 angle = dice.uniform(-std::numbers::pi, std::numbers::pi);
     notes[i].mark.x += far * std::cos(angle);
     notes[i].mark.y += far * std::sin(angle);
   }
@@ -315,7 +307,8 @@ std::size_t effects_in(Mix mix) {
 }
 
 bool has_pattern(Mix mix) {
-  return mix == Mix::alongside || mix == Mix::two_alongside || mix == Mix::pattern || mix == Mix::near;
+  return mix == Mix::alongside || mix == Mix::two_alongside || mix == Mix::pattern ||
+         mix == Mix::near;
 }
 
 PatternRules rules_of(const Recipe& recipe) {
@@ -352,6 +345,15 @@ std::optional<Mix> mix_of(std::string_view text) {
   return std::nullopt;
 }
 
+TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
+  for (Vec2& axis : m.axis) {
+    axis.x += 1.5 * factor * dice.normal();
+    axis.y += 1.5 * factor * dice.normal();
+  }
+  for (double& zero : m.chain_zero_mm) zero += 0.5 * factor * dice.normal();
+  return m;
+}
+
 std::optional<SizedEffect> draw_sized_effect(
     const Yardstick& yardstick, Cause cause, double least_delta, double most_delta, Dice& dice) {
   return draw_effect(yardstick, cause, {least_delta, most_delta}, dice);
@@ -368,10 +370,9 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   answer.order = recipe.order.value_or(drawn_order);
   Layout layout = layout_of(recipe.points);
   layout.extent = recipe.extent;
-  const auto visits =
-      true_visits(recipe.list_of_start ? list_of_start()
-                                       : plan_visits(layout, answer.order, order_dice),
-                  place_dice);
+  const auto visits = true_visits(
+      recipe.list_of_start ? list_of_start() : plan_visits(layout, answer.order, order_dice),
+      place_dice);
 
   const NoiseLevel noise = recipe.noise;
   const auto yardstick = Yardstick::make(truth, visits, noise, {});
@@ -397,14 +398,13 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   if (recipe.kind == Mix::unlisted) draw_unlisted(*yardstick, answer, effect_dice);
   if (has_pattern(recipe.kind)) {
     Dice pattern_dice(seed, "pattern");
-    answer.pattern =
-        draw_pattern(*yardstick, rules_of(recipe), signatures, pattern_dice);
+    answer.pattern = draw_pattern(*yardstick, rules_of(recipe), signatures, pattern_dice);
   }
 
   if (recipe.law) {
     Dice law_dice(seed, "law");
-    answer.law = draw_law(
-        *yardstick, *recipe.law, recipe.least_law_delta, recipe.most_law_delta, law_dice);
+    answer.law =
+        draw_law(*yardstick, *recipe.law, recipe.least_law_delta, recipe.most_law_delta, law_dice);
   }
 
   HiddenMachine machine(stated, truth, answer.hidden);
@@ -444,8 +444,7 @@ std::string other_session(const SealedSet& set, int columns, int rows, std::uint
   const auto count = marks.size();
   for (std::size_t k = 0; k < 6; ++k) marks.push_back(marks[k * count / 6]);
   std::vector<Visit> visits;
-  for (const Vec2& mark : marks)
-    visits.push_back({mark, static_cast<int>(visits.size())});
+  for (const Vec2& mark : marks) visits.push_back({mark, static_cast<int>(visits.size())});
   const auto exact = set.machine.exact(visits);
   if (!exact) throw std::runtime_error("other_session: the hidden machine cannot reach a mark");
   WrittenGrid grid;

@@ -44,8 +44,8 @@ enum class Mix {
   bad_points_and_effect,  ///< the same with an effect of delta 12
   no_order,               ///< as single, without visiting numbers
   rounded,                ///< as single, read to 0.5 mm
-  alongside,                 ///< as single, with a pattern that is not collinear with it
-  two_alongside,             ///< as two, with a pattern
+  alongside,              ///< as single, with a pattern that is not collinear with it
+  two_alongside,          ///< as two, with a pattern
   pattern,                ///< a pattern alone, delta 6 to 30
   near,                   ///< a pattern alone that is collinear with an effect of the catalogue
 };
@@ -154,6 +154,9 @@ struct SealedSet {
   std::vector<HiddenMachine::Note> notes;
 };
 
+/// Motors off by 1.5 mm and zeros by 0.5 mm, one sigma, times a factor.
+[[nodiscard]] TrueMachine with_settings_off(TrueMachine machine, double factor, Dice& dice);
+
 /// An effect with its strength in the data.
 struct SizedEffect {
   Hidden hidden;
@@ -180,6 +183,9 @@ struct SizedEffect {
 /// The text of another session of the same machine at other marks, `columns` by `rows` of them, one
 /// at random in each cell, in random order and with six second visits. \throws std::runtime_error if a
 /// mark cannot be reached.
-[[nodiscard]] std::string other_session(const SealedSet& set, int columns, int rows, std::uint64_t seed);
+[[nodiscard]] std::string other_session(const SealedSet& set,
+                                        int columns,
+                                        int rows,
+                                        std::uint64_t seed);
 
 }  // namespace chaintrue::generator

@@ -24,23 +24,6 @@ double frequency(LawFamily family, double length, Dice& dice) {
   return normal / std::sqrt(square / 3.0);
 }
 
-void draw_waves(HiddenLaw& law, Dice& dice) {
-  const bool stretched = law.family == LawFamily::stretched_field;
-  const double c = std::cos(law.direction_rad);
-  const double s = std::sin(law.direction_rad);
-  for (int k = 0; k < kWavesOfField; ++k) {
-    // Both components share the gamma variable of Matern's.
-    const double longer = frequency(law.family, law.extent * (stretched ? 3.0 : 1.0), dice);
-    const double other = law.family == LawFamily::matern_field ? longer * dice.normal()
-                                                               : dice.normal() / law.extent;
-    const double along = law.family == LawFamily::matern_field ? longer * dice.normal() : longer;
-    law.waves.push_back({c * along - s * other,
-                         s * along + c * other,
-                         dice.uniform(-std::numbers::pi, std::numbers::pi),
-                         std::sqrt(2.0 / kWavesOfField)});
-  }
-}
-
 HiddenLaw drawn(LawFamily family, Dice& dice) {
   HiddenLaw law;
   law.family = family;
@@ -61,7 +44,8 @@ HiddenLaw drawn(LawFamily family, Dice& dice) {
       break;
     case LawFamily::slope_oblique:
       // Neither nearly along x nor along y.
-      law.direction_rad = (dice.uniform() < 0.5 ? 0.0 : 0.5 * std::numbers::pi) + dice.uniform(0.35, 1.22);
+      law.direction_rad =
+          (dice.uniform() < 0.5 ? 0.0 : 0.5 * std::numbers::pi) + dice.uniform(0.35, 1.22);
       law.place = dice.uniform(-300.0, 300.0);
       break;
     case LawFamily::ripple_of_length:
@@ -94,6 +78,23 @@ HiddenLaw drawn(LawFamily family, Dice& dice) {
 
 }  // namespace
 
+void draw_waves(HiddenLaw& law, Dice& dice) {
+  const bool stretched = law.family == LawFamily::stretched_field;
+  const double c = std::cos(law.direction_rad);
+  const double s = std::sin(law.direction_rad);
+  for (int k = 0; k < kWavesOfField; ++k) {
+    // Both components share the gamma variable of Matern's.
+    const double longer = frequency(law.family, law.extent * (stretched ? 3.0 : 1.0), dice);
+    const double other =
+        law.family == LawFamily::matern_field ? longer * dice.normal() : dice.normal() / law.extent;
+    const double along = law.family == LawFamily::matern_field ? longer * dice.normal() : longer;
+    law.waves.push_back({c * along - s * other,
+                         s * along + c * other,
+                         dice.uniform(-std::numbers::pi, std::numbers::pi),
+                         std::sqrt(2.0 / kWavesOfField)});
+  }
+}
+
 std::string_view word(LawFamily family) {
   constexpr std::string_view kWords[] = {"step_along_x",
                                          "step_along_y",
@@ -112,7 +113,10 @@ std::string_view word(LawFamily family) {
   return kWords[static_cast<std::size_t>(family)];
 }
 
-bool is_of_one_variable(LawFamily family) { return family < LawFamily::product_of_two; }
+bool is_slope(LawFamily family) {
+  return family == LawFamily::slope_from_x || family == LawFamily::slope_from_y ||
+         family == LawFamily::slope_oblique;
+}
 
 double law_value(const HiddenLaw& law, const PatternSite& site) {
   const Vec2 p = site.place;
@@ -137,7 +141,8 @@ double law_value(const HiddenLaw& law, const PatternSite& site) {
     case LawFamily::ripple_along_x:
       return std::sin(2.0 * std::numbers::pi * p.x / law.extent + law.phase);
     case LawFamily::drop_at_edge: {
-      const double inside = law.chain == 0 ? kMarksHalfWidth - law.sign * p.x : kMarksHalfHeight - law.sign * p.y;
+      const double inside =
+          law.chain == 0 ? kMarksHalfWidth - law.sign * p.x : kMarksHalfHeight - law.sign * p.y;
       return std::exp(-inside / law.extent);
     }
     case LawFamily::product_of_two:
@@ -147,9 +152,8 @@ double law_value(const HiddenLaw& law, const PatternSite& site) {
       break;
   }
   // The rough side has waves of two fifths of the length.
-  const double share = law.family == LawFamily::uneven_field
-                           ? 0.5 + 0.5 * std::tanh(law.sign * p.x / 400.0)
-                           : 0.0;
+  const double share =
+      law.family == LawFamily::uneven_field ? 0.5 + 0.5 * std::tanh(law.sign * p.x / 400.0) : 0.0;
   double smooth = 0.0;
   double rough = 0.0;
   for (const HiddenWave& wave : law.waves) {
@@ -164,12 +168,7 @@ std::vector<Vec2> law_at(const HiddenLaw& law,
                          std::span<const Visit> visits,
                          const std::vector<Rest>& at_rest) {
   std::vector<Vec2> all;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    PatternSite site{visits[i].place, {}, {}};
-    for (std::size_t c = 0; c < 2; ++c) {
-      site.angle_rad[c] = at_rest[i].chain[c].angle_rad;
-      site.length_mm[c] = at_rest[i].chain[c].length_mm;
-    }
+  for (const PatternSite& site : sites_of(visits, at_rest)) {
     const double own = law.size_mm * law_value(law, site);
     all.push_back(law.component == 0 ? Vec2{own, 0.0} : Vec2{0.0, own});
   }
@@ -193,16 +192,11 @@ SizedLaw draw_law(const Yardstick& yardstick,
       for (const Vec2& one : at) extra.push_back({one.x, one.y});
       s = yardstick.signature_of_lengths(extra);
     }
-    double best = 0.0;
-    for (const Rival& r : rivals) best = std::max(best, likeness(s, r));
-    const double left = s.norm() * std::sqrt(std::max(0.0, 1.0 - best * best));
+    const double left = unexplained(s, rivals);
     if (!(left > 1e-3)) continue;
     const double delta = dice.log_uniform(least_delta, most_delta);
     const double size = delta / left;
-    const double usual = family == LawFamily::slope_from_x || family == LawFamily::slope_from_y ||
-                                 family == LawFamily::slope_oblique
-                             ? 12.0
-                             : 6.0;
+    const double usual = is_slope(family) ? 12.0 : 6.0;
     if (size > usual) continue;
     law.size_mm = size * dice.sign();
     return {std::move(law), delta};

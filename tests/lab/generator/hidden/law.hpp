@@ -22,23 +22,23 @@ enum class LawFamily {
   // of one variable
   step_along_x,
   step_along_y,
-  slope_from_x,        ///< level, then rising from a place on
+  slope_from_x,  ///< level, then rising from a place on
   slope_from_y,
   slope_oblique,
-  ripple_of_length,    ///< a wave of one chain's length
+  ripple_of_length,  ///< a wave of one chain's length
   ripple_of_angle,
   ripple_along_x,
-  drop_at_edge,        ///< exponential, towards one side of the bed
+  drop_at_edge,  ///< exponential, towards one side of the bed
   // of two, or none
-  product_of_two,      ///< of a wave along x and one along y
+  product_of_two,  ///< of a wave along x and one along y
   gaussian_field,
-  matern_field,        ///< of order 3/2: rougher
-  stretched_field,     ///< three times as long one way as the other
-  uneven_field,        ///< rougher on one side of the bed than on the other
+  matern_field,     ///< of order 3/2: rougher
+  stretched_field,  ///< three times as long one way as the other
+  uneven_field,     ///< rougher on one side of the bed than on the other
 };
-inline constexpr std::size_t kLawFamilies = 14;
 [[nodiscard]] std::string_view word(LawFamily family);
-[[nodiscard]] bool is_of_one_variable(LawFamily family);
+/// Its size is a metre's rise.
+[[nodiscard]] bool is_slope(LawFamily family);
 
 struct HiddenWave {
   double by_x = 0.0;  ///< radians a mm
@@ -51,16 +51,18 @@ struct HiddenLaw {
   LawFamily family = LawFamily::step_along_x;
   double size_mm = 1.0;
   bool moves_tool = false;
-  std::size_t component = 0;   ///< of the tool: x, y; else the chain: left, right
+  std::size_t component = 0;   ///< of the tool: x, y; else the chain or belt that it enters
   std::size_t chain = 0;       ///< whose length or angle it depends on
   double direction_rad = 0.0;  ///< of slope_oblique; of fields that of their longer side
   double place = 0.0;          ///< mm, of a step or the beginning of a slope
   double extent = 0.0;         ///< mm or rad: period, or the length over which a drop falls to 1/e
   double phase = 0.0;
-  double sign = 1.0;           ///< of a slope the sense in which it rises, of a drop the side
+  double sign = 1.0;  ///< of a slope the sense in which it rises, of a drop the side
   std::vector<HiddenWave> waves{};
 };
 
+/// The waves of a field, by its extent and direction.
+void draw_waves(HiddenLaw& law, Dice& dice);
 /// For size 1: a slope per 1000 mm.
 [[nodiscard]] double law_value(const HiddenLaw& law, const PatternSite& site);
 

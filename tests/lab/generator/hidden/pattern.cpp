@@ -9,7 +9,6 @@
 namespace chaintrue::generator {
 namespace {
 
-
 double largest_cosine(const Signature& own, std::span<const Signature> others) {
   double most = 0.0;
   for (const Signature& other : others) {
@@ -21,14 +20,8 @@ double largest_cosine(const Signature& own, std::span<const Signature> others) {
 }  // namespace
 
 std::string_view word(PatternFamily family) {
-  constexpr std::string_view kWords[] = {"dent",
-                                         "wave",
-                                         "fold",
-                                         "column_band",
-                                         "chain_angle",
-                                         "edge_heave",
-                                         "patch",
-                                         "length_steps"};
+  constexpr std::string_view kWords[] = {
+      "dent", "wave", "fold", "column_band", "chain_angle", "edge_heave", "patch", "length_steps"};
   return kWords[static_cast<std::size_t>(family)];
 }
 
@@ -65,16 +58,23 @@ Pattern draw_family(PatternGroup group, Dice& dice) {
   return p;
 }
 
-std::vector<Lengths> extra_lengths(const Pattern& pattern,
-                                   std::span<const Visit> visits,
-                                   const std::vector<Rest>& at_rest) {
-  std::vector<Lengths> extra;
+std::vector<PatternSite> sites_of(std::span<const Visit> visits, const std::vector<Rest>& at_rest) {
+  std::vector<PatternSite> sites;
   for (std::size_t i = 0; i < visits.size(); ++i) {
-    PatternSite site{visits[i].place, {}, {}};
+    PatternSite& site = sites.emplace_back(PatternSite{visits[i].place, {}, {}});
     for (std::size_t c = 0; c < 2; ++c) {
       site.angle_rad[c] = at_rest[i].chain[c].angle_rad;
       site.length_mm[c] = at_rest[i].chain[c].length_mm;
     }
+  }
+  return sites;
+}
+
+std::vector<Lengths> extra_lengths(const Pattern& pattern,
+                                   std::span<const Visit> visits,
+                                   const std::vector<Rest>& at_rest) {
+  std::vector<Lengths> extra;
+  for (const PatternSite& site : sites_of(visits, at_rest)) {
     const double height = pattern.height_mm * field(pattern, site);
     extra.push_back({height * pattern.entry[0], height * pattern.entry[1]});
   }

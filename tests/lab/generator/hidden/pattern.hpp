@@ -40,12 +40,14 @@ enum class PatternFamily {
 };
 [[nodiscard]] std::string_view word(PatternFamily family);
 
-/// Argument of a field: the tool's position, and the angles of the chains there.
+/// Argument of a field: the tool's position, and the chains' or belts' angles and lengths there.
 struct PatternSite {
   Vec2 place;
-  std::array<double, 2> angle_rad{};
-  std::array<double, 2> length_mm{};
+  std::array<double, 4> angle_rad{};
+  std::array<double, 4> length_mm{};
 };
+[[nodiscard]] std::vector<PatternSite> sites_of(std::span<const Visit> visits,
+                                                const std::vector<Rest>& at_rest);
 
 struct Pattern {
   PatternFamily family = PatternFamily::dent;
@@ -55,7 +57,7 @@ struct Pattern {
   double direction_rad = 0.0;  ///< a wave's run; across a line
   double extent_mm = 0.0;      ///< one sigma, wavelength, width
   double phase_rad = 0.0;
-  std::size_t chain = 0;         ///< whose angle or length it depends on
+  std::size_t chain = 0;          ///< whose angle or length it depends on
   std::array<double, 8> knots{};  ///< further parameters of a family
 };
 

@@ -208,6 +208,12 @@ double likeness(const Signature& signature, const Rival& rival) {
   return (rival.basis.transpose() * signature).norm() / signature.norm();
 }
 
+double unexplained(const Signature& signature, const std::vector<Rival>& rivals) {
+  double likest = 0.0;
+  for (const Rival& rival : rivals) likest = std::max(likest, likeness(signature, rival));
+  return signature.norm() * std::sqrt(std::max(0.0, 1.0 - likest * likest));
+}
+
 double strength_to_separate(double rho) {
   if (rho >= 1.0) return std::numeric_limits<double>::infinity();
   return 1.645 * std::sqrt(2.0 / (1.0 - rho));

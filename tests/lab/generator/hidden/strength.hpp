@@ -38,8 +38,8 @@ using Signature = Eigen::VectorXd;
 
 /// An effect of the catalogue at one side and place, as the space spanned by its size (and phase).
 struct Rival {
-  Cause cause;
-  Where where;
+  Cause cause{};
+  Where where{};
   Eigen::MatrixXd basis;  ///< orthonormal columns
 };
 
@@ -89,6 +89,8 @@ class Yardstick {
 
 /// Largest |cosine| between a signature and those of a rival.
 [[nodiscard]] double likeness(const Signature& signature, const Rival& rival);
+/// The length of a signature's part that the likest of its rivals does not explain.
+[[nodiscard]] double unexplained(const Signature& signature, const std::vector<Rival>& rivals);
 /// 1.645 sqrt(2 / (1 - rho)): the strength at which 95 of 100 are distinguished from the rival.
 [[nodiscard]] double strength_to_separate(double rho);
 

@@ -51,12 +51,7 @@ std::vector<Hidden> usual_effect(std::uint64_t seed) {
 /// Marks commanded on a raster, with six second visits, where the hidden machine comes to rest.
 grid::MeasuredGrid commands_of(std::uint64_t seed) {
   Dice dice(seed, "commands");
-  TrueMachine truth;
-  for (Vec2& axis : truth.axis) {
-    axis.x += 1.5 * dice.normal();
-    axis.y += 1.5 * dice.normal();
-  }
-  for (double& zero : truth.chain_zero_mm) zero = 0.5 * dice.normal();
+  const TrueMachine truth = generator::with_settings_off({}, 1.0, dice);
   const std::vector<Hidden> effects = usual_effect(seed);
   grid::MeasuredGrid grid;
   grid.name = "commanded";
@@ -64,7 +59,8 @@ grid::MeasuredGrid commands_of(std::uint64_t seed) {
   generator::Layout layout = generator::layout_of(28);
   layout.half_width_mm = rounded(dice.uniform(950.0, 1150.0), 10.0);
   layout.half_height_mm = rounded(dice.uniform(420.0, 550.0), 10.0);
-  for (const auto& visit : generator::plan_visits(layout, generator::Order::serpentine_rows, dice)) {
+  for (const auto& visit :
+       generator::plan_visits(layout, generator::Order::serpentine_rows, dice)) {
     grid::MeasuredPoint point;
     point.commanded = {rounded(visit.place.x, 10.0), rounded(visit.place.y, 10.0)};
     point.order = static_cast<int>(grid.points.size());
@@ -102,8 +98,8 @@ grid::MeasuredBelts belts_of(std::uint64_t seed) {
   const auto taped = [&](std::size_t i) {
     const auto& a = draw.frame.anchors[i];
     return model::Anchor{a[0] + (i == 2 ? 0.0 : 10.0 * dice.normal()),
-                             a[1] + (i >= 2 ? 0.0 : 10.0 * dice.normal()),
-                             a[2]};
+                         a[1] + (i >= 2 ? 0.0 : 10.0 * dice.normal()),
+                         a[2]};
   };
   belts.machine.anchors = {taped(0), taped(1), taped(2), taped(3)};
   int order = 0;
@@ -120,9 +116,8 @@ grid::MeasuredBelts belts_of(std::uint64_t seed) {
   if (!fit) throw std::runtime_error("belts_of: " + fit.error().sentence());
   const model::FramePoint centre = model::centre_of(belts.machine);
   for (std::size_t i = 0; i < belts.points.size(); ++i) {
-    belts.points[i].commanded =
-        model::BedPoint{rounded(fit->places[i].at.x_mm - centre.x_mm, 1.0),
-                        rounded(fit->places[i].at.y_mm - centre.y_mm, 1.0)};
+    belts.points[i].commanded = model::BedPoint{rounded(fit->places[i].at.x_mm - centre.x_mm, 1.0),
+                                                rounded(fit->places[i].at.y_mm - centre.y_mm, 1.0)};
   }
   const auto span = [&](std::size_t a, std::size_t b) {
     const auto& from = draw.frame.anchors[a];
@@ -187,7 +182,8 @@ Reported reported_of(const Session& session) {
     if (const auto* grid = std::get_if<grid::MeasuredGrid>(&session)) {
       take(grid::files::parse_grid(grid::files::write_grid(*grid), "file").warnings);
     } else if (const auto* set = std::get_if<grid::MeasuredHoles>(&session)) {
-      take(grid::files::parse_holes(without_tape_zero(grid::files::write_holes(*set)), "file").warnings);
+      take(grid::files::parse_holes(without_tape_zero(grid::files::write_holes(*set)), "file")
+               .warnings);
     } else {
       const auto& belts = std::get<grid::MeasuredBelts>(session);
       take(grid::files::parse_belts(grid::files::write_belts(belts), "file").warnings);

@@ -57,12 +57,10 @@ grid::MeasuredHoles thirty_holes(Dice& dice) {
 
 class HolesDraw {
  public:
-  explicit HolesDraw(std::uint64_t seed) : dice_(seed, "holes with a law"), set_(thirty_holes(dice_)) {
-    for (Vec2& axis : truth_.axis) {
-      axis.x += 1.5 * dice_.normal();
-      axis.y += 1.5 * dice_.normal();
-    }
-    for (double& zero : truth_.chain_zero_mm) zero = 0.5 * dice_.normal();
+  explicit HolesDraw(std::uint64_t seed)
+      : dice_(seed, "holes with a law"),
+        set_(thirty_holes(dice_)),
+        truth_(generator::with_settings_off({}, 1.0, dice_)) {
     lengths_ = grid::observation::TapeDistances::in_given_order(set_)->places();
     for (std::size_t i = 0; i < set_.holes.size(); ++i) {
       const model::BedPoint& p = set_.holes[i].commanded;
@@ -72,25 +70,20 @@ class HolesDraw {
   }
 
   /// A law or a field of a strength of 12 to 40.
-  HiddenLaw draw_law(LawFamily family) {
+  generator::SizedLaw draw_law(LawFamily family) {
     const auto yardstick = generator::Yardstick::make(truth_, visits_, {}, {kMotorMm, kZeroMm});
-    const std::vector<Eigen::VectorXd> rivals = rivals_at_usual_sizes();
+    const std::vector<generator::Rival> rivals = rivals_at_usual_sizes();
     constexpr int kDraws = 200;
     for (int n = 0; n < kDraws; ++n) {
       HiddenLaw law = generator::draw_law(*yardstick, family, 12.0, 40.0, dice_).law;
-      const Eigen::VectorXd left = left_of(HiddenMachine(TrueMachine{}, truth_, {}), &law);
-      double likest = 0.0;
-      for (const Eigen::VectorXd& rival : rivals)
-        likest = std::max(likest, std::abs(rival.dot(left)) / left.norm());
-      const double own = left.norm() * std::sqrt(std::max(0.0, 1.0 - likest * likest));
+      const double own =
+          generator::unexplained(left_of(HiddenMachine(TrueMachine{}, truth_, {}), &law), rivals);
       const double times = dice_.log_uniform(12.0, 40.0) / own;
       // A metre's rise, and what falls off within a hand's breadth of the border, where few holes are.
-      const bool slopes = family == LawFamily::slope_from_x || family == LawFamily::slope_from_y ||
-                          family == LawFamily::slope_oblique || family == LawFamily::drop_at_edge;
-      if (!(std::abs(law.size_mm * times) < (slopes ? 12.0 : 6.0))) continue;
+      const bool is_steep = is_slope(family) || family == LawFamily::drop_at_edge;
+      if (!(std::abs(law.size_mm * times) < (is_steep ? 12.0 : 6.0))) continue;
       law.size_mm *= times;
-      strength_ = times * own;
-      return law;
+      return {law, times * own};
     }
     throw std::runtime_error("holes: no law fits");
   }
@@ -101,8 +94,7 @@ class HolesDraw {
     for (int n = 0; n < kDraws; ++n) {
       const auto& card = generator::cards()[dice_.below(generator::cards().size())];
       if (card.place != generator::Place::none) continue;
-      const Hidden hidden{
-          card.cause, card.sides[dice_.below(card.sides.size())], card.usual, 0.0};
+      const Hidden hidden{card.cause, card.sides[dice_.below(card.sides.size())], card.usual, 0.0};
       const HiddenMachine machine(TrueMachine{}, truth_, {hidden});
       if (left_of(machine).norm() > 3.0) return hidden;
     }
@@ -126,7 +118,6 @@ class HolesDraw {
   }
 
   [[nodiscard]] const TrueMachine& truth() const { return truth_; }
-  [[nodiscard]] double strength() const { return strength_; }
 
  private:
   /// The law depends on the place where the hole would be without it: no place has the lengths within a step.
@@ -157,7 +148,8 @@ class HolesDraw {
     Eigen::VectorXd all(static_cast<Eigen::Index>(set_.distances.size()));
     for (Eigen::Index k = 0; k < all.size(); ++k) {
       const grid::HoleDistance& own = set_.distances[static_cast<std::size_t>(k)];
-      all(k) = std::hypot(places[own.from].x - places[own.to].x, places[own.from].y - places[own.to].y);
+      all(k) =
+          std::hypot(places[own.from].x - places[own.to].x, places[own.from].y - places[own.to].y);
     }
     return all;
   }
@@ -165,7 +157,8 @@ class HolesDraw {
   /// Distances are correlated where they share a hole.
   Eigen::LLT<Eigen::MatrixXd> noise() const {
     const auto n = static_cast<Eigen::Index>(set_.distances.size());
-    Eigen::MatrixXd by_hole = Eigen::MatrixXd::Zero(n, 2 * static_cast<Eigen::Index>(visits_.size()));
+    Eigen::MatrixXd by_hole =
+        Eigen::MatrixXd::Zero(n, 2 * static_cast<Eigen::Index>(visits_.size()));
     for (Eigen::Index k = 0; k < n; ++k) {
       const grid::HoleDistance& own = set_.distances[static_cast<std::size_t>(k)];
       const Vec2 a = visits_[own.from].place;
@@ -192,7 +185,8 @@ class HolesDraw {
       if (k >= 2 && k < 4) moved.axis[side].y += kStepMm;
       if (k >= 4) moved.chain_zero_mm[side] += kStepMm;
       const Eigen::VectorXd change = distances(HiddenMachine(TrueMachine{}, moved, {})) - plain_;
-      by_setting_.col(k).head(plain_.size()) = whitening_.matrixL().solve(change) * (sigma / kStepMm);
+      by_setting_.col(k).head(plain_.size()) =
+          whitening_.matrixL().solve(change) * (sigma / kStepMm);
       by_setting_(plain_.size() + k, k) = 1.0;
     }
   }
@@ -205,14 +199,14 @@ class HolesDraw {
     return rows - by_setting_ * qr.solve(rows);
   }
 
-  std::vector<Eigen::VectorXd> rivals_at_usual_sizes() const {
-    std::vector<Eigen::VectorXd> rivals;
+  std::vector<generator::Rival> rivals_at_usual_sizes() const {
+    std::vector<generator::Rival> rivals;
     for (const generator::CauseCard& card : generator::cards()) {
       if (card.place != generator::Place::none) continue;
       for (const generator::Where where : card.sides) {
         const HiddenMachine machine(TrueMachine{}, truth_, {{card.cause, where, card.usual, 0.0}});
         const Eigen::VectorXd left = left_of(machine);
-        if (left.norm() > 1e-6) rivals.push_back(left.normalized());
+        if (left.norm() > 1e-6) rivals.push_back({.basis = left.normalized()});
       }
     }
     return rivals;
@@ -226,7 +220,6 @@ class HolesDraw {
   Eigen::LLT<Eigen::MatrixXd> whitening_;
   Eigen::VectorXd plain_;
   Eigen::MatrixXd by_setting_;
-  double strength_ = 0.0;
 };
 
 }  // namespace
@@ -236,27 +229,20 @@ LawsTrial run_holes_laws_trial(std::string_view kind, std::uint64_t seed) {
   LawsTrial trial;
   trial.seed = seed;
   std::vector<Hidden> causes;
-  std::optional<HiddenLaw> law;
+  std::optional<generator::SizedLaw> law;
   if (kind == "causes") causes.push_back(draw.draw_cause());
   if (kind == "laws") law = draw.draw_law(static_cast<LawFamily>(seed % 9));
   if (kind == "two") law = draw.draw_law(LawFamily::product_of_two);
   if (kind == "gaussian") law = draw.draw_law(LawFamily::gaussian_field);
   for (const Hidden& cause : causes) trial.hidden += id_of(cause);
   const HiddenMachine machine(TrueMachine{}, draw.truth(), causes);
-  if (law) trial.hidden = words_of(*law, draw.strength());
-  const grid::MeasuredHoles set = draw.measure(machine, law ? &*law : nullptr);
+  if (law) trial.hidden = words_of(*law, kOfChains);
+  const HiddenLaw* hidden = law ? &law->law : nullptr;
+  const grid::MeasuredHoles set = draw.measure(machine, hidden);
   trial.points = static_cast<int>(set.distances.size());
-  grid::diagnosis::DiagnosisOptions how;
-  how.improvement = how.next_measurements = how.stability = false;
-  const auto found = timed(trial, [&] { return grid::diagnosis::diagnose(set, how); });
-  if (!found) {
-    trial.failed = true;
-    return trial;
-  }
-  take_laws(*found, trial);
-  if (!law || !trial.reported || kind != "laws") return trial;
-  judge(trial, [&](const grid::diagnosis::Law& one) { return is_right(*law, one); });
-  if (trial.leads) trial.worst_sigmas = worst_of(*law, trial.laws.front());
+  const auto found = timed(trial, [&] { return grid::diagnosis::diagnose(set, verdict_alone()); });
+  trial.failed = !found;
+  if (found) judge_laws(*found, hidden, kOfChains, trial);
   return trial;
 }
 

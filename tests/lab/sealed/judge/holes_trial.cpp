@@ -25,7 +25,8 @@ constexpr double kElongation = 0.0015;
 Eigen::Vector2d reading(const generator::HiddenMachine& machine, Vec2 place) {
   const std::vector<generator::Visit> visit = {{place, 0}};
   const auto lengths = machine.exact(visit);
-  if (!lengths) throw std::runtime_error("hidden_holes: the machine cannot reach a place near a hole");
+  if (!lengths)
+    throw std::runtime_error("hidden_holes: the machine cannot reach a place near a hole");
   return {lengths->front()[0], lengths->front()[1]};
 }
 
@@ -43,8 +44,8 @@ Vec2 place_reached(const generator::HiddenMachine& machine,
                    Vec2 at) {
   constexpr double kStepMm = 0.5;
   constexpr int kMost = 20;
-  constexpr double kThereMm = 1e-3;      // compared with a noise of 0.3 mm
-  constexpr double kFarMm = 0.05;        // a significant part of that noise
+  constexpr double kThereMm = 1e-3;  // compared with a noise of 0.3 mm
+  constexpr double kFarMm = 0.05;    // a significant part of that noise
   const Eigen::Vector2d wanted(paid_out.left_mm, paid_out.right_mm);
   for (int step = 0; step < kMost; ++step) {
     const Eigen::Vector2d here = reading(machine, at);
@@ -66,24 +67,22 @@ Vec2 place_reached(const TrueMachine& machine,
                    const model::ChainLengths& paid_out,
                    Vec2 near) {
   return place_reached(
-      generator::HiddenMachine(TrueMachine{}, machine, {effects.begin(), effects.end()}), paid_out, near);
+      generator::HiddenMachine(TrueMachine{}, machine, {effects.begin(), effects.end()}),
+      paid_out,
+      near);
 }
 
 CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
   grid::MeasuredHoles set = nine_holes();
   generator::Dice dice(seed, "holes");
-  TrueMachine truth;
-  for (Vec2& axis : truth.axis) {
-    axis.x += 1.5 * dice.normal();
-    axis.y += 1.5 * dice.normal();
-  }
-  for (double& zero : truth.chain_zero_mm) zero = 0.5 * dice.normal();
+  const TrueMachine truth = generator::with_settings_off({}, 1.0, dice);
   const auto distances = grid::observation::TapeDistances::in_given_order(set);
   std::vector<Vec2> places;
   std::vector<generator::Visit> visits;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const model::BedPoint& near = set.holes[i].commanded;
-    Vec2 place = place_reached(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
+    Vec2 place =
+        place_reached(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
     visits.push_back({place, static_cast<int>(i)});
     place.x += set.hole_sigma_mm * dice.normal();
     place.y += set.hole_sigma_mm * dice.normal();
@@ -113,9 +112,7 @@ Trial run_holes_trial(bool long_chain, std::uint64_t seed) {
   }
   const grid::MeasuredHoles set = hidden_holes(trial.answer.hidden, seed);
   trial.points = static_cast<int>(set.distances.size());
-  grid::diagnosis::DiagnosisOptions options;
-  options.improvement = options.next_measurements = options.stability = false;
-  const auto found = grid::diagnosis::diagnose(set, options);
+  const auto found = grid::diagnosis::diagnose(set, verdict_alone());
   if (!found) {
     trial.failed = true;
     trial.failure = found.error().sentence();

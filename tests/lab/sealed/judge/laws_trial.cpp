@@ -30,7 +30,8 @@ generator::Recipe recipe_of(std::string_view kind, std::uint64_t seed) {
   generator::Recipe recipe;
   constexpr int kPoints[] = {28, 60, 117};
   recipe.points = kPoints[seed % 3];
-  recipe.kind = kind == "causes" || kind == "both" ? generator::Mix::single : generator::Mix::nothing;
+  recipe.kind =
+      kind == "causes" || kind == "both" ? generator::Mix::single : generator::Mix::nothing;
   if (kind == "both") recipe.delta = 10.0;
   if (kind == "laws" || kind == "both") recipe.law = static_cast<LawFamily>((seed / 3) % 9);
   if (kind == "two") recipe.law = LawFamily::product_of_two;
@@ -41,7 +42,13 @@ generator::Recipe recipe_of(std::string_view kind, std::uint64_t seed) {
   return recipe;
 }
 
-bool is_variable_of(const HiddenLaw& law, const Law& found) {
+/// The value that follows `first` by so many.
+template <class Entry>
+Entry nth(Entry first, std::size_t n) {
+  return static_cast<Entry>(static_cast<std::size_t>(first) + n);
+}
+
+bool is_variable_of(const HiddenLaw& law, const LawEntries& entries, const Law& found) {
   switch (law.family) {
     case LawFamily::step_along_x:
     case LawFamily::slope_from_x:
@@ -51,14 +58,14 @@ bool is_variable_of(const HiddenLaw& law, const Law& found) {
     case LawFamily::slope_from_y:
       return found.of == Coordinate::y;
     case LawFamily::slope_oblique: {
-      const double off = std::remainder(
-          found.direction_deg - law.direction_rad * 180.0 / std::numbers::pi, 180.0);
+      const double off =
+          std::remainder(found.direction_deg - law.direction_rad * 180.0 / std::numbers::pi, 180.0);
       return found.of == Coordinate::across && std::abs(off) < 12.0;
     }
     case LawFamily::ripple_of_length:
-      return found.of == (law.chain == 0 ? Coordinate::length_left : Coordinate::length_right);
+      return found.of == nth(entries.length, law.chain);
     case LawFamily::ripple_of_angle:
-      return found.of == (law.chain == 0 ? Coordinate::angle_left : Coordinate::angle_right);
+      return found.of == nth(entries.angle, law.chain);
     case LawFamily::drop_at_edge:
       return found.of == (law.chain == 0 ? Coordinate::x : Coordinate::y) ||
              found.of == Coordinate::border;
@@ -67,71 +74,42 @@ bool is_variable_of(const HiddenLaw& law, const Law& found) {
   }
 }
 
-Enters entry_of(const HiddenLaw& law) {
-  if (law.moves_tool) return law.component == 0 ? Enters::x : Enters::y;
-  return law.component == 0 ? Enters::left : Enters::right;
+Enters entry_of(const HiddenLaw& law, const LawEntries& entries) {
+  return nth(law.moves_tool ? Enters::x : entries.reading, law.component);
 }
 
-double in_sigmas(double off, double sigma) { return std::abs(off) / std::max(sigma, 1e-9); }
-
-}  // namespace
-
-bool is_right(const HiddenLaw& law, const Law& found) {
-  return is_variable_of(law, found) && found.enters == entry_of(law);
-}
-
+/// As LawsTrial::worst_sigmas.
 std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
-  const auto& p = found.parameters;
-  const double span = found.to - found.from;
+  const auto sigmas = [&](std::size_t k, double truth) {
+    return std::abs(found.parameters[k].value - truth) / std::max(found.parameters[k].sigma, 1e-9);
+  };
   switch (law.family) {
     case LawFamily::step_along_x:
     case LawFamily::step_along_y:
       if (found.shape != LawShape::step) return std::nullopt;
-      return std::max(in_sigmas(p[0].value - law.size_mm, p[0].sigma),
-                      in_sigmas(p[1].value - law.place, p[1].sigma));
+      return std::max(sigmas(0, law.size_mm), sigmas(1, law.place));
     case LawFamily::slope_from_x:
     case LawFamily::slope_from_y:
       // A slope the other way differs by a linear term, which the settings and others absorb.
       if (found.shape != LawShape::kink || found.towards != law.sign) return std::nullopt;
-      return std::max(in_sigmas(p[0].value - law.size_mm * span / 1000.0, p[0].sigma),
-                      in_sigmas(p[1].value - law.place, p[1].sigma));
+      return std::max(sigmas(0, law.size_mm * (found.to - found.from) / 1000.0),
+                      sigmas(1, law.place));
     case LawFamily::ripple_of_length:
     case LawFamily::ripple_of_angle:
     case LawFamily::ripple_along_x:
       if (found.shape != LawShape::wave) return std::nullopt;
-      return std::max(in_sigmas(p[0].value - std::abs(law.size_mm), p[0].sigma),
-                      in_sigmas(p[1].value - law.extent, p[1].sigma));
+      return std::max(sigmas(0, std::abs(law.size_mm)), sigmas(1, law.extent));
     case LawFamily::drop_at_edge:
       if (found.shape != LawShape::exponential || found.of == Coordinate::border)
         return std::nullopt;
-      return in_sigmas(p[1].value - law.extent, p[1].sigma);
+      return sigmas(1, law.extent);
     default:
       return std::nullopt;
   }
 }
 
-std::string words_of(const HiddenLaw& law, double strength) {
-  return fmt::format("{} {:.1f} size {:.2f} {} place {:.0f} extent {:.2f} dir {:.0f}",
-                     word(law.family),
-                     strength,
-                     law.size_mm,
-                     name(entry_of(law)),
-                     law.place,
-                     law.extent,
-                     law.direction_rad * 180.0 / std::numbers::pi);
-}
-
-namespace {
-
-grid::diagnosis::DiagnosisOptions verdict_alone() {
-  grid::diagnosis::DiagnosisOptions how;
-  how.stability = false;
-  how.improvement = false;
-  how.next_measurements = false;
-  return how;
-}
-
-std::optional<LawInUse::Says> said_of(const std::string& grid_text, const model::effects::Effect& effect) {
+std::optional<LawInUse::Says> said_of(const std::string& grid_text,
+                                      const model::effects::Effect& effect) {
   grid::MeasuredGrid grid = grid::files::parse_grid(grid_text, "second.json").grid;
   grid.machine->declared = {&effect};
   const auto found = grid::diagnosis::diagnose(grid, verdict_alone());
@@ -139,7 +117,8 @@ std::optional<LawInUse::Says> said_of(const std::string& grid_text, const model:
   return found->declared.front().says;
 }
 
-std::optional<double> error_ratio(const generator::SealedSet& set, const model::effects::Effect& effect) {
+std::optional<double> error_ratio(const generator::SealedSet& set,
+                                  const model::effects::Effect& effect) {
   grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   const auto plain = grid::joint_fit(grid::Measured(grid));
   grid.machine->declared = {&effect};
@@ -167,12 +146,9 @@ std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& tr
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// The names after a claimed law adds or withdraws some.
-std::vector<NamedCause> given_law(const grid::diagnosis::Diagnosis& found, std::vector<NamedCause> named) {
+std::vector<NamedCause> given_law(const grid::diagnosis::Diagnosis& found,
+                                  std::vector<NamedCause> named) {
   if (!found.unexplained) return named;
   for (const auto& own : found.unexplained->causes_given_law) {
     if (own.parameters.empty()) {
@@ -189,10 +165,9 @@ std::vector<NamedCause> given_law(const grid::diagnosis::Diagnosis& found, std::
 LawsTrial::Names worth_of(const std::vector<NamedCause>& named, const generator::Answer& answer) {
   LawsTrial::Names names;
   for (const NamedCause& one : named) {
-    const bool right =
-        std::any_of(answer.hidden.begin(), answer.hidden.end(), [&](const auto& hidden) {
-          return means(one, id_of(hidden));
-        });
+    const bool right = std::any_of(answer.hidden.begin(),
+                                   answer.hidden.end(),
+                                   [&](const auto& hidden) { return means(one, id_of(hidden)); });
     names.right = names.right || right;
     names.wrong = names.wrong || (!right && one.probability >= grid::diagnosis::kLawClaimed);
   }
@@ -201,17 +176,33 @@ LawsTrial::Names worth_of(const std::vector<NamedCause>& named, const generator:
 
 }  // namespace
 
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+std::string words_of(const generator::SizedLaw& hidden, const LawEntries& entries) {
+  const HiddenLaw& law = hidden.law;
+  return fmt::format("{} {:.1f} size {:.2f} {} place {:.0f} extent {:.2f} dir {:.0f}",
+                     word(law.family),
+                     hidden.delta,
+                     law.size_mm,
+                     name(entry_of(law, entries)),
+                     law.place,
+                     law.extent,
+                     law.direction_rad * 180.0 / std::numbers::pi);
 }
 
-void take_laws(const grid::diagnosis::Diagnosis& found, LawsTrial& trial) {
+void judge_laws(const grid::diagnosis::Diagnosis& found,
+                const HiddenLaw* hidden,
+                const LawEntries& entries,
+                LawsTrial& trial) {
   trial.sentence = found.sentence;
   if (found.unexplained) trial.laws = found.unexplained->laws;
   trial.reported = !trial.laws.empty();
   trial.claimed = trial.reported && trial.laws.front().probability >= grid::diagnosis::kLawClaimed;
+  if (hidden == nullptr || !trial.reported) return;
+  const auto is_right = [&](const Law& law) {
+    return is_variable_of(*hidden, entries, law) && law.enters == entry_of(*hidden, entries);
+  };
+  trial.leads = is_right(trial.laws.front());
+  trial.in_set = std::ranges::any_of(trial.laws, is_right);
+  if (trial.leads) trial.worst_sigmas = worst_of(*hidden, trial.laws.front());
 }
 
 const std::vector<LawsKind>& laws_kinds() {
@@ -254,33 +245,34 @@ LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use)
     return grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid,
                                      verdict_alone());
   });
-  if (!found) {
-    trial.failed = true;
-    return trial;
-  }
+  trial.failed = !found;
+  if (!found) return trial;
   const std::vector<NamedCause> named = named_causes(*found);
   trial.names = worth_of(named, set.answer);
   trial.names_given_law = worth_of(given_law(*found, named), set.answer);
-  take_laws(*found, trial);
+  judge_laws(*found, set.answer.law ? &set.answer.law->law : nullptr, kOfChains, trial);
   if (in_use && trial.claimed) trial.in_use = use(set, trial);
-  if (!set.answer.law || !trial.reported) return trial;
-  const HiddenLaw& law = set.answer.law->law;
-  judge(trial, [&](const Law& one) { return is_right(law, one); });
-  if (trial.leads) trial.worst_sigmas = worst_of(law, trial.laws.front());
   return trial;
 }
 
 std::string line_of(std::string_view kind, const LawsTrial& trial) {
   std::string text = fmt::format("{} {} {}", kind, trial.seed, trial.points);
-  if (trial.answer.law) text += " " + words_of(trial.answer.law->law, trial.answer.law->delta);
+  if (trial.answer.law) text += " " + words_of(*trial.answer.law, kOfChains);
   for (const auto& hidden : trial.answer.hidden) text += " " + id_of(hidden);
   if (!trial.hidden.empty()) text += " " + trial.hidden;
-  text += fmt::format(" | {}{}{}{}", trial.failed ? "failed " : "", trial.claimed ? "claimed " : "",
-                      trial.leads ? "leads " : "", trial.in_set ? "in_set " : "");
+  text += fmt::format(" | {}{}{}{}",
+                      trial.failed ? "failed " : "",
+                      trial.claimed ? "claimed " : "",
+                      trial.leads ? "leads " : "",
+                      trial.in_set ? "in_set " : "");
   if (trial.worst_sigmas) text += fmt::format("{:.1f}s ", *trial.worst_sigmas);
   for (const Law& law : trial.laws) {
-    text += fmt::format("| {} {} {} {:.2f}/{:.2f}", name(law.of), name(law.shape), name(law.enters),
-                        law.probability, law.shape_probability);
+    text += fmt::format("| {} {} {} {:.2f}/{:.2f}",
+                        name(law.of),
+                        name(law.shape),
+                        name(law.enters),
+                        law.probability,
+                        law.shape_probability);
     if (law.of == Coordinate::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
     for (const auto& p : law.parameters)
       text += fmt::format(" {}={:.2f}+-{:.2f}", p.parameter, p.value, p.sigma);

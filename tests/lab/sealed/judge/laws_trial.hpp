@@ -4,7 +4,6 @@
 /// which law it reports, and whether that is the hidden one.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "generator/hidden/draw.hpp"
 #include "grid/diagnosis/diagnose.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
 
@@ -43,10 +43,10 @@ struct LawsTrial {
   std::string hidden;        ///< of belts and holes, in words
   bool failed = false;
   std::vector<grid::diagnosis::Law> laws;
-  bool reported = false;   ///< some law
-  bool claimed = false;    ///< one at kLawClaimed
-  bool leads = false;      ///< the first is right: variable and place of entry
-  bool in_set = false;     ///< one of those reported is
+  bool reported = false;  ///< some law
+  bool claimed = false;   ///< one at kLawClaimed
+  bool leads = false;     ///< the first is right: variable and place of entry
+  bool in_set = false;    ///< one of those reported is
   /// Largest distance of a place, period or size from the truth, in sigmas, of a law that leads with the
   /// right shape; empty otherwise.
   std::optional<double> worst_sigmas;
@@ -61,32 +61,39 @@ struct LawsTrial {
   std::optional<LawInUse> in_use;  ///< of a claimed law that a file can express
 };
 
+/// Where laws of a kind of readings depend on and enter: those of the left chain or of the belt tl, each followed by
+/// the others'.
+struct LawEntries {
+  grid::diagnosis::Coordinate length;
+  grid::diagnosis::Coordinate angle;
+  grid::diagnosis::Enters reading;
+};
+inline constexpr LawEntries kOfChains{grid::diagnosis::Coordinate::length_left,
+                                      grid::diagnosis::Coordinate::angle_left,
+                                      grid::diagnosis::Enters::left};
+inline constexpr LawEntries kOfBelts{grid::diagnosis::Coordinate::length_tl,
+                                     grid::diagnosis::Coordinate::angle_tl,
+                                     grid::diagnosis::Enters::tl};
+
+[[nodiscard]] std::string words_of(const generator::SizedLaw& law, const LawEntries& entries);
+/// Takes over the laws that were found and compares them with the hidden one, if there is one.
+void judge_laws(const grid::diagnosis::Diagnosis& found,
+                const generator::HiddenLaw* hidden,
+                const LawEntries& entries,
+                LawsTrial& trial);
 /// Sets trial.seconds to the processor time of a call.
-[[nodiscard]] double processor_seconds();
 template <class Call>
 auto timed(LawsTrial& trial, Call call) {
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   auto result = call();
-  trial.seconds = processor_seconds() - start;
+  trial.seconds = thread_seconds() - start;
   return result;
-}
-/// A diagnosis' laws.
-void take_laws(const grid::diagnosis::Diagnosis& found, LawsTrial& trial);
-/// Variable and place of entry.
-[[nodiscard]] bool is_right(const generator::HiddenLaw& law, const grid::diagnosis::Law& found);
-/// As LawsTrial::worst_sigmas.
-[[nodiscard]] std::optional<double> worst_of(const generator::HiddenLaw& law,
-                                             const grid::diagnosis::Law& found);
-[[nodiscard]] std::string words_of(const generator::HiddenLaw& law, double strength);
-/// Whether the first law, and whether any of those reported is right.
-template <class IsRight>
-void judge(LawsTrial& trial, IsRight is_right) {
-  trial.leads = is_right(trial.laws.front());
-  trial.in_set = std::any_of(trial.laws.begin(), trial.laws.end(), is_right);
 }
 
 /// 28, 60 and 117 points in turn.
-[[nodiscard]] LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use = false);
+[[nodiscard]] LawsTrial run_laws_trial(std::string_view kind,
+                                       std::uint64_t seed,
+                                       bool in_use = false);
 [[nodiscard]] std::string line_of(std::string_view kind, const LawsTrial& trial);
 
 }  // namespace chaintrue::sealed

@@ -18,14 +18,19 @@ std::string id_of(std::string_view effect, std::string_view side) {
   return std::string(effect) + ":" + (side.empty() ? "-" : std::string(side));
 }
 
-// Processor time, so that other work on the machine does not count.
+}  // namespace
+
 double thread_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace
+grid::diagnosis::DiagnosisOptions verdict_alone() {
+  grid::diagnosis::DiagnosisOptions how;
+  how.stability = how.improvement = how.next_measurements = false;
+  return how;
+}
 
 std::string id_of(const generator::Hidden& hidden) {
   return id_of(generator::card(hidden.cause).id, generator::word(hidden.where));

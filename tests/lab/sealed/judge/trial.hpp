@@ -16,9 +16,9 @@ namespace chaintrue::sealed {
 
 struct TrialOptions {
   generator::Recipe recipe;
-  bool stability = true;   ///< names without each reading, and no name that depends on one
-  bool improvement = false;       ///< held-out errors, reported and true
-  bool follow_up = false;  ///< measures what the diagnosis proposes, if it leaves a set of causes
+  bool stability = true;     ///< names without each reading, and no name that depends on one
+  bool improvement = false;  ///< held-out errors, reported and true
+  bool follow_up = false;    ///< measures what the diagnosis proposes, if it leaves a set of causes
   int follow_up_measurements = 8;
 };
 
@@ -62,6 +62,11 @@ struct Trial {
 };
 
 [[nodiscard]] Trial run_trial(const TrialOptions& options, std::uint64_t seed);
+
+/// Processor time of this thread, so that other work on the machine does not count.
+[[nodiscard]] double thread_seconds();
+/// A diagnosis without stability, held-out errors and next measurements.
+[[nodiscard]] grid::diagnosis::DiagnosisOptions verdict_alone();
 
 /// In the order of the diagnosis.
 [[nodiscard]] std::vector<NamedCause> named_causes(const grid::diagnosis::Diagnosis& found);
