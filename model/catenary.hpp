@@ -23,7 +23,7 @@
 ///
 /// \code
 ///   const CatenaryLoad load{.horizontal_n = 60, .vertical_n = 50, .length_mm = 1700};
-///   const CatenaryPoint end = catenary_point(load, ChainMaterial{1.3e-3, 5.2e-6}, 1700.0);
+///   const CatenaryExtent end = catenary_extent(load, ChainMaterial{1.3e-3, 5.2e-6});
 /// \endcode
 #pragma once
 
@@ -47,19 +47,15 @@ struct CatenaryLoad {
 /// below 6e-18.
 inline constexpr double kSeriesMost = 0.01;
 
-/// atanh(z)/z by its series, for z^2 < kSeriesMost.
-inline double atanh_ratio_series(double z) {
-  const double q = z * z;
-  return 1.0 + q * (1.0 / 3 +
-                    q * (1.0 / 5 +
-                         q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15))))));
-}
-
-/// atanh(z)/z for |z| < 1. kSeriesOnly: the caller guarantees z^2 < kSeriesMost (a loop without
-/// branches).
-template <bool kSeriesOnly = false>
+/// atanh(z)/z for |z| < 1.
 inline double atanh_ratio(double z) {
-  if (kSeriesOnly || z * z < kSeriesMost) return atanh_ratio_series(z);
+  const double q = z * z;
+  if (q < kSeriesMost) {
+    return 1.0 +
+           q * (1.0 / 3 +
+                q * (1.0 / 5 +
+                     q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15))))));
+  }
   return std::atanh(z) / z;
 }
 
@@ -83,7 +79,6 @@ struct CatenaryExtent {
   double u_by_h = 0.0, u_by_v = 0.0, y_by_v = 0.0;  ///< mm/N; y_by_h = u_by_v
 };
 
-template <bool kSeriesOnly = false>
 inline CatenaryExtent catenary_extent(const CatenaryLoad& load, const ChainMaterial& material) {
   const double h = load.horizontal_n, v = load.vertical_n, s = load.length_mm;
   const double w = material.weight_n_per_mm, c = material.compliance_per_n;
@@ -94,7 +89,7 @@ inline CatenaryExtent catenary_extent(const CatenaryLoad& load, const ChainMater
   const double per_sum = 1.0 / (e.ta_n + e.tb_n);
   const double per_product = per_sum / (e.ta_n * e.tb_n);
   const double vm = v + 0.5 * w * s;
-  const double mean = 2.0 * per_sum * atanh_ratio<kSeriesOnly>(w * s * per_sum);
+  const double mean = 2.0 * per_sum * atanh_ratio(w * s * per_sum);
   const double bend = s * (h * h + e.ta_n * e.tb_n - v * e.vb_n) * per_product;
   e.u_mm = s * h * (mean + c);
   e.y_mm = s * vm * (2.0 * per_sum + c);
@@ -103,33 +98,5 @@ inline CatenaryExtent catenary_extent(const CatenaryLoad& load, const ChainMater
   e.y_by_v = bend + c * s;
   return e;
 }
-
-/// Derivatives of the extent by the chain's weight per mm, at a fixed load.
-struct CatenaryByWeight {
-  double u_mm = 0.0, y_mm = 0.0;
-};
-[[nodiscard]] CatenaryByWeight catenary_by_weight(const CatenaryLoad& load,
-                                                  const ChainMaterial& material);
-
-/// A point of the chain.
-struct CatenaryPoint {
-  double u_mm = 0.0, y_mm = 0.0;  ///< from the sled's end
-  double tension_n = 0.0;
-  double slope_rad = 0.0;            ///< of the tension, above the horizontal
-  double stretched_length_mm = 0.0;  ///< from the sled's end to here
-};
-
-/// The chain at unstretched length `s_mm` from the sled's end, 0 <= s_mm <= length.
-[[nodiscard]] CatenaryPoint catenary_point(const CatenaryLoad& load,
-                                           const ChainMaterial& material,
-                                           double s_mm);
-
-/// Elastic energy stored in the chain, N mm: c/2 times the integral of T^2.
-[[nodiscard]] double catenary_strain_energy(const CatenaryLoad& load,
-                                            const ChainMaterial& material);
-/// Weight moment about the sled's end, N mm: w times the integral of y(s), the chain's potential
-/// energy relative to that end.
-[[nodiscard]] double catenary_weight_energy(const CatenaryLoad& load,
-                                            const ChainMaterial& material);
 
 }  // namespace chaintrue::model

@@ -40,19 +40,6 @@ struct StraightChain {
 };
 
 template <class T>
-struct FormulaInputs {
-  T u_left_mm, y_left_mm, u_right_mm, y_right_mm;  ///< U and Y of the two sides
-  T sprocket_radius_mm, ring_radius_mm;
-  T sled_weight_n, chain_weight_n_per_mm, compliance_per_n;
-  double feed_sign = 1.0;
-};
-
-template <class T>
-struct FormulaLengths {
-  T left_mm, right_mm;
-};
-
-template <class T>
 StraightChain<T> straight_chain(const T& u, const T& y, const T& r, double feed_sign) {
   using std::atan2;
   using std::sqrt;
@@ -65,23 +52,6 @@ StraightChain<T> straight_chain(const T& u, const T& y, const T& r, double feed_
   return {s, a, wrap};
 }
 
-/// A straight line to the motor's axis.
-template <class T>
-FormulaLengths<T> straight_lengths(const FormulaInputs<T>& in) {
-  using std::sqrt;
-  return {sqrt(in.u_left_mm * in.u_left_mm + in.y_left_mm * in.y_left_mm) - in.ring_radius_mm,
-          sqrt(in.u_right_mm * in.u_right_mm + in.y_right_mm * in.y_right_mm) - in.ring_radius_mm};
-}
-
-/// A straight tangent and the arc on the sprocket.
-template <class T>
-FormulaLengths<T> wrap_lengths(const FormulaInputs<T>& in) {
-  const auto l = straight_chain(in.u_left_mm, in.y_left_mm, in.sprocket_radius_mm, in.feed_sign);
-  const auto r = straight_chain(in.u_right_mm, in.y_right_mm, in.sprocket_radius_mm, in.feed_sign);
-  return {l.wrap_mm + l.straight_mm - in.ring_radius_mm,
-          r.wrap_mm + r.straight_mm - in.ring_radius_mm};
-}
-
 /// The firmware's parabola: S (1 + k 1e-12 cos^2 a S^2 (tan a_j cos a + sin a)^2).
 template <class T>
 T firmware_sagged_mm(const StraightChain<T>& own, const T& other_angle, double sag_correction) {
@@ -91,24 +61,6 @@ T firmware_sagged_mm(const StraightChain<T>& own, const T& other_angle, double s
   const T lever = sin(other_angle) / cos(other_angle) * ca + sa;
   const T& s = own.straight_mm;
   return s * (1.0 + sag_correction * 1e-12 * ca * ca * s * s * lever * lever);
-}
-
-/// Firmware tolerances, percent: the straight part is divided by 1 + tolerance / 100.
-struct Tolerances {
-  double left_percent = 0.0;
-  double right_percent = 0.0;
-};
-
-template <class T>
-FormulaLengths<T> firmware_lengths(const FormulaInputs<T>& in,
-                                   double sag_correction,
-                                   const Tolerances& tolerance = {}) {
-  const auto l = straight_chain(in.u_left_mm, in.y_left_mm, in.sprocket_radius_mm, in.feed_sign);
-  const auto r = straight_chain(in.u_right_mm, in.y_right_mm, in.sprocket_radius_mm, in.feed_sign);
-  const T sl = firmware_sagged_mm(l, r.angle_rad, sag_correction);
-  const T sr = firmware_sagged_mm(r, l.angle_rad, sag_correction);
-  return {l.wrap_mm + sl / (1.0 + tolerance.left_percent / 100.0) - in.ring_radius_mm,
-          r.wrap_mm + sr / (1.0 + tolerance.right_percent / 100.0) - in.ring_radius_mm};
 }
 
 /// sinh(x)/x.
@@ -133,30 +85,22 @@ T sinh_ratio(const T& x) {
 /// catenary through the chord's ends at that horizontal tension, less the stretch at the mean
 /// tension.
 template <class T>
-FormulaLengths<T> one_shot_lengths(const FormulaInputs<T>& in, const Tolerances& tolerance = {}) {
+T one_shot_mm(const StraightChain<T>& own,
+              const StraightChain<T>& other,
+              const T& sled_weight_n,
+              const T& chain_weight_n_per_mm,
+              const T& compliance_per_n) {
   using std::cos;
   using std::sin;
   using std::sqrt;
-  const auto l = straight_chain(in.u_left_mm, in.y_left_mm, in.sprocket_radius_mm, in.feed_sign);
-  const auto r = straight_chain(in.u_right_mm, in.y_right_mm, in.sprocket_radius_mm, in.feed_sign);
-  const T w = in.chain_weight_n_per_mm;
-  const T total = in.sled_weight_n + 0.5 * w * (l.straight_mm + r.straight_mm);
-  const T cl = cos(l.angle_rad), cr = cos(r.angle_rad);
-  const T per_sine = total / (sin(l.angle_rad) * cr + cl * sin(r.angle_rad));
-  const T horizontal = per_sine * cl * cr;
-  const auto length = [&](const StraightChain<T>& chain,
-                          const T& cosine,
-                          const T& tension,
-                          double tolerance_percent) {
-    const T h = chain.straight_mm * cosine, v = chain.straight_mm * sin(chain.angle_rad);
-    const T across = h * sinh_ratio(0.5 * w * h / horizontal);
-    return chain.wrap_mm +
-           sqrt(across * across + v * v) / (1.0 + tolerance_percent / 100.0) /
-               (1.0 + tension * in.compliance_per_n) -
-           in.ring_radius_mm;
-  };
-  return {length(l, cl, per_sine * cr, tolerance.left_percent),
-          length(r, cr, per_sine * cl, tolerance.right_percent)};
+  const T& w = chain_weight_n_per_mm;
+  const T total = sled_weight_n + 0.5 * w * (own.straight_mm + other.straight_mm);
+  const T own_cosine = cos(own.angle_rad), other_cosine = cos(other.angle_rad);
+  const T own_sine = sin(own.angle_rad);
+  const T per_sine = total / (own_sine * other_cosine + own_cosine * sin(other.angle_rad));
+  const T h = own.straight_mm * own_cosine, v = own.straight_mm * own_sine;
+  const T across = h * sinh_ratio(0.5 * w * h / (per_sine * own_cosine * other_cosine));
+  return sqrt(across * across + v * v) / (1.0 + per_sine * other_cosine * compliance_per_n);
 }
 
 /// The sag factor with which the firmware's parabola is the chain's: 1e12 (w / W)^2 / 24, in 1e-12

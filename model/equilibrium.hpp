@@ -39,6 +39,9 @@ struct EquilibriumConstants {
   double r = 0.0, sg = 1.0, rho = 0.0;
   double half_spacing = 0.0, bracket_height = 0.0, cg = 0.0;
   double W = 0.0, k = 0.0, f = 0.0;
+  bool rotates = false;  ///< brackets
+  /// Of the frame, for the equilibrium in space.
+  double cos_tilt = 1.0, sin_tilt = 0.0;
   ChainMaterial chain;
 
   [[nodiscard]] double wrap(double phi) const {
@@ -62,9 +65,8 @@ struct ChainTerms {
   double h = 0.0, v = 0.0, vb = 0.0, ta = 0.0, tb = 0.0;
 };
 
-template <bool kSeriesOnly = false>
 inline ChainTerms chain_terms(const EquilibriumConstants& m, double h, double v, double s) {
-  const CatenaryExtent e = catenary_extent<kSeriesOnly>({h, v, s}, m.chain);
+  const CatenaryExtent e = catenary_extent({h, v, s}, m.chain);
   const double w = m.chain.weight_n_per_mm;
   const double per_a = 1.0 / e.ta_n, per_b = 1.0 / e.tb_n;
   const double cos_a = h * per_a, sin_a = v * per_a, cos_b = h * per_b, sin_b = e.vb_n * per_b;
@@ -107,8 +109,6 @@ inline Attachments attachments(const EquilibriumConstants& m, double psi) {
 struct EquilibriumLoad {
   PerSide<double> u, y;
   double moment = 0.0;
-  double vertical_n = 0.0;  ///< change of W
-  double side_n = 0.0;      ///< change of f
 };
 
 inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const EquilibriumState& q) {
@@ -116,9 +116,10 @@ inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const Equilib
           chain_terms(m, q.h_left - m.f, m.W - q.v_left, q.s.right)};
 }
 
-/// The step of the unknowns.
+/// The step of the unknowns. The right chain's H moves by as much as the left one's, its V by as much
+/// the other way.
 struct EquilibriumStep {
-  double h_left = 0.0, v_left = 0.0, h_right = 0.0, v_right = 0.0;
+  double h_left = 0.0, v_left = 0.0;
   PerSide<double> s;
   double psi = 0.0;
 };
@@ -141,87 +142,59 @@ inline double moment_by_psi(const EquilibriumConstants& m,
          a.right_x * t.right.h - m.W * m.cg * std::cos(psi);
 }
 
-/// One chain's equations with its S (and other private unknowns) eliminated: coefficients of its H
-/// and V and of psi, and the load.
-struct SledRow {
-  double h = 0.0, v = 0.0, psi = 0.0, load = 0.0;
-};
-
-/// The sled's part of the linearised equations: rows * step + load = 0 with V_left + V_right and
-/// H_left - H_right given, and for brackets the moment (its derivative by psi in `moment_psi`).
-/// Fills all of `step` but s. Zero determinants give infinities, which fail every convergence test.
-template <bool kRotates>
-EquilibriumStep solve_sled(const EquilibriumConstants& m,
-                           const SledRow& l,
-                           const SledRow& r,
-                           const EquilibriumLoad& load,
-                           const Attachments& a,
-                           double psi,
-                           double moment_psi) {
-  const double b_left = -l.load;
-  const double b_right = -r.load + r.h * load.side_n - r.v * load.vertical_n;
-  EquilibriumStep step;
-  if constexpr (kRotates) {
-    const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x, mp = moment_psi;
-    const double b_moment = -load.moment - a.right_y * load.side_n -
-                            (a.right_x - m.cg * std::sin(psi)) * load.vertical_n;
-    // Rows (l.h, l.v, l.psi), (r.h, -r.v, r.psi), (mh, mv, mp) by Cramer's rule.
-    const double c0 = -r.v * mp - r.psi * mv, c1 = r.psi * mh - r.h * mp, c2 = r.h * mv + r.v * mh;
-    const double per_det = 1.0 / (l.h * c0 + l.v * c1 + l.psi * c2);
-    const double d0 = b_right * mp - r.psi * b_moment, d1 = b_right * mv + r.v * b_moment;
-    const double d2 = r.h * b_moment - b_right * mh;
-    step.h_left = per_det * (b_left * c0 - l.v * d0 + l.psi * d1);
-    step.v_left = per_det * (l.h * d0 + b_left * c1 + l.psi * d2);
-    step.psi = per_det * (b_left * c2 - l.v * d2 - l.h * d1);
-  } else {
-    const double per_det = 1.0 / (-l.h * r.v - l.v * r.h);
-    step.h_left = per_det * (-b_left * r.v - l.v * b_right);
-    step.v_left = per_det * (l.h * b_right - r.h * b_left);
-  }
-  step.h_right = step.h_left - load.side_n;
-  step.v_right = load.vertical_n - step.v_left;
-  return step;
-}
-
-/// Solves the linearised equations: terms * step + load = 0.
+/// Solves the linearised equations: terms * step + load = 0. Zero determinants give infinities,
+/// which fail every convergence test.
 template <bool kRotates>
 EquilibriumStep solve_linearised(const EquilibriumConstants& m,
                                  const PerSide<ChainTerms>& t,
                                  const EquilibriumLoad& load,
                                  double psi) {
+  // One chain's equations with its S eliminated: coefficients of its H and V and of psi, and the
+  // load.
+  struct Row {
+    double h, v, psi, load;
+  };
   const auto row = [](const ChainTerms& c, double u_psi, double y_psi, double u, double y) {
-    return SledRow{c.y_s * c.u_h - c.u_s * c.y_h,
-                   c.y_s * c.u_v - c.u_s * c.y_v,
-                   c.y_s * u_psi - c.u_s * y_psi,
-                   c.y_s * u - c.u_s * y};
+    return Row{c.y_s * c.u_h - c.u_s * c.y_h,
+               c.y_s * c.u_v - c.u_s * c.y_v,
+               c.y_s * u_psi - c.u_s * y_psi,
+               c.y_s * u - c.u_s * y};
   };
   Attachments a;
-  double moment_psi = 0.0;
-  if constexpr (kRotates) {
-    a = attachments(m, psi);
-    moment_psi = moment_by_psi(m, a, t, psi);
-  }
+  if constexpr (kRotates) a = attachments(m, psi);
   // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
-  EquilibriumStep step =
-      solve_sled<kRotates>(m,
-                           row(t.left, a.left_y, a.left_x, load.u.left, load.y.left),
-                           row(t.right, -a.right_y, a.right_x, load.u.right, load.y.right),
-                           load,
-                           a,
-                           psi,
-                           moment_psi);
+  const Row l = row(t.left, a.left_y, a.left_x, load.u.left, load.y.left);
+  const Row r = row(t.right, -a.right_y, a.right_x, load.u.right, load.y.right);
+  EquilibriumStep step;
+  if constexpr (kRotates) {
+    const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x;
+    const double mp = moment_by_psi(m, a, t, psi);
+    // Rows (l.h, l.v, l.psi), (r.h, -r.v, r.psi), (mh, mv, mp) by Cramer's rule.
+    const double c0 = -r.v * mp - r.psi * mv, c1 = r.psi * mh - r.h * mp, c2 = r.h * mv + r.v * mh;
+    const double per_det = 1.0 / (l.h * c0 + l.v * c1 + l.psi * c2);
+    const double d0 = -r.load * mp + r.psi * load.moment;
+    const double d1 = -r.load * mv - r.v * load.moment;
+    const double d2 = -r.h * load.moment + r.load * mh;
+    step.h_left = per_det * (-l.load * c0 - l.v * d0 + l.psi * d1);
+    step.v_left = per_det * (l.h * d0 - l.load * c1 + l.psi * d2);
+    step.psi = per_det * (-l.load * c2 - l.v * d2 - l.h * d1);
+  } else {
+    const double per_det = 1.0 / (-l.h * r.v - l.v * r.h);
+    step.h_left = per_det * (l.load * r.v + l.v * r.load);
+    step.v_left = per_det * (r.h * l.load - l.h * r.load);
+  }
   const auto s_step = [](const ChainTerms& c, double u, double y) {
     return -(c.u_s * u + c.y_s * y) / (c.u_s * c.u_s + c.y_s * c.y_s);
   };
-  const ChainTerms &l = t.left, &r = t.right;
+  const ChainTerms &cl = t.left, &cr = t.right;
   step.s.left =
-      s_step(l,
-             load.u.left + l.u_h * step.h_left + l.u_v * step.v_left + a.left_y * step.psi,
-             load.y.left + l.y_h * step.h_left + l.y_v * step.v_left + a.left_x * step.psi);
+      s_step(cl,
+             load.u.left + cl.u_h * step.h_left + cl.u_v * step.v_left + a.left_y * step.psi,
+             load.y.left + cl.y_h * step.h_left + cl.y_v * step.v_left + a.left_x * step.psi);
   step.s.right =
-      s_step(r,
-             load.u.right + r.u_h * step.h_right + r.u_v * step.v_right - a.right_y * step.psi,
-             load.y.right + r.y_h * step.h_right + r.y_v * step.v_right + a.right_x * step.psi);
+      s_step(cr,
+             load.u.right + cr.u_h * step.h_left - cr.u_v * step.v_left - a.right_y * step.psi,
+             load.y.right + cr.y_h * step.h_left - cr.y_v * step.v_left + a.right_x * step.psi);
   return step;
 }
 

@@ -1,34 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/equilibrium_kinematics.hpp"
 
+#include "model/chain_equations.hpp"
 #include "model/equilibrium_newton.hpp"
 #include "model/forward_fallback.hpp"
 
 namespace chaintrue::model {
 namespace {
 
-ChainState chain_state(const EquilibriumConstants& m, double h, double v, double s) {
+ChainState chain_state(const EquilibriumConstants& m, double h, double v, double n, double s) {
   const double vb = v + m.chain.weight_n_per_mm * s;
+  const double nb = n + m.chain.weight_n_per_mm * m.sin_tilt / m.cos_tilt * s;
   ChainState state;
   state.horizontal_n = h;
   state.vertical_at_sled_n = v;
-  state.tension_at_sled_n = std::sqrt(h * h + v * v);
-  state.tension_at_sprocket_n = std::sqrt(h * h + vb * vb);
+  state.out_of_sheet_n = n;
+  state.tension_at_sled_n = std::sqrt(h * h + v * v + n * n);
+  state.tension_at_sprocket_n = std::sqrt(h * h + vb * vb + nb * nb);
   state.angle_rad = std::atan2(vb, h);
   state.free_length_mm = s;
   state.wrap_mm = m.wrap(state.angle_rad);
   return state;
 }
 
-Pose pose_of(const EquilibriumConstants& m, const EquilibriumState& q, BedPoint p, int iterations) {
-  Pose pose;
-  pose.position = p;
-  pose.sled_rotation_rad = q.psi;
-  pose.chains.left = chain_state(m, q.h_left, q.v_left, q.s.left);
-  pose.chains.right = chain_state(m, q.h_left - m.f, m.W - q.v_left, q.s.right);
-  pose.lengths = {pose.chains.left.wrap_mm + q.s.left, pose.chains.right.wrap_mm + q.s.right};
-  pose.iterations = iterations;
-  return pose;
+Unknowns<double> unknowns_of(const EquilibriumState& q) {
+  return {q.h_left, q.v_left, q.s.left, q.s.right, 0.0, 0.0, q.psi};
+}
+
+EquilibriumState state_of(const Pose& pose) {
+  return {pose.chains.left.horizontal_n,
+          pose.chains.left.vertical_at_sled_n,
+          {pose.chains.left.free_length_mm, pose.chains.right.free_length_mm},
+          pose.sled_rotation_rad};
+}
+
+/// How the lengths move with the unknowns in answer to a load.
+template <bool kRotates>
+Eigen::Vector2d length_changes(const EquilibriumConstants& m,
+                               const Pose& pose,
+                               const EquilibriumLoad& load) {
+  const EquilibriumState q = state_of(pose);
+  const PerSide<ChainTerms> t = terms_of(m, q);
+  const EquilibriumStep d = solve_linearised<kRotates>(m, t, load, q.psi);
+  const auto change = [&m](const ChainTerms& c, double h, double v, double s) {
+    return s + m.sg * m.r * (c.phi_h * h + c.phi_v * v + c.phi_s * s);
+  };
+  return {change(t.left, d.h_left, d.v_left, d.s.left),
+          change(t.right, d.h_left, -d.v_left, d.s.right)};
 }
 
 /// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not converge.
@@ -63,12 +81,30 @@ EquilibriumConstants equilibrium_constants(const EquilibriumParameters& paramete
     m.half_spacing = 0.5 * brackets->spacing_mm;
     m.bracket_height = brackets->height_mm;
     m.cg = brackets->cg_below_bit_mm;
+    m.rotates = true;
   }
   m.W = parameters.sled_weight_n;
   m.k = parameters.beam_flexibility_mm_per_n;
   m.f = parameters.side_force_n;
   m.chain = {parameters.chain_weight_n_per_mm, parameters.chain_compliance_per_n};
   return m;
+}
+
+Pose pose_of(const EquilibriumConstants& m,
+             const Unknowns<double>& q,
+             BedPoint place,
+             int iterations) {
+  Pose pose;
+  pose.position = place;
+  pose.sled_rotation_rad = q[kTurn];
+  pose.chains = {chain_state(m, q[kH], q[kV], q[kNLeft], q[kSLeft]),
+                 chain_state(m, q[kH] - m.f, m.W - q[kV], q[kNRight], q[kSRight])};
+  for (const Side side : kSides) {
+    const ChainState& chain = pose.chains[side];
+    pose.lengths[side] = chain.wrap_mm + chain.free_length_mm;
+  }
+  pose.iterations = iterations;
+  return pose;
 }
 
 template <bool kRotates>
@@ -87,7 +123,7 @@ PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
         });
   }
   if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
-  return pose_of(m_, q, point, iterations);
+  return pose_of(m_, unknowns_of(q), point, iterations);
 }
 
 template <bool kRotates>
@@ -146,10 +182,8 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
       step.h_left = per_det * (a01 * cy - a11 * cx);
       step.v_left = per_det * (a10 * cx - a00 * cy);
     }
-    step.h_right = step.h_left;
-    step.v_right = -step.v_left;
     step.s.left = l.s + l.s_h * step.h_left + l.s_v * step.v_left;
-    step.s.right = r.s + r.s_h * step.h_right + r.s_v * step.v_right;
+    step.s.right = r.s + r.s_h * step.h_left - r.s_v * step.v_left;
     if (!std::isfinite(step.h_left + step.v_left + step.s.left + step.s.right + step.psi)) break;
     if (!advance<kRotates>(m_, step, q)) continue;
     const PerSide<ChainTerms> end = terms_of(m_, q);
@@ -160,9 +194,39 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
                      0.5 * (m_.motors.left.y_mm - end.left.tip_y - a.left_y +
                             (m_.motors.right.y_mm - end.right.tip_y - a.right_y))};
     if (domain_failure(limits, p)) break;
-    return pose_of(m_, q, p, n);
+    return pose_of(m_, unknowns_of(q), p, n);
   }
   return forward_by_inverse(*this, limits, lengths);
+}
+
+template <bool kRotates>
+Eigen::Matrix2d EquilibriumKinematics<kRotates>::jacobian(const Pose& pose) const {
+  EquilibriumLoad by_x, by_y;
+  by_x.u = {-1.0, 1.0};
+  by_y.y = {1.0, 1.0};
+  Eigen::Matrix2d j;
+  j.col(0) = length_changes<kRotates>(m_, pose, by_x);
+  j.col(1) = length_changes<kRotates>(m_, pose, by_y);
+  return j;
+}
+
+template <bool kRotates>
+Eigen::Vector2d EquilibriumKinematics<kRotates>::sensitivity(const Pose& pose,
+                                                             Parameter parameter) const {
+  if ((parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
+      (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
+      (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance) ||
+      (parameter == Parameter::ring_radius_mm && kRotates)) {
+    return Eigen::Vector2d::Zero();
+  }
+  const ChainInputs<Dual<1>> inputs = by_parameter(m_, pose.position, parameter);
+  const Unknowns<Dual<1>> q = hanging::fixed<1>(unknowns_of(pose));
+  const auto left = hanging::slopes_of(residual(m_, inputs, q));
+  const auto direct = [&](Side side) {
+    return length_of(m_, inputs, pull_of(inputs, q, side)).d[0];
+  };
+  return Eigen::Vector2d(direct(Side::left), direct(Side::right)) +
+         length_changes<kRotates>(m_, pose, {{left[0], left[3]}, {left[1], left[4]}, left[6]});
 }
 
 template class EquilibriumKinematics<false>;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "model/equilibrium.hpp"
+#include "model/hanging_body.hpp"
 #include "model/inverse_domain.hpp"
 
 namespace chaintrue::model {
@@ -61,7 +62,7 @@ bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, Equilib
     if (value + share * change < 0.1 * value) share = -0.9 * value / change;
   };
   keep(q.h_left, step.h_left);
-  keep(h_right, step.h_right);
+  keep(h_right, step.h_left);
   keep(q.s.left, step.s.left);
   keep(q.s.right, step.s.right);
   if constexpr (kRotates) {
@@ -80,8 +81,7 @@ bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, Equilib
          std::abs(step.psi) < kAngleStepRad;
 }
 
-/// Continuation from below the beam's middle to the point in steps that Newton can follow: the branch
-/// of solutions with taut chains, where a cold start finds none.
+/// Continuation from below the beam's middle to the point: the branch of solutions with taut chains.
 /// \param start  State(BedPoint): the cold start
 /// \param converge int(BedPoint, State&): iterations, or 0
 template <class State, class Start, class Converge>
@@ -91,25 +91,11 @@ int converge_by_continuation(
   const BedPoint middle{0.5 * (l.x_mm + r.x_mm),
                         std::min(p.y_mm, 0.5 * (l.y_mm + r.y_mm) - 0.2 * (r.x_mm - l.x_mm))};
   q = start(middle);
-  int total = converge(middle, q);
-  if (total == 0) return 0;
-  double reached = 0.0, stride = 0.25;
-  while (reached < 1.0) {
-    const double next = std::min(1.0, reached + stride);
-    State trial = q;
-    const int n = converge(
-        {middle.x_mm + next * (p.x_mm - middle.x_mm), middle.y_mm + next * (p.y_mm - middle.y_mm)},
-        trial);
-    total += n;
-    if (n != 0) {
-      q = trial;
-      reached = next;
-      stride *= 1.5;
-    } else if ((stride *= 0.5) < 1e-4) {
-      return 0;
-    }
-  }
-  return total;
+  return hanging::follow(q, [&](double share, State& state) {
+    return converge(BedPoint{middle.x_mm + share * (p.x_mm - middle.x_mm),
+                             middle.y_mm + share * (p.y_mm - middle.y_mm)},
+                    state);
+  });
 }
 
 /// The likeliest reason why Newton does not converge for a point inside the domain.

@@ -5,9 +5,8 @@
 /// those of straight weightless chains along the formula's angles.
 #pragma once
 
+#include "model/chain_equations.hpp"
 #include "model/chain_formulas.hpp"
-#include "model/inverse_domain.hpp"
-#include "model/kinematics.hpp"
 
 namespace chaintrue::model {
 
@@ -15,10 +14,11 @@ enum class Formula { straight, wrap, firmware, one_shot };
 
 class FormulaKinematics final : public Kinematics {
  public:
+  /// \param tolerance_percent of the firmwares, which divide the straight part by 1 + tolerance / 100
   /// \throws std::invalid_argument for brackets: the closed formulas have no rotating sled.
   FormulaKinematics(const EquilibriumParameters& parameters,
                     Formula formula,
-                    const Tolerances& tolerance = {});
+                    const PerSide<double>& tolerance_percent = {});
   [[nodiscard]] PoseResult inverse(BedPoint point) const override;
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
   [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
@@ -28,14 +28,14 @@ class FormulaKinematics final : public Kinematics {
 
  private:
   template <class T>
-  [[nodiscard]] FormulaLengths<T> lengths(const FormulaInputs<T>& in) const;
+  [[nodiscard]] PerSide<StraightChain<T>> straight_chains(const ChainInputs<T>& in) const;
   template <class T>
-  [[nodiscard]] FormulaInputs<T> inputs(BedPoint point) const;
+  [[nodiscard]] PerSide<T> lengths(const ChainInputs<T>& in) const;
 
-  EquilibriumParameters parameters_;
+  EquilibriumConstants m_;
   Formula formula_;
-  Tolerances tolerance_;
-  DomainLimits limits_;
+  double sag_correction_;
+  PerSide<double> tolerance_percent_;
 };
 
 }  // namespace chaintrue::model

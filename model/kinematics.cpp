@@ -132,8 +132,7 @@ std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& p
     case Model::elastic_3d:
       break;
   }
-  if (ring) return std::make_unique<SpatialKinematics<false>>(parameters);
-  return std::make_unique<SpatialKinematics<true>>(parameters);
+  return std::make_unique<SpatialKinematics>(parameters);
 }
 
 }  // namespace chaintrue::model

@@ -15,12 +15,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "model/failure.hpp"
 #include "model/coordinates.hpp"
+#include "model/failure.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::model {
@@ -102,6 +103,7 @@ enum class Parameter {
   beam_flexibility_mm_per_n,
   side_force_n,
 };
+inline constexpr std::size_t kParameters = static_cast<std::size_t>(Parameter::side_force_n) + 1;
 
 /// Stateless and thread safe; the hot path neither allocates nor throws.
 class Kinematics {

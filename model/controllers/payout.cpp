@@ -88,14 +88,14 @@ EquilibriumParameters believed_parameters(const Machine& machine) {
   return p;
 }
 
-Tolerances believed_tolerances(const ControllerSettings& s) {
+PerSide<double> believed_tolerances(const ControllerSettings& s) {
   return {s.left_chain_tolerance_percent.value_or(0.0),
           s.right_chain_tolerance_percent.value_or(0.0)};
 }
 
 std::unique_ptr<const Kinematics> believed_kinematics(const Machine& machine) {
   const EquilibriumParameters p = believed_parameters(machine);
-  const Tolerances tolerance = believed_tolerances(machine.controller.settings);
+  const PerSide<double> tolerance = believed_tolerances(machine.controller.settings);
   switch (machine.controller.kind) {
     case ControllerKind::ideal:
       return make_kinematics(equilibrium_parameters(machine), Model::elastic);

@@ -32,9 +32,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/catenary.hpp"
 #include "model/coordinates.hpp"
-#include "model/dual.hpp"
+#include "model/hanging_body.hpp"
 
 namespace chaintrue::model::plotter {
 
@@ -61,10 +60,6 @@ struct Placed {
 };
 inline constexpr int kPlaced = 4;
 
-enum Unknown { kH, kV, kSLeft, kSRight, kNLeft, kNRight, kTilt, kUnknowns };
-template <class T>
-using Unknowns = std::array<T, kUnknowns>;
-
 /// A cord's pull and length.
 template <class T>
 struct CordLoad {
@@ -75,13 +70,6 @@ template <class T>
 CordLoad<T> load_of(const Statics& m, const Unknowns<T>& q, Side side) {
   if (side == Side::left) return {q[kH], q[kV], q[kNLeft], q[kSLeft]};
   return {q[kH] - m.side_n, m.weight_n - m.lift_n - q[kV], q[kNRight], q[kSRight]};
-}
-
-/// atanh(z)/z.
-inline double ratio_of(double z) { return atanh_ratio(z); }
-template <int N>
-Dual<N> ratio_of(const Dual<N>& z) {
-  return z.chained(atanh_ratio(z.value), atanh_ratio_slope(z.value));
 }
 
 template <class T>
@@ -145,7 +133,7 @@ Offset<T> body_point(double right_mm, double below_mm, const T& tilt) {
 /// The left sides of (1) of both cords and of (3); all 0 in equilibrium. Of a point (3) is the tilt.
 template <class T>
 Unknowns<T> residual(const Statics& m, const Unknowns<T>& q, const Placed<T>& at) {
-  const T& tilt = q[kTilt];
+  const T& tilt = q[kTurn];
   const Offset<T> pen = body_point(m.pen_right_mm, m.pen_below_mm, tilt);
   const Offset<T> middle{at.x - pen.x, at.y - pen.y};
   const CordLoad<T> l = load_of(m, q, Side::left), r = load_of(m, q, Side::right);
@@ -180,7 +168,7 @@ CordState<T> cord_state(const Statics& m, const Unknowns<T>& q, Side side) {
   const T angle = atan2(v1, load.h);
   T wrap(0.0);
   if (m.motors_in_gondola) {
-    const T in_body = atan2(load.v, load.h) - s * q[kTilt];
+    const T in_body = atan2(load.v, load.h) - s * q[kTurn];
     wrap = m.feed_sign * m.radius_mm * (0.25 * std::numbers::pi - in_body);
   } else {
     wrap = m.feed_sign > 0.0 ? m.radius_mm * angle : m.radius_mm * (std::numbers::pi - angle);

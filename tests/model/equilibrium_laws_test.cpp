@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "model/catenary.hpp"
 #include "model/kinematics.hpp"
+#include "tests/model/oracle/catenary_shape.hpp"
 #include "tests/support/random.hpp"
 
 namespace chaintrue::model {

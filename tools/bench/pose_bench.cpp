@@ -32,16 +32,13 @@ EquilibriumParameters classic(Attachment attachment = Ring{}) {
 void wrap_only(benchmark::State& state) {
   const std::vector<BedPoint> points = bench_points();
   const EquilibriumParameters m = classic();
-  FormulaInputs<double> in{};
-  in.sprocket_radius_mm = m.sprocket_radius_mm;
-  in.ring_radius_mm = std::get<Ring>(m.attachment).radius_mm;
+  const double r = m.sprocket_radius_mm;
   for (auto _ : state) {
     for (const BedPoint& p : points) {
-      in.u_left_mm = p.x_mm - m.motors.left.x_mm;
-      in.y_left_mm = m.motors.left.y_mm - p.y_mm;
-      in.u_right_mm = m.motors.right.x_mm - p.x_mm;
-      in.y_right_mm = m.motors.right.y_mm - p.y_mm;
-      benchmark::DoNotOptimize(wrap_lengths(in));
+      benchmark::DoNotOptimize(
+          straight_chain(p.x_mm - m.motors.left.x_mm, m.motors.left.y_mm - p.y_mm, r, 1.0));
+      benchmark::DoNotOptimize(
+          straight_chain(m.motors.right.x_mm - p.x_mm, m.motors.right.y_mm - p.y_mm, r, 1.0));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));

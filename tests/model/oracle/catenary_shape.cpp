@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "model/catenary.hpp"
+#include "tests/model/oracle/catenary_shape.hpp"
+
+#include <cmath>
 
 namespace chaintrue::model {
 namespace {
@@ -17,19 +19,6 @@ double tension_integral(const CatenaryLoad& load, const ChainMaterial& material)
 }
 
 }  // namespace
-
-CatenaryByWeight catenary_by_weight(const CatenaryLoad& load, const ChainMaterial& material) {
-  const double h = load.horizontal_n, v = load.vertical_n, s = load.length_mm;
-  const double w = material.weight_n_per_mm, c = material.compliance_per_n;
-  const double vb = v + w * s, vm = v + 0.5 * w * s;
-  const double sum = std::sqrt(h * h + v * v) + std::sqrt(h * h + vb * vb);
-  const double sum_by_w = vb * s / std::sqrt(h * h + vb * vb);
-  const double z = w * s / sum;
-  const double z_by_w = (s - z * sum_by_w) / sum;
-  const double f = atanh_ratio(z);
-  return {s * h * 2.0 * (atanh_ratio_slope(z) * z_by_w - f * sum_by_w / sum) / sum,
-          s * (0.5 * s * (2.0 / sum + c) - 2.0 * vm * sum_by_w / (sum * sum))};
-}
 
 CatenaryPoint catenary_point(const CatenaryLoad& load, const ChainMaterial& material, double s_mm) {
   const CatenaryLoad part{load.horizontal_n, load.vertical_n, s_mm};
