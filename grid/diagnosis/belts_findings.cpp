@@ -35,7 +35,7 @@ Believed believed(const model::BeltMachine& by,
     const auto tr = model::belts::read_belt(real, effects, {Belt::tr, {}, kAfterAll}, at);
     std::optional<FramePoint> one;
     if (tl && tr) {
-      if (const auto place = model::place_of_upper(by, *tl, *tr)) one = *place;
+      if (const auto place = model::place_of_upper(by, tl->value, tr->value)) one = *place;
     }
     result.push_back(one);
   }

@@ -125,7 +125,7 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
           belt, pulled_belts(point), point.order.value_or(0), pull_over(reference, point)};
       const auto with = model::belts::read_belt(machine, effects, visit, at);
       const auto without = model::belts::read_belt(machine, {}, visit, at);
-      if (with && without) added[belts::row_of(k, belt)] = *with - *without;
+      if (with && without) added[belts::row_of(k, belt)] = with->value - without->value;
     }
   }
   return added;

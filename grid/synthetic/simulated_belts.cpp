@@ -80,7 +80,7 @@ std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
       if (!length) return length.error().at(commands[i]);
       const double off = spec.heavy_tails ? noise.heavy_tailed() : noise.normal();
       double& read = point.lengths_mm[belt];
-      read = *length + spec.noise_mm * off;
+      read = length->value + spec.noise_mm * off;
       if (spec.rounding_mm > 0.0) read = spec.rounding_mm * std::round(read / spec.rounding_mm);
     }
     belts.points.push_back(std::move(point));

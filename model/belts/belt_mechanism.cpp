@@ -79,10 +79,8 @@ BeltMechanism::BeltMechanism(BeltMachine machine,
                              std::vector<MechanismParameter> parameters,
                              Eigen::VectorXd values,
                              std::vector<AppliedEffect> applied)
-    : MechanismBase(belts::belt_effects(),
-                    std::move(parameters),
-                    std::move(values),
-                    std::move(applied)),
+    : MechanismBase(
+          belts::belt_effects(), std::move(parameters), std::move(values), std::move(applied)),
       machine_(std::move(machine)),
       acting_(effects::resolve(belts::belt_effects(), this->applied())) {}
 
@@ -104,8 +102,8 @@ std::shared_ptr<const Mechanism> BeltMechanism::made_anew(
     changed.anchors[kCoordinates[i].belt].*kCoordinates[i].member =
         values[static_cast<Eigen::Index>(i)];
   changed.anchors_known = machine_.anchors_known || values != this->values();
-  return std::shared_ptr<const Mechanism>(new BeltMechanism(
-      std::move(changed), stated(), values, std::move(applied)));
+  return std::shared_ptr<const Mechanism>(
+      new BeltMechanism(std::move(changed), stated(), values, std::move(applied)));
 }
 
 std::vector<FixedPoint> BeltMechanism::fixed_points() const {
@@ -132,43 +130,39 @@ FrameScale BeltMechanism::frame_scale() const {
   return scale;
 }
 
+tl::expected<belts::AnchorNumber, BeltFailure> BeltMechanism::print(const belts::BeltVisit& visit,
+                                                                    FramePoint place) const {
+  // The same without effects, in a third of the time; of printed spans but for rounding.
+  if (acting_.empty() && machine_.lengths != BeltLengths::span) {
+    return reading_at(machine_, visit.belt, place).map([&](const BeltReading& reading) {
+      return belts::of_anchor(reading, visit.belt);
+    });
+  }
+  return belts::read_belt(machine_, acting_, visit, place);
+}
+
 tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
     const ToolPosition& position, const MechanismVisit& visit, Derivatives wanted) const {
   if (!machine_.anchors_known) return tl::unexpected(kAnchorsNotKnown);
+  PerBelt<bool> pulled;
+  for (const Belt belt : kBelts)
+    pulled[belt] = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(belt));
+  const bool all = wanted == Derivatives::by_position_and_parameter;
   LengthsPrediction result;
   result.lengths_mm.resize(4);
-  result.by_position.resize(4, 2);
-  PerBelt<bool> pulled;
-  PerBelt<PerBelt<Eigen::RowVector2d>> by_anchor;
-  for (const Belt belt : kBelts) {
-    pulled[belt] = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(belt));
-    for (const Belt anchor : kBelts) by_anchor[belt][anchor].setZero();
-  }
+  result.by_position = Eigen::MatrixXd::Zero(4, 2);
+  result.by_parameter = Eigen::MatrixXd::Zero(4, all ? values().size() : 0);
   for (const Belt belt : kBelts) {
     const auto row = static_cast<Eigen::Index>(belt);
-    const FramePoint place{position.x_mm, position.y_mm};
-    // The same without effects, in a third of the time; of printed spans but for rounding.
-    if (acting_.empty() && machine_.lengths != BeltLengths::span) {
-      const auto reading = reading_at(machine_, belt, place);
-      if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
-      result.lengths_mm[row] = reading->length_mm;
-      result.by_position.row(row) = reading->by_place;
-      by_anchor[belt][belt] = -reading->by_place;  // (1)
-      continue;
-    }
-    const auto reading = belts::read_belt_with_slope(
-        machine_, acting_, {belt, pulled, visit.order, visit.pull}, place);
-    if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
-    result.lengths_mm[row] = reading->length_mm;
-    result.by_position.row(row) = reading->by_place;
-    by_anchor[belt] = reading->by_anchor;
-  }
-  const bool all = wanted == Derivatives::by_position_and_parameter;
-  result.by_parameter = Eigen::MatrixXd::Zero(4, all ? values().size() : 0);
-  for (std::size_t i = 0; all && i < kCoordinates.size(); ++i) {
-    for (const Belt belt : kBelts) {
-      result.by_parameter(static_cast<Eigen::Index>(belt), static_cast<Eigen::Index>(i)) =
-          by_anchor[belt][kCoordinates[i].belt][kCoordinates[i].axis];
+    const auto printed =
+        print({belt, pulled, visit.order, visit.pull}, {position.x_mm, position.y_mm});
+    if (!printed) return tl::unexpected(mechanism_failure(printed.error()));
+    result.lengths_mm[row] = printed->value;
+    for (const Belt anchor : kBelts)
+      result.by_position.row(row) -= belts::by_anchor(*printed, anchor);
+    for (std::size_t i = 0; all && i < kCoordinates.size(); ++i) {
+      result.by_parameter(row, static_cast<Eigen::Index>(i)) =
+          belts::by_anchor(*printed, kCoordinates[i].belt)[kCoordinates[i].axis];
     }
   }
   return result;

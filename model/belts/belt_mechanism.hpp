@@ -69,6 +69,8 @@ class BeltMechanism final : public MechanismBase {
                 std::vector<AppliedEffect> applied);
   [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
       const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
+  [[nodiscard]] tl::expected<belts::AnchorNumber, BeltFailure> print(const belts::BeltVisit& visit,
+                                                                     FramePoint place) const;
 
   BeltMachine machine_;
   std::vector<effects::ActingEffect> acting_;

@@ -17,10 +17,11 @@ namespace {
 constexpr double kTeethInATurn = 22.0;
 
 /// L of a belt, with d(L)/d(place).
-tl::expected<BeltReading, BeltFailure> belt_itself(const BeltMachine& machine,
-                                                   const std::vector<effects::ActingEffect>& effects,
-                                                   const BeltVisit& visit,
-                                                   FramePoint place) {
+tl::expected<BeltReading, BeltFailure> belt_itself(
+    const BeltMachine& machine,
+    const std::vector<effects::ActingEffect>& effects,
+    const BeltVisit& visit,
+    FramePoint place) {
   BeltMachine real = machine;
   // The horizontal span is the same for both printed forms of the real belt.
   real.lengths =
@@ -60,60 +61,40 @@ effects::Number count_of(const BeltMachine& machine,
 }
 
 /// print(K).
-tl::expected<double, BeltFailure> printed(const BeltMachine& machine, Belt belt, double count_mm) {
+tl::expected<AnchorNumber, BeltFailure> printed(const BeltMachine& machine,
+                                                Belt belt,
+                                                const AnchorNumber& count_mm) {
   if (machine.lengths == BeltLengths::belt) return count_mm;
   if (machine.lengths == BeltLengths::belt_and_arm) return count_mm + reach_mm(machine);
   const double c = height_mm(machine, belt);
-  if (!(count_mm > std::abs(c))) return tl::unexpected(BeltReason::shorter_than_height);
-  return std::sqrt((count_mm - c) * (count_mm + c)) + reach_mm(machine);
+  if (!(count_mm.value > std::abs(c))) return tl::unexpected(BeltReason::shorter_than_height);
+  return sqrt((count_mm - c) * (count_mm + c)) + reach_mm(machine);
 }
 
 }  // namespace
 
-tl::expected<double, BeltFailure> read_belt(const BeltMachine& machine,
-                                            const std::vector<effects::ActingEffect>& effects,
-                                            const BeltVisit& visit,
-                                            FramePoint place) {
-  const auto belt = belt_itself(machine, effects, visit, place);
-  if (!belt) return tl::unexpected(belt.error());
-  const double tension =
-      by_tension(effects) ? tensions_of(machine, visit.pulled, visit.pull, place)[visit.belt] : 0.0;
-  return printed(machine,
-                 visit.belt,
-                 count_of(machine, effects, visit, belt->length_mm, tension).value);
+AnchorNumber of_anchor(const BeltReading& reading, Belt belt) {
+  AnchorNumber length = reading.length_mm;
+  for (const std::size_t axis : {0U, 1U})
+    length.d[first_of(belt) + axis] = -reading.by_place[static_cast<Eigen::Index>(axis)];  // (1)
+  return length;
 }
 
-tl::expected<BeltReadingSlopes, BeltFailure> read_belt_with_slope(
-    const BeltMachine& machine,
-    const std::vector<effects::ActingEffect>& effects,
-    const BeltVisit& visit,
-    FramePoint place) {
+tl::expected<AnchorNumber, BeltFailure> read_belt(const BeltMachine& machine,
+                                                  const std::vector<effects::ActingEffect>& effects,
+                                                  const BeltVisit& visit,
+                                                  FramePoint place) {
   const auto belt = belt_itself(machine, effects, visit, place);
   if (!belt) return tl::unexpected(belt.error());
-  const bool loaded = by_tension(effects);
-  const BeltTensions tensions = loaded
-                                    ? tensions_at(machine, visit.pulled, visit.pull, place)
-                                    : BeltTensions{};
-  const effects::Number count = count_of(
-      machine, effects, visit, belt->length_mm, loaded ? tensions.tension[visit.belt] : 0.0);
-  const auto length = printed(machine, visit.belt, count.value);
-  if (!length) return tl::unexpected(length.error());
-  double print_slope = 1.0;
-  if (machine.lengths == BeltLengths::span) {
-    const double c = height_mm(machine, visit.belt);
-    print_slope = count.value / std::sqrt((count.value - c) * (count.value + c));
-  }
-  BeltReadingSlopes result;
-  result.length_mm = *length;
-  for (const Belt anchor : kBelts) {
-    Eigen::RowVector2d& own = result.by_anchor[anchor];
-    own.setZero();
-    if (loaded)
-      own = print_slope * count.d[effects::kTension] * tensions.by_anchor[visit.belt][anchor];
-    if (anchor == visit.belt) own -= print_slope * count.d[effects::kLength] * belt->by_place;
-    result.by_place -= own;
-  }
-  return result;
+  const AnchorNumber length = of_anchor(*belt, visit.belt);
+  AnchorNumber tension;
+  if (by_tension(effects))
+    tension = tensions_of(machine, visit.pulled, visit.pull, place)[visit.belt];
+  const effects::Number count = count_of(machine, effects, visit, length.value, tension.value);
+  return printed(machine,
+                 visit.belt,
+                 length.chained(count.value, count.d[effects::kLength]) +
+                     tension.chained(0.0, count.d[effects::kTension]));
 }
 
 }  // namespace chaintrue::model::belts

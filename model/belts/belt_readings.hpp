@@ -42,20 +42,11 @@ struct BeltVisit {
 /// An effect at this side acts on this belt.
 [[nodiscard]] bool acts_on(effects::EffectSide side, Belt belt);
 
-[[nodiscard]] tl::expected<double, BeltFailure> read_belt(
-    const BeltMachine& machine,
-    const std::vector<effects::ActingEffect>& effects,
-    const BeltVisit& visit,
-    FramePoint place);
+/// A reading without effects.
+[[nodiscard]] AnchorNumber of_anchor(const BeltReading& reading, Belt belt);
 
-/// A printed length and its derivatives. By each anchor, since tensions depend on all four.
-struct BeltReadingSlopes {
-  double length_mm = 0.0;
-  Eigen::RowVector2d by_place = Eigen::RowVector2d::Zero();
-  PerBelt<Eigen::RowVector2d> by_anchor;  ///< (1): by_place is the negative of their sum
-};
-
-[[nodiscard]] tl::expected<BeltReadingSlopes, BeltFailure> read_belt_with_slope(
+/// The printed length. By each anchor, since tensions depend on all four.
+[[nodiscard]] tl::expected<AnchorNumber, BeltFailure> read_belt(
     const BeltMachine& machine,
     const std::vector<effects::ActingEffect>& effects,
     const BeltVisit& visit,

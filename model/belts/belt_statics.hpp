@@ -20,15 +20,16 @@
 /// belts and friction of the sled.
 ///
 /// \code
-///   const BeltTensions t = tensions_at(machine, kLowerBeltsPulled, 1.0, {1500.0, 1000.0});
-///   t.tension[Belt::tl];                 // about 1 in the middle
-///   t.by_anchor[Belt::tl][Belt::br];     // d(T_tl) / d(bottom right anchor), 1/mm
+///   const auto tension = tensions_of(machine, kLowerBeltsPulled, 1.0, {1500.0, 1000.0});
+///   tension.tl.value;                    // about 1 in the middle
+///   by_anchor(tension.tl, Belt::br);     // d(T_tl) / d(bottom right anchor), 1/mm
 /// \endcode
 #pragma once
 
 #include <Eigen/Core>
 
 #include "model/belts/belt_machine.hpp"
+#include "model/dual.hpp"
 
 namespace chaintrue::model::belts {
 
@@ -42,21 +43,22 @@ inline constexpr double kWeightOverPull = 0.3;
 /// Between two anchors that hold, on the line through them, a belt would carry any force.
 inline constexpr double kMostTension = 10.0;
 
-struct BeltTensions {
-  PerBelt<double> tension;
-  /// d(tension of a belt) / d(level place of an anchor), 1/mm. The place of the tool has the
-  /// negative of their sum.
-  PerBelt<PerBelt<Eigen::RowVector2d>> by_anchor;
-};
+/// A number with its derivatives by the level places of the four anchors, x and y of each. What
+/// depends on the place less the anchors has the negative of their sum by the place.
+using AnchorNumber = Dual<8>;
+
+/// The first of an anchor's two derivatives.
+[[nodiscard]] constexpr std::size_t first_of(Belt anchor) {
+  return 2 * static_cast<std::size_t>(anchor);
+}
+[[nodiscard]] inline Eigen::RowVector2d by_anchor(const AnchorNumber& number, Belt anchor) {
+  return {number.d[first_of(anchor)], number.d[first_of(anchor) + 1]};
+}
 
 /// \throws std::logic_error if the anchors are not known.
-[[nodiscard]] PerBelt<double> tensions_of(const BeltMachine& machine,
-                                          const PerBelt<bool>& pulled,
-                                          double pull,
-                                          FramePoint place);
-[[nodiscard]] BeltTensions tensions_at(const BeltMachine& machine,
-                                       const PerBelt<bool>& pulled,
-                                       double pull,
-                                       FramePoint place);
+[[nodiscard]] PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine,
+                                                const PerBelt<bool>& pulled,
+                                                double pull,
+                                                FramePoint place);
 
 }  // namespace chaintrue::model::belts

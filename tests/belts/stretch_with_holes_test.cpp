@@ -26,7 +26,7 @@ SimulatedHoles stretched(std::uint64_t seed) {
     const auto tension =
         model::belts::tensions_of(made.truth, model::belts::kLowerBeltsPulled, 1.0, place);
     for (const model::Belt belt : model::kBelts)
-      point.lengths_mm[belt] -= kStretch * tension[belt] *
+      point.lengths_mm[belt] -= kStretch * tension[belt].value *
                                 (point.lengths_mm[belt] - model::reach_mm(made.belts.machine));
   }
   return made;

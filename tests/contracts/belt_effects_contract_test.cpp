@@ -26,7 +26,7 @@ double read(const BeltMachine& machine,
             const std::vector<effects::ActingEffect>& effects,
             const BeltVisit& visit,
             FramePoint place) {
-  return read_belt(machine, effects, visit, place).value();
+  return read_belt(machine, effects, visit, place).value().value;
 }
 
 TEST(BeltEffects, StandAtOneStationAndAreFoundByTheirIds) {
@@ -79,16 +79,16 @@ TEST(BeltEffects, EachEquationAgreesWithHandCalculation) {
 TEST(BeltEffects, HoldingBeltsStretchByTheirTension) {
   const BeltMachine machine = frame(BeltLengths::belt);
   const FramePoint place{900.0, 600.0};
-  const PerBelt<double> tension = tensions_of(machine, kLowerBeltsPulled, 1.6, place);
+  const auto tension = tensions_of(machine, kLowerBeltsPulled, 1.6, place);
   for (const Belt belt : kBelts) {
     const BeltVisit visit{belt, kLowerBeltsPulled, 12, 1.6};
     const double plain = reading_at(machine, belt, place)->length_mm;
     // Rounding of 3 m.
     EXPECT_NEAR(read(machine, {{&belt_stretch, EffectSide::none, {0.002}}}, visit, place),
-                plain - 0.002 * tension[belt] * plain,
+                plain - 0.002 * tension[belt].value * plain,
                 1e-11);
     EXPECT_NEAR(read(machine, {{&anchor_flex, EffectSide::none, {1.5}}}, visit, place),
-                plain - 1.5 * tension[belt],
+                plain - 1.5 * tension[belt].value,
                 1e-11);
   }
 }

@@ -31,10 +31,22 @@ std::vector<FramePoint> places() {
   return all;
 }
 
+PerBelt<double> values_of(const PerBelt<AnchorNumber>& tension) {
+  return {tension.tl.value, tension.tr.value, tension.bl.value, tension.br.value};
+}
+
+PerBelt<double> tension_values(const BeltMachine& machine,
+                               const PerBelt<bool>& pulled,
+                               double pull,
+                               FramePoint place) {
+  return values_of(tensions_of(machine, pulled, pull, place));
+}
+
 /// Sum of the level forces of belts and weight.
-Eigen::Vector2d force(const BeltMachine& machine, const PerBelt<double>& tension, FramePoint place) {
-  Eigen::Vector2d sum(
-      0.0, machine.orientation == Orientation::upright ? -kWeightOverPull : 0.0);
+Eigen::Vector2d force(const BeltMachine& machine,
+                      const PerBelt<double>& tension,
+                      FramePoint place) {
+  Eigen::Vector2d sum(0.0, machine.orientation == Orientation::upright ? -kWeightOverPull : 0.0);
   for (const Belt belt : kBelts) {
     const Anchor& a = machine.anchors[belt];
     const Eigen::Vector2d way(a.x_mm - place.x_mm, a.y_mm - place.y_mm);
@@ -54,7 +66,7 @@ TEST(BeltTensions, TwoHoldingBeltsBalanceTheTwoPulledAndTheWeight) {
     const BeltMachine machine = frame(orientation);
     for (const PerBelt<bool>& pulled : {kLowerBeltsPulled, kLeftPulled}) {
       for (const FramePoint place : places()) {
-        const PerBelt<double> tension = tensions_of(machine, pulled, 1.6, place);
+        const PerBelt<double> tension = tension_values(machine, pulled, 1.6, place);
         for (const Belt belt : kBelts) {
           EXPECT_GE(tension[belt], 0.0);
           if (pulled[belt]) {
@@ -74,38 +86,39 @@ TEST(BeltTensions, TwoHoldingBeltsBalanceTheTwoPulledAndTheWeight) {
 
 TEST(BeltTensions, AreAllNearThePullInTheMiddleOfAFlatFrame) {
   const PerBelt<double> tension =
-      tensions_of(frame(Orientation::flat), kLowerBeltsPulled, 1.0, {1462.0, 1033.0});
+      tension_values(frame(Orientation::flat), kLowerBeltsPulled, 1.0, {1462.0, 1033.0});
   // The belts' heights differ, 3 % of their length.
   EXPECT_NEAR(tension.tl, 1.0, 0.01);
   EXPECT_NEAR(tension.tr, 1.0, 0.01);
 }
 
 TEST(BeltTensions, AreUnknownWithoutAPull) {
-  const BeltTensions none = tensions_at(frame(Orientation::upright), {}, 1.0, {1462.0, 1033.0});
+  const auto none =
+      tensions_of(frame(Orientation::upright), PerBelt<bool>{}, 1.0, FramePoint{1462.0, 1033.0});
   for (const Belt belt : kBelts) {
-    EXPECT_EQ(none.tension[belt], 0.0);
-    EXPECT_EQ(none.by_anchor[belt][Belt::tl].norm(), 0.0);
+    EXPECT_EQ(none[belt].value, 0.0);
+    EXPECT_EQ(by_anchor(none[belt], Belt::tl).norm(), 0.0);
   }
-  EXPECT_THROW((void)tensions_of(BeltMachine{}, kLowerBeltsPulled, 1.0, {}), std::logic_error);
+  EXPECT_THROW((void)tension_values(BeltMachine{}, kLowerBeltsPulled, 1.0, {}), std::logic_error);
 }
 
 TEST(BeltTensions, OneHoldingBeltCarriesTheForceAlongIt) {
   const BeltMachine machine = frame(Orientation::flat);
   const FramePoint place{1500.0, 1000.0};
-  const PerBelt<double> one = tensions_of(machine, kOneHolds, 1.0, place);
+  const PerBelt<double> one = tension_values(machine, kOneHolds, 1.0, place);
   EXPECT_GT(one.tl, 0.0);
   const Anchor& a = machine.anchors.tl;
   const Eigen::Vector2d along(a.x_mm - place.x_mm, a.y_mm - place.y_mm);
   // The remaining force is across that belt: rounding.
   EXPECT_NEAR(force(machine, one, place).dot(along.normalized()), 0.0, 1e-12);
-  const PerBelt<double> three = tensions_of(machine, kOnePulled, 1.0, place);
+  const PerBelt<double> three = tension_values(machine, kOnePulled, 1.0, place);
   for (const Belt belt : kBelts) EXPECT_LE(three[belt], 1.0);
 }
 
 TEST(BeltTensions, AreLimitedBetweenTwoHoldingAnchors) {
   const BeltMachine machine = frame(Orientation::upright);
   for (const double y : {2064.0, 2065.7, 2066.0, 2080.0}) {
-    const PerBelt<double> tension = tensions_of(machine, kLowerBeltsPulled, 1.0, {1500.0, y});
+    const PerBelt<double> tension = tension_values(machine, kLowerBeltsPulled, 1.0, {1500.0, y});
     EXPECT_LE(tension.tl, kMostTension);
     EXPECT_LE(tension.tr, kMostTension);
   }
@@ -117,19 +130,19 @@ TEST(BeltTensions, DerivativesAreDifferences) {
     const BeltMachine machine = frame(orientation);
     for (const PerBelt<bool>& pulled : {kLowerBeltsPulled, kLeftPulled, kOnePulled}) {
       for (const FramePoint place : places()) {
-        const BeltTensions at = tensions_at(machine, pulled, 1.3, place);
-        if (!all_taut(at.tension)) continue;
+        const auto at = tensions_of(machine, pulled, 1.3, place);
+        if (!all_taut(values_of(at))) continue;
         for (const Belt anchor : kBelts) {
           for (const bool by_x : {true, false}) {
             const auto moved = [&](double step) {
               BeltMachine other = machine;
               (by_x ? other.anchors[anchor].x_mm : other.anchors[anchor].y_mm) += step;
-              return tensions_of(other, pulled, 1.3, place);
+              return tension_values(other, pulled, 1.3, place);
             };
             const PerBelt<double> more = moved(kStepMm), less = moved(-kStepMm);
             for (const Belt belt : kBelts) {
               // A tension changes by 1e-3 a mm; rounding of differences, 1e-16 over the step.
-              EXPECT_NEAR(at.by_anchor[belt][anchor][by_x ? 0 : 1],
+              EXPECT_NEAR(by_anchor(at[belt], anchor)[by_x ? 0 : 1],
                           (more[belt] - less[belt]) / (2.0 * kStepMm),
                           1e-9);
             }
