@@ -12,7 +12,7 @@
 #include "model/calibration/setting.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/catenary.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/chains/chain_changes.hpp"
 #include "model/controllers/controller.hpp"
 #include "model/coordinates.hpp"
 #include "model/effects/catalogue.hpp"

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 
+#include "model/calibration/setting.hpp"
+#include "model/chains/chain_changes.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::model {
@@ -29,6 +31,7 @@ constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0,
 
 // What a chain's length may depend on, or the slopes of that, in the order of LengthVariable.
 using StateNumbers = Eigen::Matrix<double, effects::kLengthVariables, 1>;
+const PerSide<StateNumbers> kFlat{StateNumbers::Zero(), StateNumbers::Zero()};
 
 void add_weighted(PerSide<StateNumbers>& sum, const Pose& pose, double weight) {
   for (const Side side : kSides) {
@@ -41,27 +44,28 @@ void add_weighted(PerSide<StateNumbers>& sum, const Pose& pose, double weight) {
 }
 
 // The slopes of a pose have to be known for these.
-bool depends_on_state(const effects::Number& added) {
-  return added.d[effects::kAngle] != 0.0 || added.d[effects::kFree] != 0.0 ||
-         added.d[effects::kTension] != 0.0 || added.d[effects::kHorizontal] != 0.0;
+bool depends_on_state(const PerSide<effects::Number>& added) {
+  constexpr std::array kStateVariables = {
+      effects::kAngle, effects::kFree, effects::kTension, effects::kHorizontal};
+  return std::any_of(kStateVariables.begin(), kStateVariables.end(), [&](std::size_t i) {
+    return added.left.d[i] != 0.0 || added.right.d[i] != 0.0;
+  });
 }
 
-bool is_motor_setting(Setting setting) { return setting <= Setting::motor_right_y_mm; }
-
-/// In the order of the settings.
-struct MotorSetting {
-  Side side;
-  double MotorPosition::*axis;
-  Parameter parameter;
-};
-constexpr std::array kMotorSettings = {
-    MotorSetting{Side::left, &MotorPosition::x_mm, Parameter::motor_left_x_mm},
-    MotorSetting{Side::left, &MotorPosition::y_mm, Parameter::motor_left_y_mm},
-    MotorSetting{Side::right, &MotorPosition::x_mm, Parameter::motor_right_x_mm},
-    MotorSetting{Side::right, &MotorPosition::y_mm, Parameter::motor_right_y_mm}};
-
-const MotorSetting& motor_of(Setting setting) {
-  return kMotorSettings.at(static_cast<std::size_t>(setting));
+double& coordinate_of(PerSide<MotorPosition>& motors, Setting setting) {
+  switch (setting) {
+    case Setting::motor_left_x_mm:
+      return motors.left.x_mm;
+    case Setting::motor_left_y_mm:
+      return motors.left.y_mm;
+    case Setting::motor_right_x_mm:
+      return motors.right.x_mm;
+    case Setting::motor_right_y_mm:
+      return motors.right.y_mm;
+    default:
+      throw std::invalid_argument(
+          "sensitivity: the sheet's settings move the point, not the machine");
+  }
 }
 
 double sign_of_change(double change, double last) {
@@ -70,13 +74,15 @@ double sign_of_change(double change, double last) {
   return last;
 }
 
-// f'(0) by (1); with a smaller step where a neighbour has no pose. `pose_at(t)` is the pose t mm
-// away.
+// f'(0) by (1), 0 where nothing that is added depends on it; with a smaller step where a neighbour
+// has no pose. `pose_at(t)` is the pose t mm away.
 template <class PoseAt>
-tl::expected<PerSide<StateNumbers>, PoseFailure> state_slope(const PoseAt& pose_at) {
+tl::expected<PerSide<StateNumbers>, PoseFailure> state_slope(const PerSide<effects::Number>& added,
+                                                             const PoseAt& pose_at) {
+  if (!depends_on_state(added)) return kFlat;
   PoseFailure reason = PoseReason::not_converged;
   for (const double step_mm : {kStepMm, kStepMm / 16.0, kStepMm / 256.0}) {
-    PerSide<StateNumbers> slope{StateNumbers::Zero(), StateNumbers::Zero()};
+    PerSide<StateNumbers> slope = kFlat;
     bool complete = true;
     for (std::size_t i = 0; i < kStencil.size() && complete; ++i) {
       const PoseResult neighbour = pose_at(kStencil[i] * step_mm);
@@ -92,63 +98,13 @@ tl::expected<PerSide<StateNumbers>, PoseFailure> state_slope(const PoseAt& pose_
   return tl::unexpected(reason);
 }
 
-}  // namespace
-
-struct ReadingModel::State {
-  Machine machine;
-  Model model = Model::elastic;
-  EquilibriumParameters parameters;
-  std::unique_ptr<const Kinematics> kinematics;
-  std::vector<ActingEffect> acting;
-  /// Sum of the elongations of a chain.
-  PerSide<double> elongation;
-
-  /// What effects add to a chain, without those of the visit.
-  [[nodiscard]] effects::Number added(const Pose& pose, Side side) const;
-  [[nodiscard]] PerSide<effects::Number> added(const Pose& pose) const {
-    return {added(pose, Side::left), added(pose, Side::right)};
-  }
-  /// What a visit adds to the reading of a chain.
-  [[nodiscard]] double added_at_visit(Side side, int order, double direction) const;
-  /// The reading of a chain paid out to this length.
-  [[nodiscard]] double counted(double length_mm, Side side) const {
-    return length_mm / (1.0 + elongation[side]) + machine.chain_zero[side];
-  }
-  /// d(reading)/d(anything) from the slopes of the pose's lengths, of its chains' states and of the
-  /// tool's position.
-  [[nodiscard]] Eigen::Vector2d through_effects(const PerSide<effects::Number>& added,
-                                                const Eigen::Vector2d& length_slope,
-                                                PerSide<StateNumbers> slope,
-                                                const Eigen::Vector2d& position_slope) const;
-  [[nodiscard]] PoseResult pose_near(BedPoint point, Setting setting, double change_mm) const;
-};
-
-effects::Number ReadingModel::State::added(const Pose& pose, Side side) const {
-  const effects::LengthState chain = effects::chain_at_rest(pose, side, machine.sprocket);
-  effects::Number sum;
-  for (const ActingEffect& one : acting) {
-    if (one.effect->add != nullptr && !depends_on_visit(*one.effect) && acts_on(one.side, side))
-      sum = sum + one.effect->add(chain, one.values);
-  }
-  return sum;
-}
-
-double ReadingModel::State::added_at_visit(Side side, int order, double direction) const {
-  const effects::LengthState chain{
-      .tooth_mm = machine.sprocket.pitch_mm, .direction = direction, .order = order};
-  double sum = 0.0;
-  for (const ActingEffect& one : acting) {
-    if (!depends_on_visit(*one.effect) || !acts_on(one.side, side)) continue;
-    const double added_mm = one.effect->add(chain, one.values).value;
-    sum += one.effect->by_direction ? added_mm / (1.0 + elongation[side]) : added_mm;
-  }
-  return sum;
-}
-
-Eigen::Vector2d ReadingModel::State::through_effects(const PerSide<effects::Number>& added,
-                                                     const Eigen::Vector2d& length_slope,
-                                                     PerSide<StateNumbers> slope,
-                                                     const Eigen::Vector2d& position_slope) const {
+/// d(reading)/d(anything) from the slopes of the pose's lengths, of its chains' states and of the
+/// tool's position.
+Eigen::Vector2d through_effects(const PerSide<effects::Number>& added,
+                                const PerSide<double>& elongation,
+                                const Eigen::Vector2d& length_slope,
+                                PerSide<StateNumbers> slope,
+                                const Eigen::Vector2d& position_slope) {
   Eigen::Vector2d result;
   for (const Side side : kSides) {
     const Eigen::Index row = side == Side::left ? 0 : 1;
@@ -160,84 +116,159 @@ Eigen::Vector2d ReadingModel::State::through_effects(const PerSide<effects::Numb
   return result;
 }
 
-PoseResult ReadingModel::State::pose_near(BedPoint point,
-                                            Setting setting,
-                                            double change_mm) const {
-  EquilibriumParameters changed = parameters;
-  const MotorSetting& motor = motor_of(setting);
-  changed.motors[motor.side].*motor.axis += change_mm;
-  return make_kinematics(changed, model)->inverse(point);
+std::vector<MechanismParameter> stated_parameters(const Machine& machine) {
+  std::vector<MechanismParameter> parameters;
+  for (const Setting setting : kMachineSettings) {
+    parameters.push_back(
+        {name(setting),
+         "mm",
+         stated_value(machine, setting),
+         stated_sigma(machine, setting),
+         setting == Setting::chain_zero_left_mm || setting == Setting::chain_zero_right_mm});
+  }
+  return parameters;
 }
 
-ReadingModel::ReadingModel(const Machine& machine, Model model) {
+Eigen::VectorXd values_of(const Machine& machine) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(kMachineSettings.size()));
+  for (std::size_t i = 0; i < kMachineSettings.size(); ++i)
+    values[static_cast<Eigen::Index>(i)] = stated_value(machine, kMachineSettings[i]);
+  return values;
+}
+
+const Machine& sound(const Machine& machine) {
   require_none(problems_of(machine));
-  auto state = std::make_shared<State>();
-  state->machine = machine;
-  state->model = model;
-  state->acting = effects::acting_effects(machine);
-  state->parameters = equilibrium_parameters(machine);
-  for (const ActingEffect& one : state->acting) {
-    if (one.effect->alter != nullptr) one.effect->alter(state->parameters, one.values);
+  return machine;
+}
+
+}  // namespace
+
+std::shared_ptr<const ReadingModel> make_chain_mechanism(const Machine& machine) {
+  return std::make_shared<const ReadingModel>(machine);
+}
+
+ReadingModel::ReadingModel(const Machine& machine, Model model)
+    : ReadingModel(sound(machine), model, stated_parameters(machine)) {}
+
+ReadingModel::ReadingModel(const Machine& machine,
+                           Model model,
+                           std::vector<MechanismParameter> parameters)
+    : MechanismBase(
+          effects::effects_of(machine), std::move(parameters), values_of(machine), machine.effects),
+      machine_(sound(machine)),
+      model_(model),
+      frame_(machine),
+      acting_(effects::acting_effects(machine)),
+      equilibrium_(equilibrium_parameters(machine)) {
+  for (const ActingEffect& one : acting_) {
+    if (one.effect->alter != nullptr) one.effect->alter(equilibrium_, one.values);
     if (one.effect->elongation == nullptr) continue;
     for (const Side side : kSides) {
-      if (acts_on(one.side, side)) state->elongation[side] += one.effect->elongation(one.values);
+      if (acts_on(one.side, side)) elongation_[side] += one.effect->elongation(one.values);
     }
   }
-  state->kinematics = make_kinematics(state->parameters, model);
-  state_ = std::move(state);
+  kinematics_ = make_kinematics(equilibrium_, model);
 }
 
-const Machine& ReadingModel::machine() const { return state_->machine; }
+std::shared_ptr<const Mechanism> ReadingModel::made_anew(const Eigen::VectorXd& values,
+                                                         std::vector<AppliedEffect> applied) const {
+  Machine changed = machine_;
+  changed.effects = std::move(applied);
+  for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
+    changed =
+        with_setting(std::move(changed), kMachineSettings[i], values[static_cast<Eigen::Index>(i)]);
+  }
+  return std::shared_ptr<const Mechanism>(new ReadingModel(changed, model_, stated()));
+}
 
-Model ReadingModel::model() const { return state_->model; }
+std::span<const std::string_view> ReadingModel::lengths() const {
+  static constexpr std::array<std::string_view, 2> kChainLengths = {"left", "right"};
+  return kChainLengths;
+}
+
+MechanismExtent ReadingModel::extent() const {
+  const Bed& bed = machine_.bed;
+  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+}
+
+std::vector<MachineProblem> ReadingModel::problems_of_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  Machine changed = machine_;
+  changed.effects.insert(changed.effects.end(), applied.begin(), applied.end());
+  return effects::problems_of_effects(changed);
+}
+
+effects::Number ReadingModel::added(const Pose& pose, Side side) const {
+  const effects::LengthState chain = effects::chain_at_rest(pose, side, machine_.sprocket);
+  effects::Number sum;
+  for (const ActingEffect& one : acting_) {
+    if (one.effect->add != nullptr && !depends_on_visit(*one.effect) && acts_on(one.side, side))
+      sum = sum + one.effect->add(chain, one.values);
+  }
+  return sum;
+}
+
+double ReadingModel::added_at_visit(Side side, int order, double direction) const {
+  const effects::LengthState chain{
+      .tooth_mm = machine_.sprocket.pitch_mm, .direction = direction, .order = order};
+  double sum = 0.0;
+  for (const ActingEffect& one : acting_) {
+    if (!depends_on_visit(*one.effect) || !acts_on(one.side, side)) continue;
+    const double added_mm = one.effect->add(chain, one.values).value;
+    sum += one.effect->by_direction ? added_mm / (1.0 + elongation_[side]) : added_mm;
+  }
+  return sum;
+}
+
+Eigen::Vector2d ReadingModel::added_at(const MechanismVisit& visit) const {
+  const auto direction = [&](std::size_t chain) {
+    return visit.direction.empty() ? 1.0 : visit.direction.at(chain);
+  };
+  return {added_at_visit(Side::left, visit.order, direction(0)),
+          added_at_visit(Side::right, visit.order, direction(1))};
+}
 
 tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
-  const State& state = *state_;
-  const PoseResult pose = state.kinematics->inverse(point);
+  const PoseResult pose = kinematics_->inverse(point);
   if (!pose) return tl::unexpected(pose.error());
   PointReading reading;
   reading.pose = *pose;
-  const PerSide<effects::Number> added = state.added(*pose);
+  const PerSide<effects::Number> added{this->added(*pose, Side::left),
+                                       this->added(*pose, Side::right)};
   for (const Side side : kSides)
-    reading.lengths[side] = state.counted(pose->lengths[side] + added[side].value, side);
-  const Eigen::Matrix2d lengths_by_point = state.kinematics->jacobian(*pose);
+    reading.lengths[side] = counted(pose->lengths[side] + added[side].value, side);
+  const Eigen::Matrix2d lengths_by_point = kinematics_->jacobian(*pose);
   for (const Eigen::Index axis : {0, 1}) {
-    PerSide<StateNumbers> slope{StateNumbers::Zero(), StateNumbers::Zero()};
-    if (depends_on_state(added.left) || depends_on_state(added.right)) {
-      const auto found = state_slope([&](double mm) {
-        return state.kinematics->inverse(axis == 0 ? BedPoint{point.x_mm + mm, point.y_mm}
-                                                   : BedPoint{point.x_mm, point.y_mm + mm});
-      });
-      if (!found) return tl::unexpected(found.error());
-      slope = *found;
-    }
-    reading.position_jacobian.col(axis) = state.through_effects(
-        added, lengths_by_point.col(axis), slope, Eigen::Vector2d::Unit(axis));
+    const auto slope = state_slope(added, [&](double mm) {
+      return kinematics_->inverse(axis == 0 ? BedPoint{point.x_mm + mm, point.y_mm}
+                                            : BedPoint{point.x_mm, point.y_mm + mm});
+    });
+    if (!slope) return tl::unexpected(slope.error());
+    reading.position_jacobian.col(axis) = through_effects(
+        added, elongation_, lengths_by_point.col(axis), *slope, Eigen::Vector2d::Unit(axis));
   }
   return reading;
 }
 
 Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting setting) const {
-  const State& state = *state_;
   if (setting == Setting::chain_zero_left_mm) return {1.0, 0.0};
   if (setting == Setting::chain_zero_right_mm) return {0.0, 1.0};
-  if (!is_motor_setting(setting)) {
-    throw std::invalid_argument(
-        "sensitivity: the sheet's settings move the point, not the machine");
-  }
-  const PerSide<effects::Number> added = state.added(reading.pose);
-  PerSide<StateNumbers> slope{StateNumbers::Zero(), StateNumbers::Zero()};
-  if (depends_on_state(added.left) || depends_on_state(added.right)) {
-    const auto found = state_slope(
-        [&](double mm) { return state.pose_near(reading.pose.position, setting, mm); });
-    // A pose exists here but not at its neighbours within 16 um: at the very edge only the length's
-    // own slope is used.
-    if (found) slope = *found;
-  }
-  return state.through_effects(added,
-                               state.kinematics->sensitivity(reading.pose, motor_of(setting).parameter),
-                               slope,
-                               Eigen::Vector2d::Zero());
+  EquilibriumParameters changed = equilibrium_;
+  double& coordinate = coordinate_of(changed.motors, setting);
+  const double own = coordinate;
+  const PerSide<effects::Number> added{this->added(reading.pose, Side::left),
+                                       this->added(reading.pose, Side::right)};
+  const auto slope = state_slope(added, [&](double mm) {
+    coordinate = own + mm;
+    return make_kinematics(changed, model_)->inverse(reading.pose.position);
+  });
+  // Both enumerations begin with the motors' coordinates. A pose exists here but perhaps not at its
+  // neighbours within 16 um: at the very edge only the length's own slope is used.
+  return through_effects(added,
+                         elongation_,
+                         kinematics_->sensitivity(reading.pose, static_cast<Parameter>(setting)),
+                         slope.value_or(kFlat),
+                         Eigen::Vector2d::Zero());
 }
 
 tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
@@ -256,7 +287,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
     if (move.norm() > kMaxStrideMm) move *= kMaxStrideMm / move.norm();
     // Shorten a step that leaves the domain.
     while (move.norm() >= kConvergedMm &&
-           !state_->kinematics->inverse({point.x_mm + move[0], point.y_mm + move[1]})) {
+           !kinematics_->inverse({point.x_mm + move[0], point.y_mm + move[1]})) {
       move *= 0.5;
     }
     point = {point.x_mm + move[0], point.y_mm + move[1]};
@@ -265,36 +296,75 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
   return tl::unexpected(PoseReason::not_converged);
 }
 
-ChainLengths ReadingModel::added_at_visit(int order, const PerSide<double>& direction) const {
-  return {state_->added_at_visit(Side::left, order, direction.left),
-          state_->added_at_visit(Side::right, order, direction.right)};
+tl::expected<LengthsPrediction, MechanismFailure> ReadingModel::predict(
+    const ToolPosition& position, const MechanismVisit& visit, Derivatives wanted) const {
+  const auto reading = at({position.x_mm, position.y_mm});
+  if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
+  LengthsPrediction result;
+  result.lengths_mm =
+      Eigen::Vector2d(reading->lengths.left_mm, reading->lengths.right_mm) + added_at(visit);
+  result.by_position = reading->position_jacobian;
+  const bool all = wanted == Derivatives::by_position_and_parameter;
+  result.by_parameter.resize(2, all ? values().size() : 0);
+  for (Eigen::Index i = 0; i < result.by_parameter.cols(); ++i) {
+    result.by_parameter.col(i) =
+        sensitivity(*reading, kMachineSettings[static_cast<std::size_t>(i)]);
+  }
+  return result;
+}
+
+tl::expected<ToolPosition, MechanismFailure> ReadingModel::locate(
+    const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const {
+  require_all(lengths_mm);
+  const Eigen::Vector2d repeatable = lengths_mm - added_at(visit);
+  const auto found = find({repeatable[0], repeatable[1]}, BedPoint{0.0, 0.0});
+  if (!found) return tl::unexpected(mechanism_failure(found.error()));
+  return ToolPosition{found->pose.position.x_mm, found->pose.position.y_mm};
+}
+
+ToolPosition ReadingModel::place_of_mark(const ToolPosition& written) const {
+  const MarkPoint place = frame_.place({written.x_mm, written.y_mm});
+  return {place.x_mm, place.y_mm};
+}
+
+std::vector<MechanismChange> ReadingModel::possible_changes() const {
+  std::vector<MechanismChange> changes = changes_of_chains(machine_.sprocket.pitch_mm);
+  MechanismChange motors{Change::motors, "", false, kChangePriors.motors};
+  for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
+    if (parameters()[i].set_by_zeroing) continue;
+    motors.quantities.push_back(
+        {.kind = ChangedQuantity::Kind::parameter, .parameter = i, .sigma = kParameterShiftSigma});
+  }
+  changes.push_back(std::move(motors));
+  return changes;
 }
 
 /// The direction in which each chain last moved.
 class Session {
  public:
-  explicit Session(const ReadingModel& model) : state_(*model.state_) {}
+  explicit Session(const ReadingModel& model) : model_(model) {}
 
   tl::expected<ChainLengths, PoseFailure> read(const Visit& visit) {
-    const PoseResult pose = state_.kinematics->inverse(visit.position);
+    const PoseResult pose = model_.kinematics_->inverse(visit.position);
     if (!pose) return tl::unexpected(pose.error());
-    return ChainLengths{chain(*pose, Side::left, visit.order),
-                        chain(*pose, Side::right, visit.order)};
+    ChainLengths read;
+    for (const Side side : kSides) {
+      const double before = pose->lengths[side] + model_.added(*pose, side).value;
+      direction_[side] = sign_of_change(before - last_length_mm_[side], direction_[side]);
+      last_length_mm_[side] = before;
+      read[side] =
+          model_.counted(before, side) + model_.added_at_visit(side, visit.order, direction_[side]);
+    }
+    return read;
   }
 
  private:
-  double chain(const Pose& pose, Side side, int order) {
-    const double before = pose.lengths[side] + state_.added(pose, side).value;
-    if (last_length_mm_[side]) {
-      direction_[side] = sign_of_change(before - *last_length_mm_[side], direction_[side]);
-    }
-    last_length_mm_[side] = before;
-    return state_.counted(before, side) + state_.added_at_visit(side, order, direction_[side]);
-  }
+  /// Of the first visit no change is known.
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  const ReadingModel::State& state_;
+  const ReadingModel& model_;
   PerSide<double> direction_{1.0, 1.0};
-  PerSide<std::optional<double>> last_length_mm_;
+  PerSide<double> last_length_mm_{kNone, kNone};
 };
 
 tl::expected<std::vector<ChainLengths>, VisitFailure> readings(

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From a machine with its effects to the lengths read off it (machine -> chain -> reading), and
-/// the frame of the marks.
+/// Two chains as a Mechanism: from a machine with its effects to the lengths read off it (machine ->
+/// chain -> reading), with the settings as parameters; and the frame of the marks. Positions are in
+/// the bed's frame; lengths are left, right.
 ///
 ///   reading = (L0 + chain effects) / (1 + e) + chain_zero + reading effects                 (1)
 ///
 /// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on
-/// that state; e the sum of the elongations of chain_pitch_error. ReadingModel gives the repeatable
-/// part of a reading: without drift, skips and hysteresis, which depend on the visit and not on the
-/// position. readings() gives whole sessions with all effects.
+/// that state; e the sum of the elongations of chain_pitch_error. at() gives the repeatable part of a
+/// reading: without drift, skips and hysteresis, which depend on the visit and not on the position.
+/// predict() is for one visit, readings() for whole sessions, with all effects.
 ///
 /// Points are true positions of the tool; MarkFrame turns them into the coordinates written at the
 /// marks.
@@ -29,8 +30,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "model/effects/effect_table.hpp"
 #include "model/kinematics.hpp"
 #include "model/machine.hpp"
+#include "model/mechanism.hpp"
 
 namespace chaintrue::model {
 
@@ -57,8 +60,23 @@ struct PointReading {
   Eigen::Matrix2d position_jacobian = Eigen::Matrix2d::Zero();
 };
 
+/// The frame of the marks: the paper effects of a machine, in the catalogue's order. They are
+/// linear.
+class MarkFrame {
+ public:
+  /// \throws std::invalid_argument for effects that cannot act.
+  explicit MarkFrame(const Machine& machine);
+  /// The written coordinates of a mark whose true position is `place`.
+  [[nodiscard]] MarkPoint written(MarkPoint place) const;
+  /// The true position of the mark with these written coordinates.
+  [[nodiscard]] MarkPoint place(MarkPoint written) const;
+
+ private:
+  Eigen::Matrix2d written_per_place_;
+};
+
 /// Const and thread safe.
-class ReadingModel {
+class ReadingModel final : public MechanismBase {
  public:
   /// \throws std::invalid_argument for a machine with problems (problems_of) or with effects that
   /// cannot act (effects::problems_of_effects).
@@ -73,18 +91,51 @@ class ReadingModel {
   /// mm).
   [[nodiscard]] tl::expected<PointReading, PoseFailure> find(ChainLengths lengths,
                                                              BedPoint start) const;
-  /// What a visit adds to the reading of each chain, independent of the tool's position: drift,
-  /// skips and hysteresis, the latter by the `direction` in which each chain reached its length (+1
-  /// paid out, -1 taken in).
-  [[nodiscard]] ChainLengths added_at_visit(int order, const PerSide<double>& direction) const;
-  [[nodiscard]] const Machine& machine() const;
-  [[nodiscard]] Model model() const;
+  /// The machine with its values and effects.
+  [[nodiscard]] const Machine& machine() const { return machine_; }
+
+  [[nodiscard]] std::string_view kind() const override { return "chains"; }
+  [[nodiscard]] std::span<const std::string_view> lengths() const override;
+  [[nodiscard]] MechanismExtent extent() const override;
+  /// Values of effects are not left out.
+  [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
+      const std::vector<AppliedEffect>& applied) const override;
+  [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
+      const ToolPosition& position,
+      const MechanismVisit& visit,
+      Derivatives wanted = Derivatives::by_position_and_parameter) const override;
+  [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
+      const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
+  [[nodiscard]] ToolPosition place_of_mark(const ToolPosition& written) const override;
+  [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
 
  private:
   friend class Session;
-  struct State;
-  std::shared_ptr<const State> state_;
+  ReadingModel(const Machine& machine, Model model, std::vector<MechanismParameter> parameters);
+  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
+  /// What effects add to a chain, without those of the visit.
+  [[nodiscard]] effects::Number added(const Pose& pose, Side side) const;
+  /// What a visit adds to the reading of a chain, independent of the tool's position: drift, skips
+  /// and hysteresis, the latter by the `direction` in which the chain reached its length (+1 paid
+  /// out, -1 taken in).
+  [[nodiscard]] double added_at_visit(Side side, int order, double direction) const;
+  [[nodiscard]] Eigen::Vector2d added_at(const MechanismVisit& visit) const;
+  /// The reading of a chain paid out to this length.
+  [[nodiscard]] double counted(double length_mm, Side side) const {
+    return length_mm / (1.0 + elongation_[side]) + machine_.chain_zero[side];
+  }
+
+  Machine machine_;
+  Model model_;
+  MarkFrame frame_;
+  std::vector<effects::ActingEffect> acting_;
+  EquilibriumParameters equilibrium_;
+  std::shared_ptr<const Kinematics> kinematics_;
+  PerSide<double> elongation_;  ///< sum of the elongations of a chain
 };
+
+[[nodiscard]] std::shared_ptr<const ReadingModel> make_chain_mechanism(const Machine& machine);
 
 /// A visit of the tool: its true position and its number.
 struct Visit {
@@ -104,20 +155,5 @@ using VisitFailure = Failure<PoseReason, std::size_t>;
     const ReadingModel& model,
     std::span<const Visit> visits,
     const std::function<void(std::size_t read)>& on_progress = {});
-
-/// The frame of the marks: the paper effects of a machine, in the catalogue's order. They are
-/// linear.
-class MarkFrame {
- public:
-  /// \throws std::invalid_argument as ReadingModel.
-  explicit MarkFrame(const Machine& machine);
-  /// The written coordinates of a mark whose true position is `place`.
-  [[nodiscard]] MarkPoint written(MarkPoint place) const;
-  /// The true position of the mark with these written coordinates.
-  [[nodiscard]] MarkPoint place(MarkPoint written) const;
-
- private:
-  Eigen::Matrix2d written_per_place_;
-};
 
 }  // namespace chaintrue::model

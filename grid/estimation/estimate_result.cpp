@@ -11,7 +11,7 @@
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -101,7 +101,7 @@ void Estimator::fill_covariances(Estimate& estimate) const {
 
 tl::expected<Estimate, EstimationFailure> Estimator::result() const {
   auto found = problem_->unknowns().mechanism_at(problem_->coefficients(fit_));
-  const auto* chains = dynamic_cast<const model::ChainMechanism*>(found.get());
+  const auto* chains = dynamic_cast<const model::ReadingModel*>(found.get());
   const observation::Columns columns = observation::columns_of(*input_.observations.front());
   Estimate estimate{
       chains != nullptr ? chains->machine() : input_.machine,

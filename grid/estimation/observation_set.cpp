@@ -8,7 +8,7 @@
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {

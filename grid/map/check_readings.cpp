@@ -13,7 +13,8 @@
 #include "grid/map/check_parts.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/tape_zero.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/chains/chain_changes.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -227,7 +228,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   CheckReadings readings = gathered.readings();
   constexpr double kUsualPitchMm = 6.35;
   readings.changes = map.machine() != nullptr
-                         ? model::ChainMechanism(*map.machine()).possible_changes()
+                         ? model::ReadingModel(*map.machine()).possible_changes()
                          : model::changes_of_chains(kUsualPitchMm);
   const model::ChainLengths zero =
       map.machine() != nullptr ? map.machine()->chain_zero : model::ChainLengths{};

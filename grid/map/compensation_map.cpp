@@ -10,7 +10,7 @@
 #include "grid/containers.hpp"
 #include "grid/map/map_field.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid {
 

@@ -2,7 +2,7 @@
 /// \file
 /// Compares a few new points with a compensation map: whether anything has changed since it was
 /// measured, what, and whether re-zeroing corrects it. The possible changes are those of two chains
-/// (chain_mechanism.hpp), with the evidence of check_evidence.hpp. K there is the noise of the new
+/// (chain_changes.hpp), with the evidence of check_evidence.hpp. K there is the noise of the new
 /// readings, the map's uncertainty, and the stated placement of a new sheet.
 ///
 /// \code

@@ -7,7 +7,7 @@
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
 #include "interp/spline_pair.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid {
 namespace {

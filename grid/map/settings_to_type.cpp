@@ -13,7 +13,7 @@
 #include "interp/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {

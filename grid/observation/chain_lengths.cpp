@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {
 

@@ -4,24 +4,24 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {
 
 View::View(model::ReadingModel chains,
            model::SheetPlacement placement,
            const LengthCorrection* length_correction)
-    : mechanism(std::make_shared<const model::ChainMechanism>(std::move(chains))),
+    : mechanism(std::make_shared<const model::ReadingModel>(std::move(chains))),
       sheet(placement),
       correction(length_correction) {}
 
 const model::ReadingModel& View::chains() const {
-  const auto* own = dynamic_cast<const model::ChainMechanism*>(mechanism.get());
+  const auto* own = dynamic_cast<const model::ReadingModel*>(mechanism.get());
   if (own == nullptr) {
     throw std::logic_error("readings of two chains for a mechanism with " +
                            std::string(mechanism->kind()));
   }
-  return own->readings();
+  return *own;
 }
 
 Columns columns_of(const Observation& observation) {

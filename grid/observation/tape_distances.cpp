@@ -15,7 +15,7 @@
 #include "grid/observation/tape_zero.hpp"
 #include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/effects/catalogue.hpp"
 

@@ -13,7 +13,7 @@
 #include "interp/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/chains/chain_changes.hpp"
 
 namespace chaintrue::grid {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "model/belts/belt_mechanism.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 #include "tests/contracts/declared_examples.hpp"
 #include "tests/contracts/toy_mechanism.hpp"

@@ -14,7 +14,7 @@
 #include "grid/map/mechanism_map.hpp"
 #include "grid/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
 
 namespace chaintrue::grid {

@@ -143,7 +143,7 @@ TEST(ChainMechanismTest, VisitsReadAsASessionDoes) {
       machine.effects = {{"chain_pitch_error", "left", {{"elongation", 0.001}}},
                          effects::applied(*effect, side, effects::nominal_values(*effect))};
       if (!effects::problems_of_effects(machine).empty()) continue;
-      const ChainMechanism mechanism(machine);
+      const ReadingModel mechanism(machine);
       // The right chain is taken in on the way to the second position, the left one paid out.
       const std::vector<Visit> visits = {{{-500.0, 0.0}, 11}, {{500.0, -40.0}, 12}};
       const auto session = readings(ReadingModel(machine), visits);

@@ -19,7 +19,7 @@
 #include "grid/synthetic/holes.hpp"
 #include "grid/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 
 namespace chaintrue::grid::observation {

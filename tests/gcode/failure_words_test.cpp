@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/map/compensation_map.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "tools/gcode/corrector.hpp"
 #include "tools/gcode/reports.hpp"
 

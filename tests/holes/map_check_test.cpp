@@ -17,7 +17,7 @@
 #include "grid/map/map_check.hpp"
 #include "grid/planning/check_plan.hpp"
 #include "grid/random.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/chains/chain_changes.hpp"
 #include "tests/holes/checked_map.hpp"
 
 namespace chaintrue::grid {

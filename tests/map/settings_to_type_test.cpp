@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/map/fit.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {

@@ -13,7 +13,7 @@
 #include "grid/synthetic/atlas.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_mechanism.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 

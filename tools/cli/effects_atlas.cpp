@@ -8,7 +8,7 @@
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/synthetic/atlas.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 #include "tools/cli/atlas_page.hpp"
 #include "tools/cli/input_file.hpp"

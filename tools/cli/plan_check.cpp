@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
-#include "model/chains/chain_mechanism.hpp"
+#include "model/chains/chain_changes.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/places.hpp"
