@@ -142,47 +142,68 @@ inline double moment_by_psi(const EquilibriumConstants& m,
          a.right_x * t.right.h - m.W * m.cg * std::cos(psi);
 }
 
-/// Solves the linearised equations: terms * step + load = 0. Zero determinants give infinities,
-/// which fail every convergence test.
+/// An equation in the left chain's H and V and in psi, and its load.
+struct SledRow {
+  double h = 0.0, v = 0.0, psi = 0.0, load = 0.0;
+};
+
+/// Both equations, and for brackets that of the moment, by Cramer's rule: row * step + load = 0.
+/// Zero determinants give infinities, which fail every convergence test.
+template <bool kRotates>
+EquilibriumStep solve_sled(const SledRow& l, const SledRow& r, const SledRow& moment) {
+  EquilibriumStep step;
+  if constexpr (kRotates) {
+    const double mh = moment.h, mv = moment.v, mp = moment.psi;
+    const double c0 = r.v * mp - r.psi * mv, c1 = r.psi * mh - r.h * mp, c2 = r.h * mv - r.v * mh;
+    const double per_det = 1.0 / (l.h * c0 + l.v * c1 + l.psi * c2);
+    const double d0 = -r.load * mp + r.psi * moment.load;
+    const double d1 = -r.load * mv + r.v * moment.load;
+    const double d2 = -r.h * moment.load + r.load * mh;
+    step.h_left = per_det * (-l.load * c0 - l.v * d0 + l.psi * d1);
+    step.v_left = per_det * (l.h * d0 - l.load * c1 + l.psi * d2);
+    step.psi = per_det * (-l.load * c2 - l.v * d2 - l.h * d1);
+  } else {
+    const double per_det = 1.0 / (l.h * r.v - l.v * r.h);
+    step.h_left = per_det * (l.v * r.load - l.load * r.v);
+    step.v_left = per_det * (r.h * l.load - l.h * r.load);
+  }
+  return step;
+}
+
+/// (2) linearised.
+inline SledRow moment_row(const EquilibriumConstants& m,
+                          const Attachments& a,
+                          const PerSide<ChainTerms>& t,
+                          double psi,
+                          double load) {
+  return {a.left_y - a.right_y, a.left_x - a.right_x, moment_by_psi(m, a, t, psi), load};
+}
+
+/// Solves the linearised equations: terms * step + load = 0.
 template <bool kRotates>
 EquilibriumStep solve_linearised(const EquilibriumConstants& m,
                                  const PerSide<ChainTerms>& t,
                                  const EquilibriumLoad& load,
                                  double psi) {
-  // One chain's equations with its S eliminated: coefficients of its H and V and of psi, and the
-  // load.
-  struct Row {
-    double h, v, psi, load;
-  };
-  const auto row = [](const ChainTerms& c, double u_psi, double y_psi, double u, double y) {
-    return Row{c.y_s * c.u_h - c.u_s * c.y_h,
-               c.y_s * c.u_v - c.u_s * c.y_v,
-               c.y_s * u_psi - c.u_s * y_psi,
-               c.y_s * u - c.u_s * y};
-  };
+  // With a chain's S eliminated; its V moves against the left one's by `way`.
+  const auto row =
+      [](const ChainTerms& c, double way, double u_psi, double y_psi, double u, double y) {
+        return SledRow{c.y_s * c.u_h - c.u_s * c.y_h,
+                       way * (c.y_s * c.u_v - c.u_s * c.y_v),
+                       c.y_s * u_psi - c.u_s * y_psi,
+                       c.y_s * u - c.u_s * y};
+      };
   Attachments a;
-  if constexpr (kRotates) a = attachments(m, psi);
-  // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
-  const Row l = row(t.left, a.left_y, a.left_x, load.u.left, load.y.left);
-  const Row r = row(t.right, -a.right_y, a.right_x, load.u.right, load.y.right);
-  EquilibriumStep step;
+  SledRow moment;
   if constexpr (kRotates) {
-    const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x;
-    const double mp = moment_by_psi(m, a, t, psi);
-    // Rows (l.h, l.v, l.psi), (r.h, -r.v, r.psi), (mh, mv, mp) by Cramer's rule.
-    const double c0 = -r.v * mp - r.psi * mv, c1 = r.psi * mh - r.h * mp, c2 = r.h * mv + r.v * mh;
-    const double per_det = 1.0 / (l.h * c0 + l.v * c1 + l.psi * c2);
-    const double d0 = -r.load * mp + r.psi * load.moment;
-    const double d1 = -r.load * mv - r.v * load.moment;
-    const double d2 = -r.h * load.moment + r.load * mh;
-    step.h_left = per_det * (-l.load * c0 - l.v * d0 + l.psi * d1);
-    step.v_left = per_det * (l.h * d0 - l.load * c1 + l.psi * d2);
-    step.psi = per_det * (-l.load * c2 - l.v * d2 - l.h * d1);
-  } else {
-    const double per_det = 1.0 / (-l.h * r.v - l.v * r.h);
-    step.h_left = per_det * (l.load * r.v + l.v * r.load);
-    step.v_left = per_det * (r.h * l.load - l.h * r.load);
+    a = attachments(m, psi);
+    moment = moment_row(m, a, t, psi, load.moment);
   }
+  // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
+  EquilibriumStep step =
+      solve_sled<kRotates>(row(t.left, 1.0, a.left_y, a.left_x, load.u.left, load.y.left),
+                           row(t.right, -1.0, -a.right_y, a.right_x, load.u.right, load.y.right),
+                           moment);
   const auto s_step = [](const ChainTerms& c, double u, double y) {
     return -(c.u_s * u + c.y_s * y) / (c.u_s * c.u_s + c.y_s * c.y_s);
   };

@@ -129,12 +129,8 @@ PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
 template <bool kRotates>
 PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const {
   const DomainLimits limits = limits_of(m_);
-  if (!(lengths.left_mm > 0.0 && lengths.right_mm > 0.0 && std::isfinite(lengths.left_mm) &&
-        std::isfinite(lengths.right_mm))) {
-    return tl::unexpected(PoseReason::too_short);
-  }
   const CircleGuess guess = circle_guess(limits, lengths);
-  if (!guess.circles_meet) return forward_by_inverse(*this, limits, lengths);
+  if (guess.hopeless || !guess.circles_meet) return forward_by_inverse(*this, limits, lengths);
   EquilibriumState q = straight_start(m_, guess.point);
   const double span = m_.motors.right.x_mm - m_.motors.left.x_mm;
   const double rise = m_.motors.left.y_mm - m_.motors.right.y_mm;
@@ -165,23 +161,12 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
     // Both chains end at the same sled, across and in height.
     const double cx = l.u + r.u - a.left_x + a.right_x - span;
     const double cy = l.y - r.y + a.left_y - a.right_y - rise;
-    const double a00 = l.u_h + r.u_h, a01 = l.u_v - r.u_v, a10 = l.y_h - r.y_h, a11 = l.y_v + r.y_v;
-    EquilibriumStep step;
-    if constexpr (kRotates) {
-      const double p0 = a.left_y - a.right_y, p1 = a.left_x - a.right_x;
-      const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x;
-      const double mp = moment_by_psi(m_, a, t, q.psi), mm = moment_about_bit(m_, a, t, q.psi);
-      const double c0 = a11 * mp - p1 * mv, c1 = p1 * mh - a10 * mp, c2 = a10 * mv - a11 * mh;
-      const double per_det = 1.0 / (a00 * c0 + a01 * c1 + p0 * c2);
-      const double d0 = -cy * mp + p1 * mm, d1 = -cy * mv + a11 * mm, d2 = -a10 * mm + cy * mh;
-      step.h_left = per_det * (-cx * c0 - a01 * d0 + p0 * d1);
-      step.v_left = per_det * (a00 * d0 - cx * c1 + p0 * d2);
-      step.psi = per_det * (-cx * c2 - a01 * d2 - a00 * d1);
-    } else {
-      const double per_det = 1.0 / (a00 * a11 - a01 * a10);
-      step.h_left = per_det * (a01 * cy - a11 * cx);
-      step.v_left = per_det * (a10 * cx - a00 * cy);
-    }
+    SledRow moment;
+    if constexpr (kRotates) moment = moment_row(m_, a, t, q.psi, moment_about_bit(m_, a, t, q.psi));
+    EquilibriumStep step =
+        solve_sled<kRotates>({l.u_h + r.u_h, l.u_v - r.u_v, a.left_y - a.right_y, cx},
+                             {l.y_h - r.y_h, l.y_v + r.y_v, a.left_x - a.right_x, cy},
+                             moment);
     step.s.left = l.s + l.s_h * step.h_left + l.s_v * step.v_left;
     step.s.right = r.s + r.s_h * step.h_left - r.s_v * step.v_left;
     if (!std::isfinite(step.h_left + step.v_left + step.s.left + step.s.right + step.psi)) break;

@@ -85,10 +85,6 @@ PoseResult FormulaKinematics::inverse(BedPoint p) const {
 }
 
 PoseResult FormulaKinematics::forward(ChainLengths lengths) const {
-  if (!(lengths.left_mm > 0.0 && lengths.right_mm > 0.0 && std::isfinite(lengths.left_mm) &&
-        std::isfinite(lengths.right_mm))) {
-    return tl::unexpected(PoseReason::too_short);
-  }
   return forward_by_inverse(*this, limits_of(m_), lengths);
 }
 

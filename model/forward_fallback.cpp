@@ -60,6 +60,8 @@ CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths) {
         intersect(limits.motors, std::sqrt(left * left + r * r), std::sqrt(right * right + r * r));
   }
   guess.point = pulled_inside(limits, guess.point);
+  guess.hopeless = guess.hopeless || !(lengths.left_mm > 0.0 && lengths.right_mm > 0.0 &&
+                                       std::isfinite(lengths.left_mm + lengths.right_mm));
   return guess;
 }
 

@@ -16,7 +16,7 @@ namespace chaintrue::model {
 struct CircleGuess {
   BedPoint point;
   bool circles_meet = false;
-  bool hopeless = false;  ///< more than 20 % stretch would be needed
+  bool hopeless = false;  ///< more than 20 % stretch would be needed, or these are no lengths
 };
 [[nodiscard]] CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths);
 
