@@ -20,48 +20,44 @@ EndCondition effective_end(EndCondition end, const AxisEnds& ends, std::size_t n
   return end;
 }
 
-// One end's equation: diagonal * d_end + neighbour * d_next = rhs(q).
+// One end's equation, with q the difference quotients of the end cell and of the next one:
+// diagonal d_end + neighbour d_next = (outer q_outer + inner q_inner) / divisor, or the slope given.
 struct EndRow {
   double diagonal;
   double neighbour;
+  double outer = 0.0;
+  double inner = 0.0;
+  double divisor = 1.0;
+  bool is_given = false;
 };
 
 EndRow end_row(EndCondition end, double outer_step, double inner_step) {
   switch (end) {
-    case EndCondition::not_a_knot:
-      return {inner_step, outer_step + inner_step};
+    case EndCondition::not_a_knot: {
+      const double both = outer_step + inner_step;
+      return {
+          inner_step, both, (outer_step + 2.0 * both) * inner_step, outer_step * outer_step, both};
+    }
     case EndCondition::natural:
-      return {2.0, 1.0};
+      return {2.0, 1.0, 3.0};
     case EndCondition::parabolic:
-      return {1.0, 1.0};
+      return {1.0, 1.0, 2.0};
     case EndCondition::clamped:
-      return {1.0, 0.0};
+      return {.diagonal = 1.0, .neighbour = 0.0, .is_given = true};
   }
   throw std::logic_error("unknown end condition");
 }
 
-// A cell's length and the difference quotient over it.
-struct CellSlope {
-  double step;
-  double quotient;
+struct EndRows {
+  EndRow low;
+  EndRow high;
 };
 
-double end_rhs(EndCondition end, const CellSlope& outer, const CellSlope& inner, double given) {
-  switch (end) {
-    case EndCondition::not_a_knot: {
-      const double both = outer.step + inner.step;
-      return ((outer.step + 2.0 * both) * inner.step * outer.quotient +
-              outer.step * outer.step * inner.quotient) /
-             both;
-    }
-    case EndCondition::natural:
-      return 3.0 * outer.quotient;
-    case EndCondition::parabolic:
-      return 2.0 * outer.quotient;
-    case EndCondition::clamped:
-      return given;
-  }
-  throw std::logic_error("unknown end condition");
+EndRows end_rows(const AxisEnds& ends, const std::vector<double>& steps) {
+  const std::size_t last = steps.size() - 1;
+  const std::size_t next = std::min<std::size_t>(last, 1);
+  return {end_row(effective_end(ends.low, ends, last + 2), steps[0], steps[next]),
+          end_row(effective_end(ends.high, ends, last + 2), steps[last], steps[last - next])};
 }
 
 }  // namespace
@@ -96,19 +92,20 @@ void SplineAxis::factor() {
     step_[i] = nodes_[i + 1] - nodes_[i];
     inverse_step_[i] = 1.0 / step_[i];
   }
-  const EndCondition low = effective_end(ends_.low, ends_, n);
-  const EndCondition high = effective_end(ends_.high, ends_, n);
+  const auto is_parabolic = [&](EndCondition end) {
+    return effective_end(end, ends_, n) == EndCondition::parabolic;
+  };
   // Two nodes, no slope given: the two end equations are the same, and the straight line is the
   // solution.
-  straight_line_ = n == 2 && low == EndCondition::parabolic && high == EndCondition::parabolic;
+  straight_line_ = n == 2 && is_parabolic(ends_.low) && is_parabolic(ends_.high);
   if (straight_line_) {
     return;
   }
+  const auto [first, last] = end_rows(ends_, step_);
   lower_.assign(n, 0.0);
   upper_.assign(n, 0.0);
   inverse_pivot_.assign(n, 0.0);
 
-  const EndRow first = end_row(low, step_[0], n > 2 ? step_[1] : step_[0]);
   inverse_pivot_[0] = 1.0 / first.diagonal;
   upper_[0] = first.neighbour * inverse_pivot_[0];
   for (std::size_t i = 1; i + 1 < n; ++i) {
@@ -117,7 +114,6 @@ void SplineAxis::factor() {
     inverse_pivot_[i] = 1.0 / pivot;
     upper_[i] = step_[i - 1] * inverse_pivot_[i];
   }
-  const EndRow last = end_row(high, step_[n - 2], n > 2 ? step_[n - 3] : step_[n - 2]);
   lower_[n - 1] = last.neighbour;
   inverse_pivot_[n - 1] = 1.0 / (last.diagonal - last.neighbour * upper_[n - 2]);
 }
@@ -171,16 +167,18 @@ void SplineAxis::solve_abreast(const double* f,
     }
     return;
   }
-  const EndCondition low = effective_end(ends_.low, ends_, n);
-  const EndCondition high = effective_end(ends_.high, ends_, n);
+  const auto [low, high] = end_rows(ends_, step_);
   const std::ptrdiff_t second = n > 2 ? 1 : 0;
-  for (std::ptrdiff_t line = 0; line < lines; ++line) {
-    slope(0, line) = inverse_pivot_[0] *
-                     end_rhs(low,
-                             {step_[0], quotient(0, line)},
-                             {step_[static_cast<std::size_t>(second)], quotient(second, line)},
-                             low_slopes != nullptr ? low_slopes[line] : 0.0);
-  }
+  const auto right_side = [&](const EndRow& row,
+                              std::ptrdiff_t outer,
+                              std::ptrdiff_t inner,
+                              const double* given,
+                              std::ptrdiff_t line) {
+    if (row.is_given) return given != nullptr ? given[line] : 0.0;
+    return (row.outer * quotient(outer, line) + row.inner * quotient(inner, line)) / row.divisor;
+  };
+  for (std::ptrdiff_t line = 0; line < lines; ++line)
+    slope(0, line) = inverse_pivot_[0] * right_side(low, 0, second, low_slopes, line);
   for (std::ptrdiff_t i = 1; i < last; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double before = 3.0 * step_[k] * inverse_pivot_[k];
@@ -191,12 +189,8 @@ void SplineAxis::solve_abreast(const double* f,
                        carry * slope(i - 1, line);  // (1)
     }
   }
-  const std::ptrdiff_t inner = last - 1 - second;
   for (std::ptrdiff_t line = 0; line < lines; ++line) {
-    const double rhs = end_rhs(high,
-                               {step_[n - 2], quotient(last - 1, line)},
-                               {step_[static_cast<std::size_t>(inner)], quotient(inner, line)},
-                               high_slopes != nullptr ? high_slopes[line] : 0.0);
+    const double rhs = right_side(high, last - 1, last - 1 - second, high_slopes, line);
     slope(last, line) = (rhs - lower_[n - 1] * slope(last - 1, line)) * inverse_pivot_[n - 1];
   }
   for (std::ptrdiff_t i = last - 1; i >= 0; --i) {
