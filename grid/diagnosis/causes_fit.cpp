@@ -206,13 +206,16 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   auto [found, plain] = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
   if (!found) return without_causes(std::move(plain), found.error().sentence());
   if (!plain) return tl::unexpected(plain.error());
-  return fit_on_causes(measured, *found, *std::move(plain), options);
+  return fit_on_causes(measured, *found, *std::move(plain), options, [&] {
+    return naming_improves_the_map(found->analysis);
+  });
 }
 
 CausesFit fit_on_causes(const Measured& measured,
                         const Naming& naming,
                         JointFit plain,
-                        const CausesFitOptions& options) {
+                        const CausesFitOptions& options,
+                        const std::function<bool()>& naming_helps) {
   CausesFit result{std::move(plain), {}, {}, std::nullopt, 0.0, {}};
   // What depends on the visit is taken out in the order that was found.
   const Measured ordered =
@@ -238,7 +241,7 @@ CausesFit fit_on_causes(const Measured& measured,
   }
   const std::vector<HeldOutSquare> squares = held_out_squares(result.fit, *with_causes);
   result.held_out = error_of(squares);
-  if (!falls_beyond_its_error(squares) || !naming_improves_the_map(naming.analysis)) {
+  if (!falls_beyond_its_error(squares) || !naming_helps()) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
     return with_open();
   }

@@ -37,6 +37,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
@@ -91,11 +92,13 @@ struct CausesFit {
 /// Fails where joint_fit() fails on the machine as stated.
 [[nodiscard]] tl::expected<CausesFit, FitFailure> fit_with_causes(
     const Measured& measured, const CausesFitOptions& options = {});
-/// The same, with causes that were named and the plain map that was made already.
+/// The same, with causes that were named and the plain map that was made already. `naming_helps`
+/// is asked at most once: whether naming_improves_the_map().
 [[nodiscard]] CausesFit fit_on_causes(const Measured& measured,
                                       const Naming& naming,
                                       JointFit plain,
-                                      const CausesFitOptions& options);
+                                      const CausesFitOptions& options,
+                                      const std::function<bool()>& naming_helps);
 
 /// Sentences for the owner: what the map is built on and what is offered.
 [[nodiscard]] std::vector<std::string> in_words(const CausesFit& fit);

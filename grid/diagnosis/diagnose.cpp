@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/declared_answers.hpp"
@@ -16,6 +17,7 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
+#include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -108,7 +110,9 @@ void take_from_map(const Measured& measured,
                    Diagnosis& d) {
   CausesFitOptions own;
   own.accept_class = options.accept_class;
-  const CausesFit fit = fit_on_causes(measured, naming, std::move(plain), own);
+  const CausesFit fit = fit_on_causes(measured, naming, std::move(plain), own, [&] {
+    return naming_improves_the_map(d.improvement);
+  });
   d.tool_today = error_in_use(fit.fit.map);
   if (d.improvement && d.observations == Observations::points)
     d.improvement->noise_floor_mm = noise_at_tool_mm(fit.fit.map);
@@ -130,45 +134,56 @@ void count_law(Diagnosis& d) {
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
                                                    const DiagnosisOptions& options) {
-  auto [naming, plain] =
+  NamingAndPlainFit found =
       options.improvement
           ? name_and_fit(measured, options, NamingFor::report, {})
           : NamingAndPlainFit{name_causes(measured, options, NamingFor::report),
                               tl::unexpected(FitFailure(FitReason::not_converged, "no map was asked for"))};
-  if (!naming) return tl::unexpected(naming.error());
-  const Analysis& a = naming->analysis;
-  const LawsFound& laws = naming->laws;
+  if (!found.naming) return tl::unexpected(found.naming.error());
+  Naming& naming = *found.naming;
+  const Analysis& a = naming.analysis;
+  const LawsFound& laws = naming.laws;
   Diagnosis d;
-  d.visiting_order = naming->order;
+  d.visiting_order = naming.order;
   d.observations = observations_of(a.session);
-  d.stability = std::move(naming->stability);
-  if (naming->refusal) d.notes.push_back(*std::move(naming->refusal));
+  d.stability = std::move(naming.stability);
+  if (naming.refusal) d.notes.push_back(*std::move(naming.refusal));
   take_findings(a, d);
-  d.settings = settings_found(a);
-  d.outliers = outliers_found(a);
-  d.points = point_pictures(a);
-  d.holes = hole_pictures(a);
-  d.distances = distance_pictures(a);
-  d.left_over = left_over(a);
-  d.unexplained = unexplained(a);
-  take_laws(laws.laws, d);
-  d.unexplained->causes_given_law = std::move(naming->causes_given_law);
-  d.declared = declared_answers(a, d);
-  d.budget = error_budget(a);
   const std::vector<std::string> sessions = names_of_sessions(measured);
-  d.bed_parts = bed_part_findings(a);
-  d.sessions = session_findings(a, sessions);
-  if (options.improvement) {
-    d.improvement = measure_improvement(a);
-    if (plain) take_from_map(measured, *naming, *std::move(plain), options, d);
-    count_law(d);
-  }
+  // Each fills its own fields; the longest first.
+  const std::function<void()> work[] = {
+      [&] {
+        if (!options.improvement) return;
+        d.improvement = measure_improvement(a);
+        if (found.plain) take_from_map(measured, naming, *std::move(found.plain), options, d);
+      },
+      [&] {
+        if (!options.next_measurements) return;
+        d.next_measurements = next_measurements(a);
+        if (d.next_measurements.empty()) d.next_measurements = next_for_laws(a, laws);
+      },
+      [&] {
+        d.left_over = left_over(a);
+        d.unexplained = unexplained(a);
+        take_laws(laws.laws, d);
+        d.unexplained->causes_given_law = std::move(naming.causes_given_law);
+      },
+      [&] { d.budget = error_budget(a); },
+      [&] {
+        d.settings = settings_found(a);
+        d.outliers = outliers_found(a);
+        d.points = point_pictures(a);
+        d.holes = hole_pictures(a);
+        d.distances = distance_pictures(a);
+        d.bed_parts = bed_part_findings(a);
+        d.sessions = session_findings(a, sessions);
+      },
+  };
+  for_each_index(std::size(work), [&](std::size_t k) { work[k](); });
+  d.declared = declared_answers(a, d);
+  if (options.improvement) count_law(d);
   tell(options.progress, kPlanning);
   apply_causes(a, d);
-  if (options.next_measurements) {
-    d.next_measurements = next_measurements(a);
-    if (d.next_measurements.empty()) d.next_measurements = next_for_laws(a, laws);
-  }
   put_into_words(a, d);
   if (d.visiting_order) {
     const std::string whose = measured.files().size() > 1 ? measured.files().front().name : "";

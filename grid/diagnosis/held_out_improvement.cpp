@@ -204,6 +204,11 @@ bool naming_improves_the_map(const Analysis& a) {
          rms_length(errors.calibrated.and_surface);
 }
 
+bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvement) {
+  return improvement &&
+         improvement->extended_and_surface.rms_mm < improvement->surface_only.rms_mm;
+}
+
 Eigen::VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated) {
   Eigen::VectorXd e = stated.e;
   for (const SystemUnit& unit : stated.units) {

@@ -21,6 +21,7 @@ namespace chaintrue::grid::diagnosis {
 /// Whether a machine with the causes predicts held-out readings better than one without, with the
 /// surface in both: only the comparison of measure_improvement().
 [[nodiscard]] bool naming_improves_the_map(const Analysis& analysis);
+[[nodiscard]] bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvement);
 
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over
 /// resampled blocks. `block` numbers the block of each error.
