@@ -2,7 +2,6 @@
 #include "grid/belts/fit_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "grid/containers.hpp"

@@ -22,23 +22,14 @@
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::named:
-      return "named";
-    case Verdict::named_set:
-      return "named_set";
-    case Verdict::several_causes:
-      return "several_causes";
-    case Verdict::model_discrepancy:
-      return "unknown_pattern";
-    case Verdict::noise_larger_than_stated:
-      return "noise_larger_than_stated";
-    case Verdict::outliers:
-      return "bad_points";
-    case Verdict::nothing_found:
-      break;
-  }
-  return "nothing_found";
+  constexpr std::string_view kNames[] = {"named",
+                                         "named_set",
+                                         "several_causes",
+                                         "unknown_pattern",
+                                         "noise_larger_than_stated",
+                                         "bad_points",
+                                         "nothing_found"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 std::string_view name(Observations observations) {
@@ -137,8 +128,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   NamingAndPlainFit found =
       options.improvement
           ? name_and_fit(measured, options, NamingFor::report, {})
-          : NamingAndPlainFit{name_causes(measured, options, NamingFor::report),
-                              tl::unexpected(FitFailure(FitReason::not_converged, "no map was asked for"))};
+          : NamingAndPlainFit{
+                name_causes(measured, options, NamingFor::report),
+                tl::unexpected(FitFailure(FitReason::not_converged, "no map was asked for"))};
   if (!found.naming) return tl::unexpected(found.naming.error());
   Naming& naming = *found.naming;
   const Analysis& a = naming.analysis;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_variables.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

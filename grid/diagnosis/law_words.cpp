@@ -34,28 +34,17 @@ std::string quantity_words(const Law& law, const ParameterEstimate& estimate) {
 }
 
 std::string entrance_words(Enters enters) {
-  switch (enters) {
-    case Enters::left:
-      return "in the left chain";
-    case Enters::right:
-      return "in the right chain";
-    case Enters::equal:
-      return "in both chains equally";
-    case Enters::opposite:
-      return "in both chains, with opposite signs";
-    case Enters::x:
-      return "which moves the tool along x";
-    case Enters::y:
-      return "which moves the tool along y";
-    case Enters::along:
-      return "which moves the tool in that direction";
-    case Enters::outwards:
-      return "which moves the tool outwards";
-    default:
-      break;
-  }
-  const auto belt = belt_of(enters);
-  return belt ? fmt::format("in the {} belt", model::words(*belt)) : "";
+  if (const auto belt = belt_of(enters)) return fmt::format("in the {} belt", model::words(*belt));
+  constexpr std::string_view kWords[] = {"in the left chain",
+                                         "in the right chain",
+                                         "in both chains equally",
+                                         "in both chains, with opposite signs",
+                                         "which moves the tool along x",
+                                         "which moves the tool along y",
+                                         "",
+                                         "which moves the tool in that direction",
+                                         "which moves the tool outwards"};
+  return std::string(kWords[static_cast<std::size_t>(enters)]);
 }
 
 /// A slope over the whole range, converted to its natural unit.
@@ -109,60 +98,41 @@ std::string average_in_words(const Law& law, Observations of) {
 }
 
 std::string form_in_words(const Law& law) {
-  constexpr std::string_view kForms[] = {"a slope", "a bow", "a step", "a kink", "an exponential", "a wave", "a wave with its second harmonic"};
-  return fmt::format("{} over {}", kForms[static_cast<std::size_t>(law.shape)], variable_in_words(law));
+  constexpr std::string_view kForms[] = {"a slope",
+                                         "a bow",
+                                         "a step",
+                                         "a kink",
+                                         "an exponential",
+                                         "a wave",
+                                         "a wave with its second harmonic"};
+  return fmt::format(
+      "{} over {}", kForms[static_cast<std::size_t>(law.shape)], variable_in_words(law));
 }
 
 std::string in_words(const Law& law) {
-  const std::string variable = variable_in_words(law);
-  const std::string entrance = entrance_words(law.enters);
-  const ParameterEstimate& size = law.parameters.front();
-  const std::string size_words = number_words(size.value, size.sigma);
-  switch (law.shape) {
-    case LawShape::linear:
-      return fmt::format("{} in proportion to {}, {}", slope_words(law, size), variable, entrance);
-    case LawShape::square:
-      return fmt::format("a bow over {} about {}, {} mm high half a bed away, {}",
-                         variable,
-                         quantity_words(law, law.parameters[1]),
-                         size_words,
-                         entrance);
-    case LawShape::step:
-      return fmt::format("a step of {} mm at {} = {}, {}",
-                         size_words,
-                         variable,
-                         quantity_words(law, law.parameters[1]),
-                         entrance);
-    case LawShape::kink:
-      return fmt::format("{} {} {} = {}, {}",
-                         slope_words(law, size),
-                         law.towards > 0 ? "beyond" : "below",
-                         variable,
-                         quantity_words(law, law.parameters[1]),
-                         entrance);
-    case LawShape::exponential:
-      return fmt::format(
-          "{} mm at {} = {}, falling to a third within {}, {}",
-          size_words,
-          variable,
-          law.towards > 0 ? "largest" : "least",
-          quantity_words(law, law.parameters[1]),
-          entrance);
-    case LawShape::harmonics:
-      return fmt::format("a wave of {} mm over {} with period {} and its second harmonic of {} mm, {}",
-                         size_words,
-                         variable,
-                         quantity_words(law, law.parameters[1]),
-                         number_words(law.parameters[3].value, law.parameters[3].sigma),
-                         entrance);
-    case LawShape::wave:
-      break;
-  }
-  return fmt::format("a wave of {} mm over {} with period {}, {}",
-                     size_words,
-                     variable,
-                     quantity_words(law, law.parameters[1]),
-                     entrance);
+  constexpr std::string_view kSentences[] = {
+      "{slope} in proportion to {variable}, {entrance}",
+      "a bow over {variable} about {at}, {size} mm high half a bed away, {entrance}",
+      "a step of {size} mm at {variable} = {at}, {entrance}",
+      "{slope} {side} {variable} = {at}, {entrance}",
+      "{size} mm at {variable} = {end}, falling to a third within {at}, {entrance}",
+      "a wave of {size} mm over {variable} with period {at}, {entrance}",
+      "a wave of {size} mm over {variable} with period {at} and its second harmonic of {second} "
+      "mm, "
+      "{entrance}"};
+  const std::vector<ParameterEstimate>& own = law.parameters;
+  const auto size_words = [&](std::size_t k) {
+    return k < own.size() ? number_words(own[k].value, own[k].sigma) : "";
+  };
+  return fmt::format(fmt::runtime(kSentences[static_cast<std::size_t>(law.shape)]),
+                     fmt::arg("size", size_words(0)),
+                     fmt::arg("second", size_words(3)),
+                     fmt::arg("slope", slope_words(law, own.front())),
+                     fmt::arg("at", own.size() > 1 ? quantity_words(law, own[1]) : ""),
+                     fmt::arg("side", law.towards > 0 ? "beyond" : "below"),
+                     fmt::arg("end", law.towards > 0 ? "largest" : "least"),
+                     fmt::arg("variable", variable_in_words(law)),
+                     fmt::arg("entrance", entrance_words(law.enters)));
 }
 
 std::string given_law_words(const Diagnosis& d) {
@@ -183,12 +153,11 @@ std::string given_law_words(const Diagnosis& d) {
   std::string text;
   // For causes that act together each is more likely than not; of an open set only one acts.
   if (!named.empty()) {
-    text += fmt::format(
-        " Given this law, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));
+    text += fmt::format(" Given this law, they also name {}.",
+                        fmt::join(named, sum > 1.0 ? ", and " : ", or "));
   }
   if (!gone.empty())
-    text += fmt::format(" Named only without this law: {}.",
-                        fmt::join(gone, "; "));
+    text += fmt::format(" Named only without this law: {}.", fmt::join(gone, "; "));
   return text;
 }
 
@@ -199,9 +168,10 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
   const ParameterEstimate& period = law.parameters[1];
   // Tolerance of a belt's pitch: one per cent.
   if (std::abs(period.value - turn) >= std::max(2.0 * period.sigma, 0.01 * turn)) return {};
-  return {fmt::format("Its period is near one turn of the motor ({:.3f} mm of belt): does its pulley or its "
-                      "magnet run out of true?",
-                      turn)};
+  return {fmt::format(
+      "Its period is near one turn of the motor ({:.3f} mm of belt): does its pulley or its "
+      "magnet run out of true?",
+      turn)};
 }
 
 std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
@@ -217,23 +187,25 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
     // Tolerance of a period: one per cent.
     if (near(turn, 0.01 * turn)) {
       hints.push_back(fmt::format(
-          "Its period is near one turn of the sprocket ({:.1f} mm): does it run out of true?", turn));
+          "Its period is near one turn of the sprocket ({:.1f} mm): does it run out of true?",
+          turn));
     } else if (near(0.5 * turn, 0.005 * turn)) {
       hints.push_back(fmt::format(
           "Its period is near half a turn of the sprocket ({:.1f} mm): is it out of round?",
           0.5 * turn));
     } else if (near(pitch, 0.01 * pitch)) {
-      hints.push_back(fmt::format(
-          "Its period is near one link and one tooth ({:.2f} mm): does the chain ride on the teeth?",
-          pitch));
+      hints.push_back(
+          fmt::format("Its period is near one link and one tooth ({:.2f} mm): does the chain ride "
+                      "on the teeth?",
+                      pitch));
     }
   }
   constexpr double kNearMm = 30.0;  // a hand's breadth to either side is the same place
   const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink;
   if (law.of == Coordinate::x && has_place && near(0.0, kNearMm))
     hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
-  for (const auto& [name, motor] : {std::pair{"left", machine.motors.left},
-                                    std::pair{"right", machine.motors.right}}) {
+  for (const auto& [name, motor] :
+       {std::pair{"left", machine.motors.left}, std::pair{"right", machine.motors.right}}) {
     if (law.of == Coordinate::x && has_place && near(motor.x_mm, kNearMm))
       hints.push_back(fmt::format("Its place is near the {} motor.", name));
   }

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/progress.hpp"

@@ -4,7 +4,6 @@
 /// them.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>

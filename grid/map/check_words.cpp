@@ -76,15 +76,8 @@ std::string not_separable_of(const Check& check, const CheckWords& words) {
 }  // namespace
 
 std::string_view name(CheckVerdict verdict) {
-  switch (verdict) {
-    case CheckVerdict::valid:
-      return "valid";
-    case CheckVerdict::valid_after_rezeroing:
-      return "valid_after_rezeroing";
-    case CheckVerdict::measure_again:
-      break;
-  }
-  return "measure_again";
+  constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 namespace {

@@ -19,17 +19,8 @@ using model::ChainLengths;
 using model::MarkPoint;
 
 std::string_view name(NoiseSource source) {
-  switch (source) {
-    case NoiseSource::stated:
-      return "stated";
-    case NoiseSource::repeats:
-      return "repeats";
-    case NoiseSource::fit:
-      return "fit";
-    case NoiseSource::assumed:
-      break;
-  }
-  return "assumed";
+  constexpr std::string_view kNames[] = {"stated", "repeats", "fit", "assumed"};
+  return kNames[static_cast<std::size_t>(source)];
 }
 
 MapFailure unreachable(const model::MechanismFailure& why) {

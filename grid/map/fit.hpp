@@ -8,7 +8,6 @@
 /// \endcode
 #pragma once
 
-#include <string>
 #include <tl/expected.hpp>
 
 #include "grid/map/compensation_map.hpp"

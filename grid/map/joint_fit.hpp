@@ -19,7 +19,6 @@
 /// \endcode
 #pragma once
 
-#include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 

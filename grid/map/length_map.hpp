@@ -15,7 +15,6 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <tl/expected.hpp>
 

@@ -6,6 +6,7 @@
 
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
+#include "grid/observation/chain_lengths.hpp"
 #include "interp/spline_pair.hpp"
 #include "model/reading_model.hpp"
 
@@ -76,8 +77,7 @@ class ModelField final : public MapField {
   }
 
   /// G F, G being the two rows of the design: few of its entries are not zero.
-  [[nodiscard]] Eigen::Matrix2Xd spread(MarkPoint mark,
-                                        const model::PointReading& reading) const {
+  [[nodiscard]] Eigen::Matrix2Xd spread(MarkPoint mark, const model::PointReading& reading) const {
     const FitColumns& columns = surface_.columns;
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading.position_jacobian * surface_.sheet.sensitivity(mark);
@@ -114,6 +114,11 @@ class ModelField final : public MapField {
   SplineSurface right_;
 };
 
+/// Of a reading at a node.
+Eigen::Matrix2d node_covariance(const MapNoise& noise, const MapLengths& here) {
+  return observation::covariance_of({noise.length_mm, noise.position_mm}, here.mark_jacobian);
+}
+
 /// On a calibrated machine, through readings without noise on a lattice.
 class LatticeField final : public MapField {
  public:
@@ -145,10 +150,9 @@ class LatticeField final : public MapField {
       MarkPoint mark) const override {
     const auto here = continued(mark);
     if (!here) return tl::unexpected(here.error());
-    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
-                                 noise_.position_mm * noise_.position_mm * here->mark_jacobian *
-                                     here->mark_jacobian.transpose();
-    return WithSpread{*here, splines_.spread(mark, noise_.factor_found * noise_.factor_found * node)};
+    const Eigen::Matrix2d node = node_covariance(noise_, *here);
+    return WithSpread{*here,
+                      splines_.spread(mark, noise_.factor_found * noise_.factor_found * node)};
   }
 
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
@@ -189,14 +193,11 @@ class DirectField final : public MapField {
       MarkPoint mark) const override {
     const MapLengths here = lengths(mark);
     const Eigen::MatrixXd weights = left_.cardinal_weights(mark.x_mm, mark.y_mm);
-    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
-                                 noise_.position_mm * noise_.position_mm * here.mark_jacobian *
-                                     here.mark_jacobian.transpose();
     const Eigen::MatrixXd own = Eigen::MatrixXd::Constant(
         weights.rows(),
         weights.cols(),
         interpolation_sigma_mm_ * interpolation_sigma_mm_ / weights.squaredNorm());
-    return WithSpread{here, spread_of_nodes(weights, node, own)};
+    return WithSpread{here, spread_of_nodes(weights, node_covariance(noise_, here), own)};
   }
 
   [[nodiscard]] MapLengths lengths(MarkPoint mark) const {
@@ -265,25 +266,18 @@ std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
 
 tl::expected<MapLengths, MapFailure> MapField::at(MarkPoint mark) const {
   auto here = continued(mark);
-  if (!here) return here;
-  if (const auto by = change(mark)) {
-    here->lengths.left_mm += by->lengths_mm[0];
-    here->lengths.right_mm += by->lengths_mm[1];
-    here->mark_jacobian += by->jacobian;
-  }
+  const auto by = here ? change(mark) : std::nullopt;
+  if (by) by->add_to(*here);
   return here;
 }
 
 tl::expected<MapField::WithSpread, MapFailure> MapField::with_spread(MarkPoint mark) const {
   auto answer = continued_with_spread(mark);
-  if (!answer) return answer;
-  if (!beyond_) return answer;
+  if (!answer || !beyond_) return answer;
   answer->spread_mm.conservativeResize(Eigen::NoChange, answer->spread_mm.cols() + 1);
   answer->spread_mm.rightCols<1>().setZero();
   if (const auto by = change(mark)) {
-    answer->here.lengths.left_mm += by->lengths_mm[0];
-    answer->here.lengths.right_mm += by->lengths_mm[1];
-    answer->here.mark_jacobian += by->jacobian;
+    by->add_to(answer->here);
     answer->spread_mm.rightCols<1>() = by->lengths_mm;
   }
   return answer;

@@ -28,8 +28,7 @@ class MapField {
   [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::MarkPoint mark) const;
   /// If the map's continuation beyond the points differs from the surfaces' own, the difference is
   /// a separate direction, one sigma.
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> with_spread(
-      model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> with_spread(model::MarkPoint mark) const;
   [[nodiscard]] virtual model::MarkPoint to_mark(model::BedPoint bed) const {
     return model::identity_placement(bed);
   }
@@ -50,6 +49,11 @@ class MapField {
   struct Change {
     Eigen::Vector2d lengths_mm = Eigen::Vector2d::Zero();
     Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
+    void add_to(MapLengths& here) const {
+      here.lengths.left_mm += lengths_mm[0];
+      here.lengths.right_mm += lengths_mm[1];
+      here.mark_jacobian += jacobian;
+    }
   };
   [[nodiscard]] std::optional<Change> change(model::MarkPoint mark) const;
 

@@ -11,7 +11,6 @@
 /// \endcode
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "grid/map/compensation_map.hpp"

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -150,23 +149,14 @@ std::vector<ExtraReading> combined(const std::vector<ExtraReading>& readings) {
 }  // namespace
 
 std::string_view name(ReadingOf what) {
-  switch (what) {
-    case ReadingOf::beam_rise:
-      return "beam_rise_mm";
-    case ReadingOf::chain_mass:
-      return "chain_mass_kg_per_m";
-    case ReadingOf::link_pitch:
-      return "link_pitch_mm";
-    case ReadingOf::motor_spacing:
-      return "motor_spacing_mm";
-    case ReadingOf::ring_radius:
-      return "ring_radius_mm";
-    case ReadingOf::sled_mass:
-      return "sled_mass_kg";
-    case ReadingOf::tape_error:
-      break;
-  }
-  return "tape_error_mm_per_m";
+  constexpr std::string_view kNames[] = {"beam_rise_mm",
+                                         "chain_mass_kg_per_m",
+                                         "link_pitch_mm",
+                                         "motor_spacing_mm",
+                                         "ring_radius_mm",
+                                         "sled_mass_kg",
+                                         "tape_error_mm_per_m"};
+  return kNames[static_cast<std::size_t>(what)];
 }
 
 Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings) {

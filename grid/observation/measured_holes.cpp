@@ -9,17 +9,8 @@
 
 namespace chaintrue::grid {
 std::string_view name(SheetEdge edge) {
-  switch (edge) {
-    case SheetEdge::left:
-      return "left";
-    case SheetEdge::right:
-      return "right";
-    case SheetEdge::top:
-      return "top";
-    case SheetEdge::bottom:
-      break;
-  }
-  return "bottom";
+  constexpr std::string_view kNames[] = {"left", "right", "top", "bottom"};
+  return kNames[static_cast<std::size_t>(edge)];
 }
 
 double sigma_of(const MeasuredHoles& set, const HoleDistance& distance) {
@@ -83,7 +74,8 @@ std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {
   constexpr double kEqualWithin = 0.25;
   constexpr double kClearlyBetter = 0.5;
   const double spread = median(excess);
-  if (spread > kEqualWithin * std::abs(middle) || spread > kClearlyBetter * median(residual_of_scale))
+  if (spread > kEqualWithin * std::abs(middle) ||
+      spread > kClearlyBetter * median(residual_of_scale))
     return std::nullopt;
   return middle;
 }

@@ -17,7 +17,6 @@
 /// \endcode
 #pragma once
 
-#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 

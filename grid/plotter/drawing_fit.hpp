@@ -19,7 +19,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <tl/expected.hpp>
 #include <vector>

@@ -67,17 +67,8 @@ std::string_view name(SurfaceLevel level) {
 }
 
 std::string_view name(CellStatus status) {
-  switch (status) {
-    case CellStatus::done:
-      return "done";
-    case CellStatus::no_map:
-      return "no_map";
-    case CellStatus::not_reached:
-      return "not_reached";
-    case CellStatus::no_answer:
-      break;
-  }
-  return "no_answer";
+  constexpr std::string_view kNames[] = {"done", "no_map", "not_reached", "no_answer"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 }  // namespace chaintrue::grid::sweep

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "grid/synthetic/strength.hpp"

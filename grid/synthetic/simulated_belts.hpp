@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 

@@ -29,7 +29,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "grid/observation/measured_grid.hpp"
