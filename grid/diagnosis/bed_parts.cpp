@@ -40,7 +40,6 @@ struct UnitPlace {
 };
 
 Eigen::Vector2d place_of(const RegressorSystem& system, std::size_t u) {
-  if (!system.entries.empty()) return {system.entries[u].x_mm, system.entries[u].y_mm};
   const SystemUnit& unit = system.units[u];
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const observation::PlaceColumns& place : unit.places) {
@@ -55,7 +54,7 @@ std::vector<UnitPlace> places_of_units(const RegressorSystem& system,
   std::vector<UnitPlace> result;
   const KeptRows kept(system, excluded);
   for (const KeptRows::Unit& unit : kept.units()) {
-    if (system.entries.empty() && system.units[unit.unit].places.empty()) continue;
+    if (system.units[unit.unit].places.empty()) continue;
     result.push_back({unit.unit, place_of(system, unit.unit)});
   }
   return result;
@@ -121,7 +120,7 @@ void share_anew(const std::map<ModelKey, double>& shares,
   constexpr double kNothing = 1e-300;
   for (CandidateModel& model : comparison.models) {
     const auto found = shares.find(key_of(model));
-    const double p = found != shares.end()     ? found->second * together
+    const double p = found != shares.end()    ? found->second * together
                      : model.discrepancy >= 0 ? 0.0
                                               : comparison.probability(model);
     model.log_weight = std::log(std::max(p, kNothing));
@@ -206,8 +205,10 @@ std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
     for (std::size_t u = 0; u < system.units.size(); ++u) {
       if (system.units[u].observation != session) others.units.push_back(u);
     }
-    const std::vector<double> own = downdating.probabilities_without(others.units, CountAs::themselves);
-    result.push_back({session, units[session], summary(system, downdating.followed(), own, std::move(others))});
+    const std::vector<double> own =
+        downdating.probabilities_without(others.units, CountAs::themselves);
+    result.push_back(
+        {session, units[session], summary(system, downdating.followed(), own, std::move(others))});
   }
   if (result.size() < 2) result.clear();
   return result;

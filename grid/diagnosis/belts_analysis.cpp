@@ -88,7 +88,8 @@ BeltRules::BeltRules(BeltsAnalysis& belts) : belts_(belts) {
   noise = NoiseSize::unknown;
   false_alarm = kFalseAlarmOfBelts;
   hidden =
-      "at any size that it may have, other anchors would hide it: measure at more places, spread over the "
+      "at any size that it may have, other anchors would hide it: measure at more places, spread "
+      "over the "
       "sheet";
 }
 
@@ -128,11 +129,10 @@ bool BeltRules::refit(Analysis& a) const {
 
 RegressorSystem BeltRules::tried_with_noise(const Analysis& a) const {
   const belts::FrameState& frame = belts_.alone.state;
-  RegressorSystem system =
-      system_of(belts_.belts,
-                frame,
-                observations_of(belts_.belts, frame, belts_.sigma_mm),
-                a.candidates.testable);
+  RegressorSystem system = system_of(belts_.belts,
+                                     frame,
+                                     observations_of(belts_.belts, frame, belts_.sigma_mm),
+                                     a.candidates.testable);
   if (a.taken_out.size() > 0) system.e -= a.taken_out;
   return system;
 }
@@ -150,8 +150,15 @@ void BeltRules::restrain(bool detected, Analysis& a) const {
 }
 
 belts::Counting decided_counting(const Analysis& a) {
-  return counting_of(a.system,
-                     a.comparison.marginalised_systems[a.decision.marginalised].outliers);
+  const std::vector<bool>& rejected =
+      a.comparison.marginalised_systems[a.decision.marginalised].outliers;
+  belts::Counting counting(a.system.places.size());
+  for (std::size_t u = 0; u < counting.size(); ++u) {
+    for (const model::Belt belt : model::kBelts) {
+      counting[a.system.places[u].place][belt] = !rejected[4 * u + static_cast<std::size_t>(belt)];
+    }
+  }
+  return counting;
 }
 
 std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& a) {

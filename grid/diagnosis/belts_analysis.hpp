@@ -13,10 +13,10 @@
 namespace chaintrue::grid::diagnosis {
 
 struct BeltsAnalysis : Analysis {
-  MeasuredBelts belts;     ///< without distances: they say nothing of a cause
-  belts::AnchorFit alone;  ///< anchors and places, no cause at work
-  belts::AnchorFit frame;  ///< about which the system is linear, the known causes at work
-  double sigma_mm = 0.0;   ///< of one belt's reading, as it is whitened
+  MeasuredBelts belts;       ///< without distances: they say nothing of a cause
+  belts::AnchorFit alone;    ///< anchors and places, no cause at work
+  belts::AnchorFit frame;    ///< about which the system is linear, the known causes at work
+  double sigma_mm = 0.0;     ///< of one belt's reading, as it is whitened
   AveragedAnchors averaged;  ///< the same for a fit and a diagnosis of the same belts
 };
 

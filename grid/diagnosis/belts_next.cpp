@@ -181,7 +181,7 @@ PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
   predicted.rows.resize(system.units.size());
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     for (Eigen::Index row = 0; row < system.units[u].rows; ++row)
-      predicted.rows[system.entries[u].point].push_back(system.units[u].first_row + row);
+      predicted.rows[system.places[u].place].push_back(system.units[u].first_row + row);
   }
   return predicted;
 }
@@ -236,9 +236,8 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   add_revisits(a, indices, gathering, candidates);
   const PredictedPlaces predicted = predicted_at(a, gathering.take());
   for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].rows = predicted.rows[k];
-  result.measurements = most_telling(predicted.alternatives,
-                                     std::move(candidates),
-                                     a.decision.verdict == Verdict::named);
+  result.measurements = most_telling(
+      predicted.alternatives, std::move(candidates), a.decision.verdict == Verdict::named);
   say_what_repeats(result.measurements);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);

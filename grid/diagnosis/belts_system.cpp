@@ -198,7 +198,8 @@ Candidates candidates(const MeasuredBelts& belts) {
              "machine cut from two edges of the sheet";
     if (effect == &model::belts::belt_scale && side == EffectSide::all)
       return "lengths that are all too long by the same share make a larger frame and contradict "
-             "nothing: tape one long distance, between two anchors or two holes that the machine cut, "
+             "nothing: tape one long distance, between two anchors or two holes that the machine "
+             "cut, "
              "and give it as distances";
     if (effect->needs == model::effects::DataNeed::order && !ordered)
       return "the order of the places is not in the file: give order";
@@ -224,23 +225,24 @@ Candidates candidates(const MeasuredBelts& belts) {
 
 namespace {
 
-LengthEntry entry_of(const MeasuredBelts& belts,
+/// `index` numbers the file's points.
+SystemPlace place_of(const MeasuredBelts& belts,
                      const belts::FrameState& state,
                      std::size_t index) {
   const BeltPoint& point = belts.points[index];
   const model::FramePoint where = state.places[index];
   const model::BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
-  LengthEntry entry;
-  entry.point = index;
-  entry.x_mm = where.x_mm;
-  entry.y_mm = where.y_mm;
-  entry.visit = as_double(point.order.value_or(0));
+  SystemPlace place;
+  place.place = index;
+  place.mark = {where.x_mm, where.y_mm};
+  place.order = point.order.value_or(0);
+  place.ordered = point.order.has_value();
   for (const Belt belt : kBelts) {
-    entry.length_mm.push_back(point.lengths_mm[belt]);
-    entry.angle_rad.push_back(std::atan2(std::abs(where.y_mm - frame.anchors[belt].y_mm),
+    place.length_mm.push_back(point.lengths_mm[belt]);
+    place.angle_rad.push_back(std::atan2(std::abs(where.y_mm - frame.anchors[belt].y_mm),
                                          std::abs(where.x_mm - frame.anchors[belt].x_mm)));
   }
-  return entry;
+  return place;
 }
 
 }  // namespace
@@ -264,11 +266,12 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
-    const SystemUnit& unit = system.units[u];
+    SystemUnit& unit = system.units[u];
     for (Eigen::Index belt = 0; belt < 4; ++belt)
       system.groups.push_back({unit.first_row, 2, Eigen::Vector2d(unit.by_reading.col(belt))});
-    system.entries.push_back(entry_of(belts, state, session.units[u].index));
-    ordered = ordered || belts.points[session.units[u].index].order.has_value();
+    unit.places.push_back({u, {}});
+    system.places.push_back(place_of(belts, state, session.units[u].index));
+    ordered = ordered || system.places[u].ordered;
   }
   system.noise_dof = kNoiseDof;
   system.limits = {.fewest_rows = belts::kAnchorUnknowns + kFewestChecks,
@@ -290,20 +293,9 @@ Eigen::VectorXd column_of(const MeasuredBelts& belts,
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     column.segment(system.units[u].first_row, system.units[u].rows) =
         system.units[u].by_reading *
-        added.segment<4>(belts::row_of(system.entries[u].point, Belt::tl));
+        added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));
   }
   return column;
-}
-
-belts::Counting counting_of(const RegressorSystem& system, const std::vector<bool>& rejected) {
-  belts::Counting counting(system.entries.size());
-  for (std::size_t u = 0; u < counting.size(); ++u) {
-    for (const Belt belt : kBelts) {
-      counting[system.entries[u].point][belt] =
-          !rejected[4 * u + static_cast<std::size_t>(belt)];
-    }
-  }
-  return counting;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -36,8 +36,4 @@ namespace chaintrue::grid::diagnosis {
                                         const RegressorSystem& system,
                                         const SizedCause& cause);
 
-/// Whether these outlier flags keep each reading.
-[[nodiscard]] belts::Counting counting_of(const RegressorSystem& system,
-                                          const std::vector<bool>& rejected);
-
 }  // namespace chaintrue::grid::diagnosis

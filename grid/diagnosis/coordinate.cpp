@@ -43,10 +43,6 @@ constexpr Described kDescribed[] = {{"x"},
 
 const Described& described(Coordinate of) { return kDescribed[static_cast<std::size_t>(of)]; }
 
-double along(double x_mm, double y_mm, double direction_rad) {
-  return x_mm * std::cos(direction_rad) + y_mm * std::sin(direction_rad);
-}
-
 }  // namespace
 
 std::string_view name(Coordinate of) { return described(of).name; }
@@ -62,34 +58,22 @@ double value_at(const SystemPlace& place, Coordinate of, double across_rad) {
            : unit == "rad" ? pose.chains[*side].angle_rad
                            : pose.chains[*side].tension_at_sprocket_n;
   }
+  if (const auto belt = belt_of(of)) {
+    const auto& values = unit_of(of) == "mm" ? place.length_mm : place.angle_rad;
+    return values[static_cast<std::size_t>(*belt)];
+  }
   switch (of) {
     case Coordinate::x:
       return place.mark.x_mm;
     case Coordinate::y:
       return place.mark.y_mm;
     case Coordinate::across:
-      return along(place.mark.x_mm, place.mark.y_mm, across_rad);
+      return place.mark.x_mm * std::cos(across_rad) + place.mark.y_mm * std::sin(across_rad);
     case Coordinate::border:
       return std::min(0.5 * place.bed.width_mm - std::abs(place.mark.x_mm),
                       0.5 * place.bed.height_mm - std::abs(place.mark.y_mm));
     default:
       return place.order;
-  }
-}
-
-double value_at(const LengthEntry& entry, Coordinate of, double across_rad) {
-  if (const auto belt = belt_of(of))
-    return (unit_of(of) == "mm" ? entry.length_mm
-                                : entry.angle_rad)[static_cast<std::size_t>(*belt)];
-  switch (of) {
-    case Coordinate::x:
-      return entry.x_mm;
-    case Coordinate::y:
-      return entry.y_mm;
-    case Coordinate::across:
-      return along(entry.x_mm, entry.y_mm, across_rad);
-    default:
-      return entry.visit;
   }
 }
 

@@ -22,8 +22,6 @@ struct SystemPlace;
 
 namespace chaintrue::grid::diagnosis {
 
-struct LengthEntry;
-
 enum class Coordinate {
   x,              ///< mm
   y,              ///< mm
@@ -58,6 +56,5 @@ enum class Coordinate {
 [[nodiscard]] double value_at(const estimation::SystemPlace& place,
                               Coordinate of,
                               double across_rad = 0.0);
-[[nodiscard]] double value_at(const LengthEntry& entry, Coordinate of, double across_rad = 0.0);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -11,27 +11,23 @@ namespace {
 /// Radius of a sled: that far from the border its rim begins to hang over.
 constexpr double kSledMm = 230.0;
 
-/// A unit with the places of its system, or with its own lengths.
+/// A unit with the places of its system.
 struct PlacedUnit {
   const SystemUnit& unit;
   const std::vector<SystemPlace>& places;
-  const LengthEntry* entry = nullptr;
 };
 
 PlacedUnit placed(const RegressorSystem& system, std::size_t unit) {
-  return {
-      system.units[unit], system.places, system.entries.empty() ? nullptr : &system.entries[unit]};
+  return {system.units[unit], system.places};
 }
 
 /// k of each length at two places.
-double between_lengths(const DiscrepancyKernel& kernel, const LengthEntry& a, const LengthEntry& b) {
+double between_lengths(const DiscrepancyKernel& kernel,
+                       const SystemPlace& a,
+                       const SystemPlace& b) {
   double sum = 0.0;
-  for (const DiscrepancyField& field : kernel.fields) {
-    const bool of_place = field.of == Coordinate::place;
-    const FieldArgument at = of_place ? FieldArgument{a.x_mm, a.y_mm} : FieldArgument{a.visit};
-    const FieldArgument there = of_place ? FieldArgument{b.x_mm, b.y_mm} : FieldArgument{b.visit};
-    sum += field_covariance(field, at, there);
-  }
+  for (const DiscrepancyField& field : kernel.fields)
+    sum += field_covariance(field, field_argument(field, a, 0), field_argument(field, b, 0));
   return sum / as_double(kernel.fields.size());
 }
 
@@ -39,8 +35,9 @@ Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
                               const PlacedUnit& a,
                               const PlacedUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  if (a.entry != nullptr && b.entry != nullptr) {
-    const double k = between_lengths(kernel, *a.entry, *b.entry);
+  if (kernel.of_lengths()) {
+    const double k = between_lengths(
+        kernel, a.places[a.unit.places.front().place], b.places[b.unit.places.front().place]);
     auto block = sum.topLeftCorner(a.unit.rows, b.unit.rows);
     if (const auto alone = kernel.fields.front().alone) {
       block = k * a.unit.by_reading.col(*alone) * b.unit.by_reading.col(*alone).transpose();
@@ -106,8 +103,8 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
     if (field.of == Coordinate::border) {
       for (Eigen::Index i = 0; i < 2; ++i) {
         for (Eigen::Index j = 0; j < 2; ++j) {
-          covariance(i, j) *= field_covariance(
-              field, field_argument(field, a, i), field_argument(field, b, j));
+          covariance(i, j) *=
+              field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
         }
       }
     } else {

@@ -15,7 +15,7 @@
 ///      the border d = (1, 1), and either component has its own t and weight
 ///
 /// In mechanisms other than two chains each length is disturbed separately, equal in
-/// variance: T and D are identities over its lengths (LengthEntry).
+/// variance: T and D are identities over its lengths.
 ///
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
@@ -69,9 +69,7 @@ struct DiscrepancyFamily {
   /// noise.
   std::span<const double> strengths;
 
-  [[nodiscard]] int count() const {
-    return static_cast<int>(kernels.size() * strengths.size());
-  }
+  [[nodiscard]] int count() const { return static_cast<int>(kernels.size() * strengths.size()); }
   [[nodiscard]] std::size_t kernel_of(int discrepancy) const {
     return as_size(discrepancy) / strengths.size();
   }

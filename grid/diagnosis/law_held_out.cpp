@@ -103,7 +103,10 @@ class Predictor {
     return with_[as_size(max_element(density) - density.begin())];
   }
 
-  double square_mm2(const LawModel& model, const Rows& kept, const Rows& out, const Units& units) const {
+  double square_mm2(const LawModel& model,
+                    const Rows& kept,
+                    const Rows& out,
+                    const Units& units) const {
     const Eigen::VectorXd wrong = model.left_of_prediction(kept, out);
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
     Eigen::Index at = 0;
@@ -124,7 +127,9 @@ class Predictor {
 
 }  // namespace
 
-std::optional<LawHeldOut> held_out_with(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law) {
+std::optional<LawHeldOut> held_out_with(const Analysis& a,
+                                        const LawEvidence& evidence,
+                                        const WeighedLaw& law) {
   const std::vector<BedPart> quarters =
       bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
   if (quarters.empty()) return std::nullopt;
@@ -148,7 +153,7 @@ double rms_of_units_mm(const RegressorSystem& system,
     if (unit.across || (!units.empty() && !has(units, unit.unit))) continue;
     sum += error_of_unit(system, rows, unit.unit).squaredNorm();
     // A place's four belts leave two checks.
-    count += system.entries.empty() ? 1.0 : 2.0;
+    count += system.is_of_lengths() ? 2.0 : 1.0;
   }
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }

@@ -19,20 +19,19 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
   const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[evidence.marginalised];
   const LawCurve& curve = evidence.curves[weighed.curve];
   const LawModel model(a, marginalised, evidence.sets[weighed.set], weighed.discrepancy);
-  const LawModel::Left left = model.left_of(LawColumns(system).of(curve, weighed.at) * weighed.amplitude);
+  const LawModel::Left left =
+      model.left_of(LawColumns(system).of(curve, weighed.at) * weighed.amplitude);
   std::vector<LawResidual> points;
-  const bool of_belts = !system.entries.empty();
+  const bool of_belts = system.is_of_lengths();
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
     const SystemUnit& unit = system.units[kept.unit];
     if (kept.across || (!of_belts && !unit.reads_chains)) continue;
     LawResidual point;
-    if (of_belts) {
-      point.index = system.entries[kept.unit].point;
-    } else {
+    point.index = a.session.units[kept.unit].index;
+    if (!of_belts) {
       Eigen::VectorXd rows = Eigen::VectorXd::Zero(system.e.size());
       rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
       const Eigen::Vector2d left_mm = error_of_unit(system, rows, kept.unit);
-      point.index = a.session.places[unit.places.front().place].index;
       point.left_x_mm = left_mm.x();
       point.left_y_mm = left_mm.y();
     }
@@ -40,8 +39,9 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
       // Readings that cannot show the law are omitted.
       if (!(own.rows.squaredNorm() > 0.0)) continue;
       point.at = own.v;
-      point.residual_mm = value_of(law, own.v) +
-                          own.rows.dot(left.noise.segment(kept.at, kept.rows)) / own.rows.squaredNorm();
+      point.residual_mm =
+          value_of(law, own.v) +
+          own.rows.dot(left.noise.segment(kept.at, kept.rows)) / own.rows.squaredNorm();
       points.push_back(point);
     }
   }

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -30,7 +30,6 @@ LawSystem::LawSystem(const Analysis& a,
   for (const int k : all) cause_regressors_.push_back(from_.regressors[as_size(k)]);
   own_.units = from_.units;
   own_.places = from_.places;
-  own_.entries = from_.entries;
   own_.discrepancies = from_.discrepancies;
   own_.unit_of_row = from_.unit_of_row;
   own_.e = from_.e;
@@ -77,7 +76,8 @@ double LawSystem::log_weight(const NormalEquations& equations,
                              const std::vector<Eigen::Index>& laws) const {
   const Priors& priors = log_prior_[context.set];
   const bool given = context.discrepancy >= 0;
-  const double prior = given ? priors.given + family().log_share_of(context.discrepancy) : priors.alone;
+  const double prior =
+      given ? priors.given + family().log_share_of(context.discrepancy) : priors.alone;
   return prior + marginalised_.log_outliers +
          set_evidence(equations, own_.regressors, all_columns(context, laws), noise_).log_evidence;
 }

@@ -54,7 +54,8 @@ double from_border(const SystemPlace& place, bool along_x) {
 }
 
 /// The effect of one millimetre of a law on the chains at a place, with the law's argument.
-std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& place, const LawTerm& term) {
+std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& place,
+                                                          const LawTerm& term) {
   if (term.of == Coordinate::visit && !place.ordered) return {};
   const Eigen::Matrix2d& by_mark = place.state.by_mark;
   const auto at = [&](const Eigen::Vector2d& chains_mm) {
@@ -74,7 +75,8 @@ std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& pla
     case Enters::y:
       return at(by_mark.col(1));
     case Enters::along:
-      return at(by_mark * Eigen::Vector2d(std::cos(term.direction_rad), std::sin(term.direction_rad)));
+      return at(by_mark *
+                Eigen::Vector2d(std::cos(term.direction_rad), std::sin(term.direction_rad)));
     case Enters::outwards:
       return {{from_border(place, true), by_mark.col(0) * std::copysign(1.0, place.mark.x_mm)},
               {from_border(place, false), by_mark.col(1) * std::copysign(1.0, place.mark.y_mm)}};
@@ -87,7 +89,7 @@ std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& pla
 }  // namespace
 
 std::vector<Coordinate> law_variables(const RegressorSystem& system) {
-  if (!system.entries.empty()) {
+  if (system.is_of_lengths()) {
     return {Coordinate::x,
             Coordinate::y,
             Coordinate::length_tl,
@@ -113,7 +115,7 @@ std::vector<Coordinate> law_variables(const RegressorSystem& system) {
 }
 
 std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of) {
-  return system.entries.empty() ? entrances_of_chains(of) : entrances_of_belts(of);
+  return system.is_of_lengths() ? entrances_of_belts(of) : entrances_of_chains(of);
 }
 
 double shortest_wave(Coordinate of, Enters enters, double span) {
@@ -136,9 +138,6 @@ std::vector<double> values_of_variable(const RegressorSystem& system,
                                        Coordinate of,
                                        double direction_rad) {
   std::vector<double> values;
-  for (const LengthEntry& entry : system.entries)
-    values.push_back(value_at(entry, of, direction_rad));
-  if (!system.entries.empty()) return values;
   for (const SystemPlace& place : system.places) {
     if (of != Coordinate::visit || place.ordered)
       values.push_back(value_at(place, of, direction_rad));
@@ -146,16 +145,18 @@ std::vector<double> values_of_variable(const RegressorSystem& system,
   return values;
 }
 
-std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit, const LawTerm& term) {
-  if (!system.entries.empty()) {
-    const LengthEntry& entry = system.entries[unit];
-    const auto belt = static_cast<Eigen::Index>(belt_of(term.enters).value());
-    return {
-        {value_at(entry, term.of, term.direction_rad), system.units[unit].by_reading.col(belt)}};
-  }
+std::vector<LawRows> law_rows(const RegressorSystem& system,
+                              std::size_t unit,
+                              const LawTerm& term) {
   std::vector<LawRows> all;
   for (const observation::PlaceColumns& own : system.units[unit].places) {
-    for (const auto& [v, chains_mm] : chains_at(system.places[own.place], term))
+    const SystemPlace& place = system.places[own.place];
+    if (const auto belt = belt_of(term.enters)) {
+      all.push_back({value_at(place, term.of, term.direction_rad),
+                     system.units[unit].by_reading.col(static_cast<Eigen::Index>(*belt))});
+      continue;
+    }
+    for (const auto& [v, chains_mm] : chains_at(place, term))
       all.push_back({v, own.by_chain * chains_mm});
   }
   return all;

@@ -79,16 +79,6 @@ struct OutlierLimits {
   std::size_t beyond_the_best = std::numeric_limits<std::size_t>::max();
 };
 
-/// Where a unit's lengths were read; their effect on its rows is the unit's by_reading.
-struct LengthEntry {
-  std::size_t point = 0;  ///< into the file's points
-  double x_mm = 0.0;      ///< where the tool was
-  double y_mm = 0.0;
-  double visit = 0.0;     ///< its number; 0 where the order is not known
-  std::vector<double> length_mm{};  ///< of each, as read
-  std::vector<double> angle_rad{};  ///< of each at its anchor, against the horizontal; 0 to pi / 2
-};
-
 struct DiscrepancyFamily;
 [[nodiscard]] const DiscrepancyFamily& chain_discrepancies();
 
@@ -111,16 +101,19 @@ struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
   std::vector<Regressor> regressors;
   [[nodiscard]] const Regressor& regressor(Eigen::Index k) const { return regressors[as_size(k)]; }
+  /// Of a mechanism whose lengths are not those of two chains: a place for each unit, whose by_reading has
+  /// the lengths' effect on its rows.
+  [[nodiscard]] bool is_of_lengths() const {
+    return !places.empty() && !places.front().length_mm.empty();
+  }
   Eigen::VectorXd setting;          ///< q, value in the state
   Eigen::VectorXd expected_change;  ///< q, stated less that
   Eigen::VectorXd sigma;            ///< q, one sigma as stated
   CausePrior prior;
-  double noise_dof = 15.0;          ///< degrees of freedom of the noise
+  double noise_dof = 15.0;  ///< degrees of freedom of the noise
   /// What one slip spoils; empty: each unit is a group.
   std::vector<OutlierGroup> groups;
   OutlierLimits limits;
-  /// A unit each, of mechanisms whose lengths are not those of two chains; else empty.
-  std::vector<LengthEntry> entries;
   const DiscrepancyFamily* discrepancies = &chain_discrepancies();
 };
 

@@ -71,8 +71,12 @@ struct SystemPlace {
   observation::ChainPlaceState state;
   model::MarkPoint mark;  ///< as it was written, or commanded
   int order = 0;
-  bool ordered = false;  ///< chains were read here, at this visit
+  bool ordered = false;  ///< lengths were read here, at this visit
   model::Bed bed;        ///< of the machine at rest here
+  /// Of a mechanism whose lengths are not those of two chains: each as read, and its angle at its
+  /// anchor against the horizontal, 0 to pi / 2. Else empty.
+  std::vector<double> length_mm{};
+  std::vector<double> angle_rad{};
 };
 
 /// (1), n rows.

@@ -45,7 +45,7 @@ TEST(BeltLaws, ColumnsAreTheDifferencesOfReadings) {
         const std::vector<LawRows> rows = law_rows(system, u, {of, entrance.enters, 0.0});
         ASSERT_EQ(rows.size(), 1U);
         const double value_mm = 0.3 * std::sin(0.01 * rows.front().v);
-        with.points[system.entries[u].point].lengths_mm[belt] += value_mm;
+        with.points[system.places[u].place].lengths_mm[belt] += value_mm;
         column.segment(system.units[u].first_row, 2) = value_mm * rows.front().rows;
       }
       const RegressorSystem read = system_of(with, state, observations_of(with, state, kSigmaMm));
