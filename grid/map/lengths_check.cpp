@@ -43,7 +43,7 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   std::vector<Eigen::Triplet<double>> by_length;
   for (Eigen::Index u = 0; u < units; ++u) {
     const observation::Unit& unit = observed.units()[as_size(u)];
-    auto line = observed.line_of(view, as_size(u), true);
+    auto line = observed.line_of(view, as_size(u));
     if (!line) {
       return failed(CheckReason::unreachable,
                     fmt::format("{}: {}", observed.name_of(as_size(u)), line.error().sentence()));

@@ -210,12 +210,12 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
 }
 
 tl::expected<BeltLengthReadings::UnitLine, Unreachable> BeltLengthReadings::line_of(
-    const View& view, std::size_t unit, bool with_parameters) const {
+    const View& view, std::size_t unit) const {
   const std::size_t place = place_of_unit_.at(unit);
   if (place >= readings_.size() || !blocks_[block_of_[place]].distances.empty())
     throw precondition("unit {} is of places that a tape joins", unit);
   const Block& block = blocks_[block_of_[place]];
-  auto rows = rows_of(view, block, with_parameters);
+  auto rows = rows_of(view, block, true);
   if (!rows) return tl::unexpected(rows.error());
   const auto line = block_line(view, block, false);
   if (!line) return tl::unexpected(line.error());
@@ -232,19 +232,6 @@ tl::expected<BeltLengthReadings::UnitLine, Unreachable> BeltLengthReadings::line
                   std::move(rows->covariance),
                   std::move(by_length),
                   own.lengths_mm - line->residual_mm};
-}
-
-tl::expected<Eigen::VectorXd, Unreachable> BeltLengthReadings::predicted(const View& view) const {
-  Eigen::VectorXd all(rows());
-  Eigen::Index row = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (first_unit_[b] == end_unit(b)) continue;
-    const auto own = rows_of(view, blocks_[b], false);
-    if (!own) return tl::unexpected(own.error());
-    all.segment(row, own->predicted.size()) = own->predicted;
-    row += own->predicted.size();
-  }
-  return all;
 }
 
 tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(

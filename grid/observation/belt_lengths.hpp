@@ -98,8 +98,6 @@ class BeltLengthReadings final : public Observation {
   };
 
   [[nodiscard]] const Kind& kind() const override { return belt_lengths; }
-  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
@@ -126,8 +124,7 @@ class BeltLengthReadings final : public Observation {
   };
   /// \throws std::invalid_argument for a unit of a block that a tape joins.
   [[nodiscard]] tl::expected<UnitLine, Unreachable> line_of(const View& view,
-                                                            std::size_t unit,
-                                                            bool with_parameters) const;
+                                                            std::size_t unit) const;
 
   /// In the order of places().
   [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }

@@ -94,18 +94,6 @@ double measured_between(DrawnMeasure::Kind kind,
   return measure_row(kind, from, to, middle).value_mm;
 }
 
-tl::expected<Eigen::VectorXd, Unreachable> DrawnMeasures::predicted(const View& view) const {
-  const auto at = located(view, false);
-  if (!at) return tl::unexpected(at.error());
-  Eigen::VectorXd all(rows());
-  for (std::size_t k = 0; k < measures_.size(); ++k) {
-    const DrawnMeasure& m = measures_[k];
-    all[as_index(k)] =
-        measured_between(m.kind, (*at)[m.from].at, (*at)[m.to].at, (*at)[m.middle].at);
-  }
-  return all;
-}
-
 tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& view,
                                                                   const Columns& columns) const {
   const auto at = located(view, columns.parameters);
@@ -134,8 +122,7 @@ tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& vi
 std::string DrawnMeasures::untestable(const model::effects::Effect& effect,
                                       model::effects::EffectSide /*side*/) const {
   if (effect.needs != model::effects::DataNeed::order) return "";
-  return fmt::format("a drawing does not show the order of its lines, which {} needs",
-                     effect.id);
+  return fmt::format("a drawing does not show the order of its lines, which {} needs", effect.id);
 }
 
 std::string DrawnMeasures::name_of(std::size_t unit) const {

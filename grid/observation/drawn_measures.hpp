@@ -59,8 +59,6 @@ class DrawnMeasures final : public Observation {
                 double noise_dof);
 
   [[nodiscard]] const Kind& kind() const override { return drawn_measures; }
-  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,

@@ -50,6 +50,10 @@ bool SheetPrior::knows(model::Setting setting) const {
   }
 }
 
+tl::expected<Eigen::VectorXd, Unreachable> Observation::predicted(const View& view) const {
+  return linearise(view, {}).map([](Linearisation line) { return std::move(line.predicted); });
+}
+
 const std::vector<const Kind*>& kinds() {
 #define CHAINTRUE_OBSERVATION(id) &id,
   static const std::vector<const Kind*> kKinds = {

@@ -204,9 +204,9 @@ class Observation {
     return nullptr;
   }
 
-  /// f, visit by visit where the order is known.
+  /// f, visit by visit where the order is known; by default that of linearise().
   [[nodiscard]] virtual tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const = 0;
+      const View& view) const;
   /// The sheet is this observation's own.
   [[nodiscard]] virtual tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const = 0;

@@ -91,20 +91,14 @@ SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
   }
 }
 
-tl::expected<Eigen::VectorXd, Unreachable> SingleReadings::predicted(const View& view) const {
-  Eigen::VectorXd all(rows());
-  for (std::size_t k = 0; k < readings_.size(); ++k) {
-    all(as_index(k)) = predicted_reading(view.chains().machine(), readings_[k]);
-  }
-  return all;
-}
-
 tl::expected<Linearisation, Unreachable> SingleReadings::linearise(const View& view,
                                                                    const Columns& columns) const {
   const std::vector<model::Setting> settings = settings_in(columns);
   const Machine& machine = view.chains().machine();
   Linearisation line;
-  line.predicted = *predicted(view);
+  line.predicted.resize(rows());
+  for (std::size_t k = 0; k < readings_.size(); ++k)
+    line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
   line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t s = 0; s < settings.size(); ++s) {

@@ -26,8 +26,6 @@ class SingleReadings final : public Observation {
   explicit SingleReadings(std::vector<ExtraReading> readings);
 
   [[nodiscard]] const Kind& kind() const override { return single_readings; }
-  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,

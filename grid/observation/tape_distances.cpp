@@ -257,7 +257,8 @@ void TapeDistances::state_nuisances() {
   nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
 }
 
-tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
+tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
+    const View& view) const {
   // A correction changes by a thousandth of a hole's shift and the chains' scale is below 0.2 %:
   // each iteration gains at least two digits, starting within some mm.
   constexpr int kTurns = 6;
@@ -280,8 +281,8 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(co
     }
     if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
     ChainPlaceState state{*reading,
-                     view.sheet.to_mark(reading->pose.position),
-                     reading->position_jacobian * view.sheet.rotation()};
+                          view.sheet.to_mark(reading->pose.position),
+                          reading->position_jacobian * view.sheet.rotation()};
     if (view.correction != nullptr) {
       const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);
       state.by_mark = corrected.by_mark;
@@ -299,13 +300,6 @@ Eigen::Matrix2Xd TapeDistances::mark_by_setting(const View& view,
   const Eigen::Matrix2Xd lengths =
       place.by_length.asDiagonal() * lengths_by_setting(view, place.reading, place.mark, settings);
   return -place.by_mark.inverse() * lengths;
-}
-
-tl::expected<Eigen::VectorXd, Unreachable> TapeDistances::predicted(const View& view) const {
-  const auto states = placed(view);
-  if (!states) return tl::unexpected(states.error());
-  return Eigen::VectorXd(tape_factor(view.chains().machine()) *
-                         distance_geometry(set_, marks_of(*states)).predicted_mm);
 }
 
 tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& view,

@@ -91,8 +91,6 @@ class TapeDistances final : public Observation {
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
   /// measured() are the readings less the zero offset.
   [[nodiscard]] Eigen::Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
-  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
@@ -102,7 +100,8 @@ class TapeDistances final : public Observation {
   /// In the order of places() and units().
   [[nodiscard]] const MeasuredHoles& set() const { return set_; }
   /// The holes' positions for a view, with the lengths paid out for them.
-  [[nodiscard]] tl::expected<std::vector<ChainPlaceState>, Unreachable> placed(const View& view) const;
+  [[nodiscard]] tl::expected<std::vector<ChainPlaceState>, Unreachable> placed(
+      const View& view) const;
   /// Derivative of a hole's mark by the settings, 2 x p.
   [[nodiscard]] static Eigen::Matrix2Xd mark_by_setting(
       const View& view, const ChainPlaceState& place, const std::vector<model::Setting>& settings);
