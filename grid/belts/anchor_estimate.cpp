@@ -281,11 +281,6 @@ estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
   return input;
 }
 
-tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
-    const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start) {
-  return estimation::estimate(anchor_input(belts, counting, start));
-}
-
 std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
                                           const FrameState& state,
                                           const Counting& counting) {

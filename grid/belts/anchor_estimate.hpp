@@ -15,7 +15,6 @@
 #pragma once
 
 #include <optional>
-#include <tl/expected.hpp>
 
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/estimation/estimate.hpp"
@@ -49,15 +48,11 @@ namespace chaintrue::grid::belts {
 void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 
 /// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
-/// Precondition: `belts` has no distances.
+/// Precondition: `belts` has no distances. Of its estimate noise_factor is the spread in mm, and the
+/// first five of the covariance are the anchors', mm^2.
 [[nodiscard]] estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
                                                        const Counting& counting,
                                                        const AnchorVector& start);
-
-/// To 1e-6 of their sigmas. Its noise_factor is the spread in mm, the first five of its covariance are
-/// the anchors', mm^2.
-[[nodiscard]] tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
-    const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start);
 
 /// From the likeliest start that leads to a sound frame, with every reading counted; if none does,
 /// the best fit; empty if no start converges.

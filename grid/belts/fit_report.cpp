@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/statistics.hpp"
+#include "grid/map/error_summary.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -127,10 +127,8 @@ void predict_point(const MeasuredBelts& belts,
 }
 
 BeltPrediction summed(const std::vector<double>& residual_mm) {
-  BeltPrediction result{residual_mm.size(), rms(residual_mm), 0.0};
-  for (const double off : residual_mm)
-    result.largest_mm = std::max(result.largest_mm, std::abs(off));
-  return result;
+  const ErrorSummary errors = summary_of(residual_mm);
+  return {residual_mm.size(), errors.rms_mm, errors.maximum_mm};
 }
 
 /// Points in the order of their visits, of the file where that is not known.

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -85,7 +85,8 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
   return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
 }
 
-MarginalisedSystem marginalise_rows(const RegressorSystem& system, const std::vector<bool>& outliers) {
+MarginalisedSystem marginalise_rows(const RegressorSystem& system,
+                                    const std::vector<bool>& outliers) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
@@ -101,9 +102,8 @@ MarginalisedSystem marginalise_rows(const RegressorSystem& system, const std::ve
 
 MarginalisedSystem marginalise(const RegressorSystem& system, const std::vector<bool>& outliers) {
   MarginalisedSystem marginalised = marginalise_rows(system, outliers);
-  marginalised.g = system.g.mapped([&](const auto& columns) {
-    return marginalised.root.solve(marginalised.kept.of(columns));
-  });
+  marginalised.g = system.g.mapped(
+      [&](const auto& columns) { return marginalised.root.solve(marginalised.kept.of(columns)); });
   return marginalised;
 }
 
@@ -113,18 +113,22 @@ linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& k
       kept.of(nuisance_columns(system)), system.sigma.tail(system.nuisances))));
 }
 
-double square_in_noise(const RegressorSystem& system,
-                       const KeptRows& kept,
-                       const Eigen::VectorXd& column) {
-  const Eigen::VectorXd own = kept(column);
-  if (system.nuisances == 0) return own.squaredNorm();
-  return nuisance_noise(system, kept).half_solve(own).squaredNorm();
-}
-
 double length_in_noise(const RegressorSystem& system,
                        const KeptRows& kept,
                        const Eigen::VectorXd& column) {
-  return std::sqrt(square_in_noise(system, kept, column));
+  const Eigen::VectorXd own = kept(column);
+  return system.nuisances == 0 ? own.norm() : nuisance_noise(system, kept).half_solve(own).norm();
+}
+
+Eigen::VectorXd left_by(const KeptRows& kept,
+                        const Eigen::MatrixXd& columns,
+                        const Eigen::VectorXd& sigma,
+                        Eigen::VectorXd rows) {
+  const Eigen::MatrixXd scaled = linear::scaled_columns(kept.of(columns), sigma);
+  const Eigen::VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
+                                .solve(linear::product(linear::transposed(scaled), kept(rows)));
+  linear::add_product(rows, -1.0, columns, sigma.cwiseProduct(x));
+  return rows;
 }
 
 Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column) {
@@ -183,9 +187,8 @@ Discrepancy discrepancy_of(const RegressorSystem& system,
   const DiscrepancyFamily& family = *system.discrepancies;
   const std::size_t number = family.kernel_of(discrepancy);
   const DiscrepancyKernel& kernel = family.kernels[number];
-  double trace = number < marginalised.discrepancy_trace.size()
-                     ? marginalised.discrepancy_trace[number]
-                     : 0.0;
+  double trace =
+      number < marginalised.discrepancy_trace.size() ? marginalised.discrepancy_trace[number] : 0.0;
   if (!(trace > 0.0)) {
     // A kernel that was tried with other readings rejected.
     const Eigen::MatrixXd half =
@@ -229,7 +232,8 @@ FreeEquations free_equations(const NormalEquations& equations,
   for (const Eigen::Index i : set) {
     if (!regressor(i).fixed) {
       if (m == kMostFreeRegressors)
-        throw std::length_error(fmt::format("a set of {} regressors, at most {}", set.size(), kMostFreeRegressors));
+        throw std::length_error(
+            fmt::format("a set of {} regressors, at most {}", set.size(), kMostFreeRegressors));
       free[as_size(m++)] = i;
       continue;
     }
@@ -239,7 +243,8 @@ FreeEquations free_equations(const NormalEquations& equations,
     }
   }
   FewValues length(m);
-  for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high}) values->resize(m);
+  for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high})
+    values->resize(m);
   result.gram.resize(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index at = free[as_size(i)];
@@ -267,7 +272,10 @@ FreeEquations free_equations(const NormalEquations& equations,
 }
 
 /// Set evidence for one prior sigma of the signal-to-noise ratio.
-SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDensity& noise, double prior_sigma) {
+SetEvidence evidence_at(const FreeEquations& free,
+                        double log_det,
+                        const NoiseDensity& noise,
+                        double prior_sigma) {
   const Eigen::Index m = free.c.size();
   const FewValues prior = prior_sigma * free.prior_length;
   FewByFew a = free.gram;

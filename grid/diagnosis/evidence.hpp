@@ -23,9 +23,9 @@
 /// with a process.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <Eigen/Core>
 #include <cmath>
 #include <span>
 #include <tuple>
@@ -52,11 +52,17 @@ class NoiseDensity {
   };
   [[nodiscard]] Averages averages(double quadratic) const;
 
-  [[nodiscard]] double log_density(double quadratic) const { return averages(quadratic).log_density; }
+  [[nodiscard]] double log_density(double quadratic) const {
+    return averages(quadratic).log_density;
+  }
   /// The part of it from noise as stated.
   [[nodiscard]] double log_density_as_stated(double quadratic) const;
-  [[nodiscard]] double larger_share(double quadratic) const { return averages(quadratic).larger_share; }
-  [[nodiscard]] double noise_square(double quadratic) const { return averages(quadratic).noise_square; }
+  [[nodiscard]] double larger_share(double quadratic) const {
+    return averages(quadratic).larger_share;
+  }
+  [[nodiscard]] double noise_square(double quadratic) const {
+    return averages(quadratic).noise_square;
+  }
 
  private:
   struct Component {
@@ -73,13 +79,14 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points set aside.
 struct MarginalisedSystem {
-  std::vector<bool> outliers;      ///< a flag an outlier group
-  KeptRows kept;                   ///< N rows
-  CovarianceRoot root;             ///< N x N, R of V = R R
-  Eigen::VectorXd e;               ///< N, R^-1 times the residual
-  RegressorColumns g;              ///< N x a column a regressor, R^-1 times it; none where an estimate is all that is made
-  double log_det = 0.0;            ///< log |V|
-  double log_outliers = 0.0;       ///< prior and density of the points set aside
+  std::vector<bool> outliers;  ///< a flag an outlier group
+  KeptRows kept;               ///< N rows
+  CovarianceRoot root;         ///< N x N, R of V = R R
+  Eigen::VectorXd e;           ///< N, R^-1 times the residual
+  RegressorColumns
+      g;  ///< N x a column a regressor, R^-1 times it; none where an estimate is all that is made
+  double log_det = 0.0;       ///< log |V|
+  double log_outliers = 0.0;  ///< prior and density of the points set aside
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
   std::vector<double> discrepancy_trace;
 };
@@ -100,13 +107,15 @@ struct MarginalisedSystem {
 /// The kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
 [[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
-/// Square, and length, of a column's kept rows in units of that noise.
-[[nodiscard]] double square_in_noise(const RegressorSystem& system,
-                                     const KeptRows& kept,
-                                     const Eigen::VectorXd& column);
+/// Length of a column's kept rows in units of that noise.
 [[nodiscard]] double length_in_noise(const RegressorSystem& system,
                                      const KeptRows& kept,
                                      const Eigen::VectorXd& column);
+/// What is left of rows once columns of such amplitudes take the part of it that the kept rows give them.
+[[nodiscard]] Eigen::VectorXd left_by(const KeptRows& kept,
+                                      const Eigen::MatrixXd& columns,
+                                      const Eigen::VectorXd& sigma,
+                                      Eigen::VectorXd rows);
 /// R^-1 of a column of all rows.
 [[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
                                       const Eigen::VectorXd& column);
@@ -133,7 +142,7 @@ struct NormalEquations {
   /// m: what the prior of a size is in. g'g without a discrepancy, or where the size is what is known
   /// beforehand (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
   Eigen::VectorXd prior_square;
-  double log_det = 0.0;      ///< of everything that is not noise's scale: V and the discrepancy
+  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
 /// NormalEquations::prior_square of columns with these squares.

@@ -11,10 +11,10 @@
 #include "grid/diagnosis/expected_improvement.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/diagnosis/observations.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/random.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -51,14 +51,10 @@ BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::s
   const Eigen::VectorXd as_stated = uncalibrated(session, *stated);
   Eigen::VectorXd placed = as_stated;
   if (moves) {
-    const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
-    const auto& kept = marginalised_system(a).kept;
-    const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
-    const Eigen::MatrixXd scaled = linear::scaled_columns(kept.of(by_sheet), sigma);
-    const Eigen::VectorXd x =
-        linear::Cholesky(linear::one_plus_gram(scaled))
-            .solve(linear::product(linear::transposed(scaled), kept(as_stated)));
-    linear::add_product(placed, -1.0, by_sheet, sigma.cwiseProduct(x));
+    placed = left_by(marginalised_system(a).kept,
+                     stated->by_setting.middleCols(kOfMachine, sheet),
+                     stated->sigma.segment(kOfMachine, sheet),
+                     as_stated);
   }
   for (const std::size_t u : units) {
     result.as_stated.push_back(error_of_unit(*stated, as_stated, u));
@@ -104,7 +100,8 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
   tell(a.options.progress, {"what a name gains", 3, 4});
   const HeldOutFolds held_out(a);
   std::vector<Fold> folds(blocks.units.size());
-  for_each_index(folds.size(), [&](std::size_t b) { folds[b] = held_out.without(blocks.units[b]); });
+  for_each_index(folds.size(),
+                 [&](std::size_t b) { folds[b] = held_out.without(blocks.units[b]); });
   for (std::size_t b = 0; b < folds.size(); ++b) {
     const Fold& fold = folds[b];
     all.agree += names_agree(fold, a) ? 1 : 0;

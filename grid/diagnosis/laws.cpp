@@ -14,9 +14,9 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/law_held_out.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -73,8 +73,8 @@ PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
     case LawShape::square: {
       // A bow of zero size has no vertex.
       const double at = a(0) != 0.0 ? -0.5 * a(1) / a(0) : 0.0;
-      const Eigen::Vector2d slope = a(0) != 0.0 ? Eigen::Vector2d(-at / a(0), -0.5 / a(0))
-                                                : Eigen::Vector2d(0.0, 0.0);
+      const Eigen::Vector2d slope =
+          a(0) != 0.0 ? Eigen::Vector2d(-at / a(0), -0.5 / a(0)) : Eigen::Vector2d(0.0, 0.0);
       const double half = 0.5 * curve.span();
       return {{a(0), curve.middle() + half * at}, {c(0, 0), half * half * slope.dot(c * slope)}};
     }
@@ -158,34 +158,19 @@ std::vector<ParameterEstimate> estimates(const FoundPoint& best,
   return result;
 }
 
-/// Residual of some rows after projection on the settings.
-Eigen::VectorXd left_by_settings(const RegressorSystem& system,
-                                 const MarginalisedSystem& marginalised,
-                                 const Eigen::VectorXd& rows) {
-  const Eigen::MatrixXd scaled =
-      linear::scaled_columns(marginalised.kept.of(system.by_setting), system.sigma);
-  const Eigen::VectorXd x =
-      linear::Cholesky(linear::one_plus_gram(scaled))
-          .solve(linear::product(linear::transposed(scaled), marginalised.kept(rows)));
-  Eigen::VectorXd left = rows;
-  linear::add_product(left, -1.0, system.by_setting, system.sigma.cwiseProduct(x));
-  return left;
-}
-
 void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[best.evidence->marginalised];
   const Eigen::VectorXd rows =
       LawColumns(system).of(best.curve(), best.law->at) * best.law->amplitude;
-  law.rms_mm = rms_of_units_mm(system, marginalised.kept, left_by_settings(system, marginalised, rows));
-  const double all = rms_of_units_mm(
-      system,
-      marginalised.kept,
-      left_by_settings(
-          system,
-          marginalised,
-          system.e - linear::product(system.by_setting, system.expected_change)));
+  const auto left_mm = [&](Eigen::VectorXd of_rows) {
+    const KeptRows& kept = marginalised.kept;
+    return rms_of_units_mm(
+        system, kept, left_by(kept, system.by_setting, system.sigma, std::move(of_rows)));
+  };
+  law.rms_mm = left_mm(rows);
+  const double all = left_mm(system.e - linear::product(system.by_setting, system.expected_change));
   law.share = all > 0.0 ? std::min(std::pow(law.rms_mm / all, 2), 1.0) : 0.0;
 }
 
@@ -201,7 +186,8 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
     sum += p;
   }
   if (sum < kLeastLaw) return std::nullopt;
-  const auto likeliest = max_element(shapes, [](const auto& x, const auto& y) { return x.second < y.second; });
+  const auto likeliest =
+      max_element(shapes, [](const auto& x, const auto& y) { return x.second < y.second; });
   const FoundPoint* best = nullptr;
   for (const FoundPoint& point : points) {
     if (point.curve().shape != likeliest->first) continue;
@@ -212,8 +198,7 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
   law.of = curve.of;
   law.shape = curve.shape;
   law.enters = curve.enters;
-  law.probability =
-      averaged_over_parts(a, *best->evidence, *best->law, std::min(sum, 1.0));
+  law.probability = averaged_over_parts(a, *best->evidence, *best->law, std::min(sum, 1.0));
   law.shape_probability = std::min(likeliest->second / sum, 1.0);
   law.direction_deg = curve.direction_rad * 180.0 / std::numbers::pi;
   law.towards = curve.towards;
@@ -298,7 +283,8 @@ LawsFound laws_found(const Analysis& a) {
   if (curves.empty()) return {};
   const std::vector<std::size_t> systems = systems_to_weigh(a.comparison);
   std::vector<LawEvidence> evidence(systems.size());
-  for_each_index(systems.size(), [&](std::size_t k) { evidence[k] = weigh_laws(a, systems[k], curves); });
+  for_each_index(systems.size(),
+                 [&](std::size_t k) { evidence[k] = weigh_laws(a, systems[k], curves); });
   return laws_of(a, std::move(evidence));
 }
 

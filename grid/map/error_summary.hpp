@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "grid/statistics.hpp"
+
 namespace chaintrue::grid {
 
 /// Root mean square and largest value of a set of errors. Of errors that are expected, not seen, the
@@ -9,5 +15,10 @@ struct ErrorSummary {
   double rms_mm = 0.0;
   double maximum_mm = 0.0;
 };
+[[nodiscard]] inline ErrorSummary summary_of(const std::vector<double>& errors_mm) {
+  double largest = 0.0;
+  for (const double error : errors_mm) largest = std::max(largest, std::abs(error));
+  return {rms(errors_mm), largest};
+}
 
 }  // namespace chaintrue::grid

@@ -18,23 +18,17 @@ using model::MarkPoint;
 /// Sigmas from which a tape's zero offset is reported: one sound file in 370 exceeds it.
 constexpr double kTapeZeroSigmas = 3.0;
 
-ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_rejected) {
-  ErrorSummary summary;
-  double squares = 0.0;
-  std::size_t count = 0;
+ErrorSummary left_out_summary(const std::vector<FittedDistance>& distances, bool with_rejected) {
+  std::vector<double> left_out;
   for (const FittedDistance& distance : distances) {
-    if (distance.rejected && !with_rejected) continue;
-    squares += distance.left_out_mm * distance.left_out_mm;
-    summary.maximum_mm = std::max(summary.maximum_mm, std::abs(distance.left_out_mm));
-    ++count;
+    if (!distance.rejected || with_rejected) left_out.push_back(distance.left_out_mm);
   }
-  if (count > 0) summary.rms_mm = std::sqrt(squares / as_double(count));
-  return summary;
+  return summary_of(left_out);
 }
 
 void note_rejected(const MeasuredHoles& set,
-                    const FittedDistances& fit,
-                    std::vector<std::string>& notes) {
+                   const FittedDistances& fit,
+                   std::vector<std::string>& notes) {
   std::map<std::size_t, int> at_hole;
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const FittedDistance& distance = fit.distances[k];
@@ -106,8 +100,8 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
   constexpr Eigen::Index kTapeZero = 2;
   if (tape_zero_sigma_mm(set.tape) > 0.0)
     fit.tape_zero = FoundTapeZero{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
-  fit.left_out_all = summary_of(fit.distances, true);
-  fit.left_out_good = summary_of(fit.distances, false);
+  fit.left_out_all = left_out_summary(fit.distances, true);
+  fit.left_out_good = left_out_summary(fit.distances, false);
   return fit;
 }
 
@@ -129,8 +123,8 @@ DistancesUsed distances_used(const std::vector<FittedDistance>& distances, doubl
   for (const FittedDistance& distance : distances) {
     (distance.rejected ? used.rejected : used.used) += 1;
   }
-  used.left_out_all = summary_of(distances, true);
-  used.left_out_good = summary_of(distances, false);
+  used.left_out_all = left_out_summary(distances, true);
+  used.left_out_good = left_out_summary(distances, false);
   return used;
 }
 

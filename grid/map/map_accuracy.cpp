@@ -10,43 +10,16 @@
 #include "grid/containers.hpp"
 
 namespace chaintrue::grid {
-namespace {
-
-/// Running root mean square and largest magnitude.
-class Tally {
- public:
-  void add(double value) {
-    squares_ += value * value;
-    largest_ = std::max(largest_, std::abs(value));
-    ++count_;
-  }
-  [[nodiscard]] double rms() const {
-    return count_ == 0 ? 0.0 : std::sqrt(squares_ / as_double(count_));
-  }
-  [[nodiscard]] ErrorSummary summary() const { return {rms(), largest_}; }
-
- private:
-  double squares_ = 0.0;
-  double largest_ = 0.0;
-  std::size_t count_ = 0;
-};
-
-}  // namespace
-
 HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
-  Tally chain;
-  Tally tool;
-  Tally x;
-  Tally y;
+  std::vector<double> chain, tool, x, y;
   for (const HeldOutResidual& residual : residuals) {
-    chain.add(residual.chain_mm[0]);
-    chain.add(residual.chain_mm[1]);
+    append_all(chain, residual.chain_mm);
     const Eigen::Vector2d at_tool = residual.mark_jacobian.inverse() * residual.chain_mm;
-    tool.add(at_tool.norm());
-    x.add(at_tool.x());
-    y.add(at_tool.y());
+    tool.push_back(at_tool.norm());
+    x.push_back(at_tool.x());
+    y.push_back(at_tool.y());
   }
-  return {chain.summary(), tool.summary(), x.rms(), y.rms()};
+  return {summary_of(chain), summary_of(tool), rms(x), rms(y)};
 }
 
 double noise_at_tool_mm(const CompensationMap& map) {
@@ -69,7 +42,7 @@ double noise_at_tool_mm(const CompensationMap& map) {
 
 MirrorTest test_mirror(const CompensationMap& map) {
   MirrorTest test;
-  Tally tally;
+  std::vector<double> differences;
   double sum = 0.0;
   // Without a machine the middle is that of the points' grid.
   const interp::Rectangle& domain = map.contents().domain;
@@ -91,21 +64,21 @@ MirrorTest test_mirror(const CompensationMap& map) {
         there->sigma.left_mm * there->sigma.left_mm;
     constexpr double kBeyondChance = 4.5;
     test.holds = test.holds && std::abs(difference) <= kBeyondChance * std::sqrt(variance);
-    if (test.points == 0 || std::abs(difference) > std::abs(test.worst_signed_mm)) {
+    if (differences.empty() || std::abs(difference) > std::abs(test.worst_signed_mm)) {
       test.worst_signed_mm = difference;
       test.worst_at = point.mark;
     }
-    tally.add(difference);
+    differences.push_back(difference);
     sum += difference;
-    ++test.points;
   }
+  test.points = differences.size();
   if (test.points == 0) {
     test.sentence =
         "No point's mirror image lies on the measured part of the bed, so the chains were not "
         "compared.";
     return test;
   }
-  test.difference = tally.summary();
+  test.difference = summary_of(differences);
   test.mean_mm = sum / as_double(test.points);
   const auto than = [](double value) { return value >= 0.0 ? "longer" : "shorter"; };
   if (test.holds) {

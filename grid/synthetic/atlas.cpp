@@ -51,8 +51,8 @@ std::vector<ToolPosition> straight(ToolPosition from, ToolPosition to, int count
   std::vector<ToolPosition> points;
   for (int i = 0; i < count; ++i) {
     const double part = as_double(i) / (count - 1);
-    points.push_back({from.x_mm + part * (to.x_mm - from.x_mm),
-                      from.y_mm + part * (to.y_mm - from.y_mm)});
+    points.push_back(
+        {from.x_mm + part * (to.x_mm - from.x_mm), from.y_mm + part * (to.y_mm - from.y_mm)});
   }
   return points;
 }
@@ -102,8 +102,8 @@ ToolPosition numbers_of_mark(const Mechanism& mechanism, ToolPosition place) {
 std::optional<ToolPosition> drawn_at(const SetAndActual& machine,
                                      ToolPosition command,
                                      const MechanismVisit& visit) {
-  const auto paid_out = machine.set->predict(
-      plus(machine.set_origin, command), {}, model::Derivatives::by_position);
+  const auto paid_out =
+      machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
   if (!paid_out) return std::nullopt;
   const Eigen::VectorXd& lengths = paid_out->lengths_mm;
   std::vector<bool> counting(as_size(lengths.size()), false);
@@ -111,11 +111,8 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine,
   const auto place =
       lengths.size() == 2
           ? machine.actual->locate(lengths, visit)
-          : locate_by_newton(*machine.actual,
-                             lengths,
-                             visit,
-                             plus(machine.actual_origin, command),
-                             counting);
+          : locate_by_newton(
+                *machine.actual, lengths, visit, plus(machine.actual_origin, command), counting);
   if (!place) return std::nullopt;
   return minus(numbers_of_mark(*machine.actual, *place), machine.actual_origin);
 }
@@ -278,9 +275,9 @@ std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
   const auto session = simulate_belts(machine, machine, spec);
   if (!session) return std::nullopt;
   const belts::Counting all(session->points.size(), belts::kAllBelts);
-  const auto found = belts::estimate_anchors(*session, all, belts::anchors_of(machine));
+  const auto found = belts::fit_anchors_from(*session, {belts::anchors_of(machine), 0.0, {}}, all);
   if (!found) return std::nullopt;
-  return belts::with_anchors(machine, found->mechanism->values().head<belts::kAnchorUnknowns>());
+  return belts::with_anchors(machine, found->state.anchors);
 }
 
 ToolPosition origin_of(const model::BeltMachine& machine) {

@@ -197,7 +197,7 @@ TEST(OneEstimator, ConvergesFromACentimetreAway) {
     }
     belts::AnchorVector start = belts::anchors_of(fit->machine);
     start += (belts::AnchorVector() << 9.0, -11.0, -8.0, 10.0, 12.0).finished();
-    const auto estimate = belts::estimate_anchors(set.belts, counting, start);
+    const auto estimate = estimation::estimate(belts::anchor_input(set.belts, counting, start));
     ASSERT_TRUE(estimate) << estimate.error().sentence();
     EXPECT_TRUE(estimate->converged);
     for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
