@@ -36,12 +36,6 @@ constexpr std::string_view kFurtherPlace = "a further place";
 /// At most this many places are predicted in a full repeat, which takes a second.
 constexpr std::size_t kMostOnceMore = 200;
 
-/// Future places, and the state that predicts their readings.
-struct NextPlaces {
-  MeasuredBelts belts;
-  belts::FrameState state;
-};
-
 /// Belts that are pulled on the way to a place, and that way in words.
 struct Approach {
   const char* words;
@@ -56,16 +50,18 @@ const std::vector<Approach>& approaches(model::Orientation orientation) {
   return orientation == model::Orientation::flat ? flat : upright;
 }
 
-class Gathering {
+/// Future places, one more visit each, with what is proposed of them, and the state that predicts their
+/// readings.
+class NextPlaces {
  public:
   /// Belts are pulled `times` as hard as at the measured places.
-  explicit Gathering(const BeltsAnalysis& a, double times = 1.0)
-      : machine_(belts::with_anchors(a.belts.machine, a.frame.state.anchors)), times_(times) {
-    next_.belts.machine = a.belts.machine;
-    next_.belts.reference_pull = reference_pull(a.belts).value_or(BeltPull{});
-    next_.state.anchors = a.frame.state.anchors;
+  explicit NextPlaces(const BeltsAnalysis& a, double times = 1.0) : times_(times) {
+    belts.machine = a.belts.machine;
+    belts.reference_pull = reference_pull(a.belts).value_or(BeltPull{});
+    state.anchors = a.frame.state.anchors;
+    machine = belts::with_anchors(belts.machine, state.anchors);
     for (const BeltPoint& point : a.belts.points) {
-      if (point.order) next_visit_ = std::max(next_visit_.value_or(0), *point.order + 1);
+      if (point.order) next_visit = std::max(next_visit.value_or(0), *point.order + 1);
     }
   }
 
@@ -73,54 +69,44 @@ class Gathering {
   bool add(model::FramePoint at,
            const std::optional<std::vector<Belt>>& pulled,
            const std::optional<BeltPull>& pull = std::nullopt) {
-    const auto lengths = model::lengths_at(machine_, at);
+    const auto lengths = model::lengths_at(machine, at);
     if (!lengths) return false;
     BeltPoint point;
     point.lengths_mm = *lengths;
     point.pulled = pulled;
-    point.pull = pull.value_or(*next_.belts.reference_pull);
+    point.pull = pull.value_or(*belts.reference_pull);
     point.pull->value *= times_;
-    point.order = next_visit_;
-    next_.belts.points.push_back(std::move(point));
-    next_.state.places.push_back(at);
+    point.order = next_visit;
+    belts.points.push_back(std::move(point));
+    state.places.push_back(at);
     return true;
   }
-  void count_visits() {
-    for (BeltPoint& point : next_.belts.points) {
-      if (next_visit_) point.order = (*next_visit_)++;
-    }
-  }
-  [[nodiscard]] bool has_order() const { return next_visit_.has_value(); }
-  [[nodiscard]] const model::BeltMachine& machine() const { return machine_; }
 
-  [[nodiscard]] NextPlaces take() { return std::move(next_); }
+  /// Its rows come with what is predicted there.
+  void propose(MeasurementKind kind, std::string what, model::BedPoint command) {
+    Candidate candidate{
+        {kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
+    candidate.measurement.pulled = belts.points.back().pulled.value_or(std::vector<Belt>{});
+    candidates.push_back(std::move(candidate));
+  }
+
+  MeasuredBelts belts;
+  belts::FrameState state;
+  model::BeltMachine machine;  ///< with the anchors of the state
+  std::optional<int> next_visit;
+  std::vector<Candidate> candidates;  ///< a point each
 
  private:
-  model::BeltMachine machine_;
   double times_;
-  NextPlaces next_;
-  std::optional<int> next_visit_;
 };
 
-/// Its rows come with what is predicted there.
-Candidate candidate_of(MeasurementKind kind,
-                       std::string what,
-                       model::BedPoint command,
-                       const std::vector<Belt>& pulled) {
-  Candidate candidate{{kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
-  candidate.measurement.pulled = pulled;
-  return candidate;
-}
-
-void add_places(const BeltsAnalysis& a, Gathering& gathering, std::vector<Candidate>& all) {
-  const model::BeltMachine& machine = gathering.machine();
-  const model::FramePoint centre = model::centre_of(machine);
-  const auto& anchors = machine.anchors;
+void add_places(model::Orientation orientation, NextPlaces& next) {
+  const model::FramePoint centre = model::centre_of(next.machine);
+  const auto& anchors = next.machine.anchors;
   const auto between = [](double low, double high, int i, int n) {
     return low + (high - low) * (kMargin + (1.0 - 2.0 * kMargin) * i / (n - 1));
   };
-  const bool flat = machine.orientation == model::Orientation::flat;
-  const Raster raster = flat ? kFlat : kUpright;
+  const Raster raster = orientation == model::Orientation::flat ? kFlat : kUpright;
   for (int j = 0; j < raster.rows; ++j) {
     for (int i = 0; i < raster.columns; ++i) {
       const double x = between(0.5 * (anchors.tl.x_mm + anchors.bl.x_mm),
@@ -130,38 +116,30 @@ void add_places(const BeltsAnalysis& a, Gathering& gathering, std::vector<Candid
       const double y = between(0.0, 0.5 * (anchors.tl.y_mm + anchors.tr.y_mm), j, raster.rows);
       const auto whole = [](double mm) { return kRasterMm * std::round(mm / kRasterMm) + 0.0; };
       const model::BedPoint command{whole(x - centre.x_mm), whole(y - centre.y_mm)};
-      for (const Approach& way : approaches(a.belts.machine.orientation)) {
+      for (const Approach& way : approaches(orientation)) {
         const auto pulled = way.pulled.empty() ? std::nullopt : std::optional(way.pulled);
-        const bool reached =
-            gathering.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, pulled);
-        if (!reached) continue;
-        all.push_back(candidate_of(MeasurementKind::point,
-                                   fmt::format("{}{}", kFurtherPlace, way.words),
-                                   command,
-                                   way.pulled));
+        if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, pulled))
+          next.propose(
+              MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words), command);
       }
     }
   }
 }
 
-void add_revisits(const BeltsAnalysis& a,
-                  const PointIndices& indices,
-                  Gathering& gathering,
-                  std::vector<Candidate>& all) {
-  if (!gathering.has_order()) return;
-  const model::FramePoint centre = model::centre_of(gathering.machine());
+void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlaces& next) {
+  if (!next.next_visit) return;
+  const model::FramePoint centre = model::centre_of(next.machine);
   const std::size_t count = a.belts.points.size();
   for (std::size_t i = 0; i < kRevisits; ++i) {
     const std::size_t k = i * (count - 1) / (kRevisits - 1);
     const model::FramePoint at = a.frame.state.places[k];
     const BeltPoint& point = a.belts.points[k];
-    if (!gathering.add(at, point.pulled, point.pull)) continue;
-    all.push_back(candidate_of(
+    if (!next.add(at, point.pulled, point.pull)) continue;
+    next.propose(
         MeasurementKind::revisit,
         fmt::format("point {} again", index_in_file(indices, k) + 1),
         point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
-                                                 std::round(at.y_mm - centre.y_mm) + 0.0}),
-        point.pulled.value_or(std::vector<Belt>{})));
+                                                 std::round(at.y_mm - centre.y_mm) + 0.0}));
   }
 }
 
@@ -189,11 +167,13 @@ PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
 /// For every place again, the last one first, pulled `times` as hard as before.
 std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) {
   if (a.belts.points.size() > kMostOnceMore) return std::nullopt;
-  Gathering gathering(a, times);
+  NextPlaces next(a, times);
   for (std::size_t k = a.belts.points.size(); k-- > 0;)
-    gathering.add(a.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
-  gathering.count_visits();
-  const std::vector<Alternative> alternatives = predicted_at(a, gathering.take()).alternatives;
+    next.add(a.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
+  for (BeltPoint& point : next.belts.points) {
+    if (next.next_visit) point.order = (*next.next_visit)++;
+  }
+  const std::vector<Alternative> alternatives = predicted_at(a, next).alternatives;
   auto rows = numbers_below<Eigen::Index>(alternatives.front().mean.size());
   return expected_discrimination(alternatives, rows).named_alone;
 }
@@ -230,14 +210,13 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
     return result;
   }
   result.is_open = true;
-  Gathering gathering(a);
-  std::vector<Candidate> candidates;
-  add_places(a, gathering, candidates);
-  add_revisits(a, indices, gathering, candidates);
-  const PredictedPlaces predicted = predicted_at(a, gathering.take());
-  for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].rows = predicted.rows[k];
-  result.measurements = most_telling(
-      predicted.alternatives, std::move(candidates), a.decision.verdict == Verdict::named);
+  NextPlaces next(a);
+  add_places(a.belts.machine.orientation, next);
+  add_revisits(a, indices, next);
+  const PredictedPlaces predicted = predicted_at(a, next);
+  for (std::size_t k = 0; k < next.candidates.size(); ++k)
+    next.candidates[k].rows = predicted.rows[k];
+  result.measurements = most_telling(predicted.alternatives, std::move(next.candidates));
   say_what_repeats(result.measurements);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);

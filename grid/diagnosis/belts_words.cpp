@@ -25,13 +25,13 @@ std::string end_of(const BeltEnd& end, const PointIndices& indices) {
 }
 
 std::string improvement_words(const BeltsFindings& found) {
-  std::string text =
-      fmt::format(" The error of one belt's reading falls from {:.2f} to {:.2f} mm",
-                  found.spread_before_mm,
-                  found.residual_sigma_mm);
+  std::string text = fmt::format(" The error of one belt's reading falls from {:.2f} to {:.2f} mm",
+                                 found.spread_before_mm,
+                                 found.residual_sigma_mm);
   if (found.prediction && found.prediction_before) {
     text += fmt::format(
-        "; the lower belts, predicted by the upper two at places left out, from {:.2f} to {:.2f} mm",
+        "; the lower belts, predicted by the upper two at places left out, from {:.2f} to {:.2f} "
+        "mm",
         found.prediction_before->rms_mm,
         found.prediction->rms_mm);
   }
@@ -50,8 +50,8 @@ std::string short_of_a_name(const Diagnosis& d) {
     if (own.probability < kInTheSet || own.causes.empty()) continue;
     const CauseId& cause = own.causes.front();
     if (cause.effect->expected > 0.0) continue;
-    parts.push_back(fmt::format(
-        "{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
+    parts.push_back(
+        fmt::format("{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
     most = std::max(most, own.probability);
   }
   if (most < kToThinkOf) return "";
@@ -86,7 +86,8 @@ std::string sentence(const Diagnosis& d) {
              short_of_a_name(d);
     default:
       return fmt::format(
-                 "Nothing is found beyond the anchors: the error of the lengths at {} places, {:.2f} mm a "
+                 "Nothing is found beyond the anchors: the error of the lengths at {} places, "
+                 "{:.2f} mm a "
                  "belt, has no listed cause.",
                  d.belts->places.size(),
                  d.belts->residual_sigma_mm) +
@@ -124,22 +125,15 @@ bool tells(const BeltsNext& next) {
 /// For undecided causes: what separates them or, if none of it does, what would.
 void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
   if (!next.is_open) return;
-  const std::string_view aim = d.causes.empty() ? "one explanation alone" : "a single name";
   std::string text;
   double reached = 0.0;
   if (tells(next)) {
     const NextMeasurement& first = next.measurements.front();
     reached = next.measurements.back().raises_probability_to;
-    text = fmt::format(
-        "Measure next: {} at ({:.0f}, {:.0f}) mm{}. All of it raises the chance of {} to {}.",
-        first.words,
-        first.mark->x_mm,
-        first.mark->y_mm,
-        next.measurements.size() > 1
-            ? fmt::format(", and {} more below", next.measurements.size() - 1)
-            : "",
-        aim,
-        percent(reached));
+    text = next_in_words(
+        d,
+        fmt::format("{} at ({:.0f}, {:.0f}) mm", first.words, first.mark->x_mm, first.mark->y_mm),
+        next.measurements);
     if (reached < kLikelierThanNot) {
       text +=
           " The rest is too close to the noise for so few: measure at more places, out to the "
@@ -158,7 +152,7 @@ void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
     text += fmt::format(
         "{}measuring every place again, the last one first, raises the chance of {} to {}.",
         text.empty() ? "A few places do not separate the remaining causes: " : " More: ",
-        aim,
+        aim_of(d),
         percent(*next.all_once_more));
   }
   if (text.empty()) {
@@ -169,11 +163,10 @@ void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
 }
 
 void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
-  const std::string arms = left_out_arms(belts, d);
-  if (!arms.empty()) d.what_to_do.push_back(arms);
-  for (std::string& remedy : remedies(d.causes)) {
-    if (d.what_to_do.size() >= 2 || d.verdict == Verdict::named_set || !arms.empty()) break;
-    d.what_to_do.push_back(std::move(remedy));
+  if (std::string arms = left_out_arms(belts, d); !arms.empty()) {
+    d.what_to_do.push_back(std::move(arms));
+  } else {
+    say_remedies(d);
   }
   if (!d.outliers.empty()) {
     d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",

@@ -57,12 +57,11 @@ bool is_left_alone(const Analysis& a, const std::vector<Alternative>& alternativ
 }
 
 std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& alternatives,
-                                          std::vector<Candidate> options,
-                                          bool is_named) {
+                                          std::vector<Candidate> options) {
   std::vector<NextMeasurement> result;
   std::vector<Eigen::Index> chosen;
   ExpectedDiscrimination now = expected_discrimination(alternatives, chosen);
-  double reached = is_named ? kEnough : now.named_alone;
+  double reached = now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
     ExpectedDiscrimination then = now;
@@ -93,8 +92,9 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
   NextCandidates next = next_candidates(a);
   const auto alternatives = alternatives_about(a, next.session);
   if (!alternatives || is_left_alone(a, *alternatives)) return {};
-  std::vector<NextMeasurement> result = most_telling(
-      *alternatives, std::move(next.all), a.decision.verdict == Verdict::named);
+  std::vector<NextMeasurement> result;
+  if (a.decision.verdict != Verdict::named)
+    result = most_telling(*alternatives, std::move(next.all));
   add_link_reading(a, result);
   return result;
 }
@@ -166,7 +166,7 @@ std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& f
   double all = 0.0;
   for (const Alternative& one : alternatives) all += one.probability;
   for (Alternative& one : alternatives) one.probability /= all;
-  return most_telling(alternatives, std::move(candidates.all), false);
+  return most_telling(alternatives, std::move(candidates.all));
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -6,9 +6,9 @@
 
 #include <vector>
 
-#include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/laws.hpp"
+#include "grid/diagnosis/next_candidates.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -24,12 +24,9 @@ inline constexpr double kEnough = 0.97;
                                  const std::vector<Alternative>& alternatives);
 
 /// The most informative of these candidates, whose rows are those of the alternatives, one after
-/// the other until a name is nearly certain or no other one pays. Empty if something is named
-/// already.
+/// the other until a name is nearly certain or no other one pays.
 [[nodiscard]] std::vector<NextMeasurement> most_telling(
-    const std::vector<Alternative>& alternatives,
-    std::vector<Candidate> options,
-    bool is_named);
+    const std::vector<Alternative>& alternatives, std::vector<Candidate> options);
 
 /// Measurements that separate the laws found from each other and from none (laws.hpp). Empty if one
 /// is nearly certain.

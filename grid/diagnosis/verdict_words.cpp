@@ -151,6 +151,27 @@ std::string only_outliers_in_words(const Diagnosis& d) {
                      words.whole);
 }
 
+void say_remedies(Diagnosis& d) {
+  if (d.verdict == Verdict::named_set) return;
+  for (std::string& remedy : remedies(d.causes)) {
+    if (d.what_to_do.size() < 2) d.what_to_do.push_back(std::move(remedy));
+  }
+}
+
+std::string_view aim_of(const Diagnosis& d) {
+  return d.causes.empty() ? "one explanation alone" : "a single name";
+}
+
+std::string next_in_words(const Diagnosis& d,
+                          std::string_view first,
+                          const std::vector<NextMeasurement>& all) {
+  return fmt::format("Measure next: {}{}. All of it raises the chance of {} to {}.",
+                     first,
+                     all.size() > 1 ? fmt::format(", and {} more below", all.size() - 1) : "",
+                     aim_of(d),
+                     percent(all.back().raises_probability_to));
+}
+
 std::string not_proved_in_words(const Diagnosis& d) {
   const Vocabulary& words = vocabulary_of(d);
   if (!d.causes.empty()) {

@@ -23,6 +23,17 @@ namespace chaintrue::grid::diagnosis {
 /// The sentence that only these are wrong.
 [[nodiscard]] std::string only_outliers_in_words(const Diagnosis& diagnosis);
 
+/// What to do about the causes, at most two lines in all: nothing for a set, of which only one acts.
+void say_remedies(Diagnosis& diagnosis);
+
+/// "Measure next: `first`, and 3 more below. All of it raises the chance of a single name to 96 %."
+[[nodiscard]] std::string next_in_words(const Diagnosis& diagnosis,
+                                        std::string_view first,
+                                        const std::vector<NextMeasurement>& all);
+
+/// "one explanation alone" or "a single name".
+[[nodiscard]] std::string_view aim_of(const Diagnosis& diagnosis);
+
 /// What a verdict does not prove.
 [[nodiscard]] std::string not_proved_in_words(const Diagnosis& diagnosis);
 

@@ -164,10 +164,7 @@ void say_what_to_type(Diagnosis& d) {
 
 void say_what_to_do(Diagnosis& d) {
   say_what_to_read_again(d);
-  for (std::string& remedy : remedies(d.causes)) {
-    if (d.what_to_do.size() < 2 && d.verdict != Verdict::named_set)
-      d.what_to_do.push_back(std::move(remedy));
-  }
+  say_remedies(d);
   if (!d.next_measurements.empty()) {
     const NextMeasurement& first = d.next_measurements.front();
     const std::string what =
@@ -175,14 +172,7 @@ void say_what_to_do(Diagnosis& d) {
         : first.kind != MeasurementKind::point
             ? first.words
             : fmt::format("a new point at ({:.0f}, {:.0f}) mm", first.mark->x_mm, first.mark->y_mm);
-    d.what_to_do.push_back(
-        fmt::format("Measure next: {}{}. All of it raises the chance of {} to {:.0f} %.",
-                    what,
-                    d.next_measurements.size() > 1
-                        ? fmt::format(", and {} more below", d.next_measurements.size() - 1)
-                        : "",
-                    d.causes.empty() ? "one explanation alone" : "a single name",
-                    100.0 * d.next_measurements.back().raises_probability_to));
+    d.what_to_do.push_back(next_in_words(d, what, d.next_measurements));
   }
   if (!d.outliers.empty() && d.what_to_do.size() < 3) {
     d.what_to_do.push_back(fmt::format("Measure {}{} again.",
@@ -203,9 +193,11 @@ void say_what_to_do(Diagnosis& d) {
   if (claimed_law(d) != nullptr && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
         d.unexplained->causes_given_law.empty()
-            ? "Write the law to a file (chaintrue diagnose --law), measure other points, and diagnose these "
+            ? "Write the law to a file (chaintrue diagnose --law), measure other points, and "
+              "diagnose these "
               "with it (--effects): they confirm or deny it."
-            : "Write the law to a file (chaintrue diagnose --law) and diagnose these readings again with it "
+            : "Write the law to a file (chaintrue diagnose --law) and diagnose these readings "
+              "again with it "
               "(--effects): the machine file then has the causes found together with it.");
   } else if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
@@ -219,8 +211,8 @@ void say_what_to_do(Diagnosis& d) {
   }
   say_what_to_type(d);
   if (d.what_to_do.empty()) {
-    d.what_to_do.push_back(fmt::format(
-        "Type in the calibrated settings; these {} show no more.", name(d.observations)));
+    d.what_to_do.push_back(fmt::format("Type in the calibrated settings; these {} show no more.",
+                                       name(d.observations)));
   }
 }
 
@@ -231,11 +223,13 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
         " Distances do not show the order of the holes or the position of the machine as a whole, "
         "so drift, skipped teeth, play and the height of the motors cannot be found.";
   } else if (d.drawing) {
-    text += " A drawing does not show the order of its lines, so drift and skipped teeth cannot "
-            "be found.";
+    text +=
+        " A drawing does not show the order of its lines, so drift and skipped teeth cannot "
+        "be found.";
   } else if (!session.ordered()) {
-    text += " The order of the visits is not known, so drift, skipped teeth and play cannot be "
-            "found.";
+    text +=
+        " The order of the visits is not known, so drift, skipped teeth and play cannot be "
+        "found.";
   }
   return text;
 }
@@ -263,9 +257,10 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
         "because each joins two places; marks with chain readings do.");
   }
   d.sentence = a.system.regressors.empty()
-                   ? fmt::format("These {} can test no cause: there are too few of them, or they err "
-                                 "too much, for any cause to show.",
-                                 name(d.observations))
+                   ? fmt::format(
+                         "These {} can test no cause: there are too few of them, or they err "
+                         "too much, for any cause to show.",
+                         name(d.observations))
                    : sentence(d, session.units.size());
   d.not_proved = not_proved(session, d);
   say_what_to_do(d);
