@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/number_text.hpp"
@@ -22,7 +23,7 @@ std::vector<std::optional<std::size_t>> places_kept(std::size_t count,
   std::vector<std::optional<std::size_t>> kept(count);
   std::size_t next = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (std::find(without.begin(), without.end(), i + 1) == without.end()) kept[i] = next++;
+    if (!contains(without, i + 1)) kept[i] = next++;
   }
   return kept;
 }
@@ -77,11 +78,10 @@ std::vector<std::size_t> point_numbers_of(const std::string& text,
   for (const std::string& part : parts_at_commas(text)) {
     const auto number = number_of(part);
     if (!number || !(*number >= 1.0) || !(*number <= kMost) || *number != std::floor(*number)) {
-      throw InputError(
-          {{"the command line",
-            option,
-            shortened(text),
-            fmt::format("numbers of {}, counted from 1, as in 7,12", what)}});
+      throw InputError({{"the command line",
+                         option,
+                         shortened(text),
+                         fmt::format("numbers of {}, counted from 1, as in 7,12", what)}});
     }
     numbers.push_back(static_cast<std::size_t>(*number));
   }
@@ -127,7 +127,7 @@ PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& w
   PointIndices indices;
   if (without.empty()) return indices;
   for (std::size_t i = 0; indices.size() < kept; ++i) {
-    if (std::find(without.begin(), without.end(), i + 1) == without.end()) indices.push_back(i);
+    if (!contains(without, i + 1)) indices.push_back(i);
   }
   return indices;
 }

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
@@ -199,7 +199,7 @@ Record<BeltPoint> belt_point_record() {
       [](BeltPoint& p, const std::vector<Belt>& found) {
         p.pulled.emplace();
         for (const Belt belt : kBelts) {
-          if (std::find(found.begin(), found.end(), belt) != found.end()) p.pulled->push_back(belt);
+          if (contains(found, belt)) p.pulled->push_back(belt);
         }
       },
       [](const BeltPoint& p) { return p.pulled; });

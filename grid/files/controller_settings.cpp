@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "grid/containers.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/number_text.hpp"
 #include "model/calibration/setting.hpp"
@@ -25,7 +26,7 @@ constexpr std::array<std::string_view, 3> kZeroUnlessSet = {
 
 template <std::size_t count>
 bool is_among(const std::array<std::string_view, count>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return contains(names, name);
 }
 
 std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
@@ -37,9 +38,8 @@ std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
 }
 
 const NamedSetting* find(const std::vector<NamedSetting>& settings, const std::string& name) {
-  const auto found = std::find_if(settings.begin(), settings.end(), [&](const NamedSetting& one) {
-    return one.name == name;
-  });
+  const auto found = std::find_if(
+      settings.begin(), settings.end(), [&](const NamedSetting& one) { return one.name == name; });
   return found == settings.end() ? nullptr : &*found;
 }
 
@@ -80,9 +80,9 @@ std::vector<NamedSetting> settings_in_force(const model::Machine& machine) {
   }
   const Json json = controller_settings_record().write(machine.controller.settings);
   for (const auto& [name, value] : json.items()) {
-    settings.push_back({name,
-                        value.is_string() ? value.get<std::string>()
-                                          : fmt::format("{}", value.get<double>())});
+    settings.push_back(
+        {name,
+         value.is_string() ? value.get<std::string>() : fmt::format("{}", value.get<double>())});
   }
   return settings;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/parse_double.hpp"
 
@@ -36,8 +37,7 @@ std::string_view figures_of(std::string_view text) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789.,"), text.size());
   const std::string_view unit = text.substr(end);
   const bool is_number = digits_at(text) > 0 && is_digit(text[end - 1]);
-  return is_number && std::none_of(unit.begin(), unit.end(), is_digit) ? text.substr(0, end)
-                                                                         : std::string_view{};
+  return is_number && none_of(unit, is_digit) ? text.substr(0, end) : std::string_view{};
 }
 
 /// `1,113` and `1,113,000.5` for a comma.
@@ -137,7 +137,7 @@ bool is_like_a_number(std::string_view text) { return !figures_of(text).empty();
 bool stands_for_nothing(std::string_view text) {
   constexpr std::array<std::string_view, 10> kNothing = {
       "-", "--", "---", "\xE2\x80\x93", "\xE2\x80\x94", "?", "n/a", "N/A", "na", "NA"};
-  return std::find(kNothing.begin(), kNothing.end(), text) != kNothing.end();
+  return contains(kNothing, text);
 }
 
 void write_decimal_points(char separator, std::vector<CsvRow>& rows) {

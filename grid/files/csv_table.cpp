@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/csv_numbers.hpp"
 #include "grid/files/length_text.hpp"
 #include "grid/input_checks/number_checks.hpp"
@@ -19,8 +20,7 @@ bool is_number(std::string_view text) { return number_of(text).has_value(); }
 bool looks_split_by_decimal_commas(const std::vector<CsvRow>& rows, std::size_t columns) {
   std::size_t longer = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const bool numbers = std::all_of(
-        rows[i].begin(), rows[i].end(), [](const CsvCell& cell) { return is_number(cell.text); });
+    const bool numbers = all_of(rows[i], [](const CsvCell& cell) { return is_number(cell.text); });
     if (numbers && rows[i].size() > columns) ++longer;
   }
   return 2 * longer > rows.size() - 1;
@@ -114,15 +114,13 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
     }
     return index;
   }
-  const bool numbers = std::all_of(header.begin(), header.end(), [](const CsvCell& cell) {
+  const bool numbers = all_of(header, [](const CsvCell& cell) {
     return is_number(cell.text) || looks_like_decimal_comma(cell.text);
   });
-  const auto is_there = [&](std::string_view name) {
-    return std::find(found.begin(), found.end(), name) != found.end();
-  };
+  const auto is_there = [&](std::string_view name) { return contains(found, name); };
   if (is_there("x_mm") && is_there("y_mm") && found.size() <= 3) {
     remarks += "; these are only places, and the measurements are missing";
-  } else if (std::any_of(found.begin(), found.end(), [](const std::string& name) {
+  } else if (any_of(found, [](const std::string& name) {
                return name.find("distance") != std::string::npos ||
                       name.find("length") != std::string::npos ||
                       name.find("measured") != std::string::npos;
@@ -134,7 +132,10 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
     remarks += fmt::format("; if these are the columns in this order, the line should read {}",
                            fmt::join(names_of(columns, true), ","));
   }
-  problems.add(header.front().place(), joined(found), expected_header(columns) + remarks, ProblemKind::bad_table);
+  problems.add(header.front().place(),
+               joined(found),
+               expected_header(columns) + remarks,
+               ProblemKind::bad_table);
   return {};
 }
 
@@ -177,15 +178,15 @@ bool is_empty(const CsvCell& cell) {
 
 /// Rows of separators alone, and what was written below the last row of numbers: a note in words.
 void drop_what_is_no_row(std::vector<CsvRow>& rows, Problems& problems) {
-  std::erase_if(rows,
-                [](const CsvRow& row) { return std::all_of(row.begin(), row.end(), is_empty); });
+  std::erase_if(rows, [](const CsvRow& row) { return all_of(row, is_empty); });
   while (rows.size() > 1) {
     const CsvRow& last = rows.back();
     const auto filled = std::count_if(
         last.begin(), last.end(), [](const CsvCell& cell) { return !is_empty(cell); });
     const std::string& text = last.front().text;
-    const bool is_words = last.size() > 1 ? !is_like_a_number(text) && !is_empty(last.front())
-                                          : text.find(' ') != std::string::npos && !length_with_unit_mm(text);
+    const bool is_words = last.size() > 1
+                              ? !is_like_a_number(text) && !is_empty(last.front())
+                              : text.find(' ') != std::string::npos && !length_with_unit_mm(text);
     if (filled != 1 || !is_words || rows[0].size() < 2) return;
     problems.warn(last.front().place(),
                   fmt::format("a note, no reading: left out ({})", shortened(text)));

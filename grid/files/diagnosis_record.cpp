@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/effect_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -52,9 +53,7 @@ Value<const Effect*> effect_word() {
   return choice<const Effect*>(std::move(names));
 }
 
-bool acts_at(const Effect& effect, EffectSide side) {
-  return std::find(effect.sides.begin(), effect.sides.end(), side) != effect.sides.end();
-}
+bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sides, side); }
 
 /// The keys of an effect and its side; `id` maps the object to its CauseId.
 template <class T, class Access>
@@ -168,7 +167,7 @@ void parameter_keys(Record<T>& record) {
     for (const auto& parameter : object.cause.effect->parameters)
       names.emplace_back(parameter.name);
     for (const ParameterEstimate& estimate : object.parameters) {
-      if (std::find(names.begin(), names.end(), estimate.parameter) == names.end()) {
+      if (!contains(names, estimate.parameter)) {
         at.problems().add(
             at.child("parameters").pointer() + "/" + pointer_token(estimate.parameter),
             estimate.parameter,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "grid/containers.hpp"
 #include "grid/files/plotter_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
@@ -83,9 +84,7 @@ Record<MeasureInFile> measure_record() {
 }
 
 bool has_cross(const DrawingInFile& drawing, const std::string& name) {
-  return std::any_of(drawing.crosses.begin(), drawing.crosses.end(), [&](const CrossInFile& cross) {
-    return cross.name == name;
-  });
+  return any_of(drawing.crosses, [&](const CrossInFile& cross) { return cross.name == name; });
 }
 
 void check_drawing(const Cursor& at, DrawingInFile& drawing) {

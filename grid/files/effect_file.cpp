@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/files/effect_record.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -89,10 +90,9 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
     return;
   }
   const std::string& instead_of = declaration_of(effect)->instead_of;
-  const bool taken =
-      std::any_of(machine.declared.begin(), machine.declared.end(), [&](const Effect* other) {
-        return !instead_of.empty() && declaration_of(*other)->instead_of == instead_of;
-      });
+  const bool taken = any_of(machine.declared, [&](const Effect* other) {
+    return !instead_of.empty() && declaration_of(*other)->instead_of == instead_of;
+  });
   if (taken) {
     problems.add("/instead_of",
                  instead_of,
@@ -127,7 +127,7 @@ void declare_effects(const std::vector<std::string>& paths, model::Machine& mach
       declare(source, machine, problems);
       problems.throw_if_any();
     } catch (const InputError& error) {
-      all.insert(all.end(), error.problems().begin(), error.problems().end());
+      append_all(all, error.problems());
     }
   }
   if (!all.empty()) throw InputError(std::move(all));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 
@@ -179,9 +180,8 @@ void read_declared(const Cursor& at, std::vector<const Effect*>& declared) {
     add_problems(own, problems_of(*declaration));
     if (!own.clean()) continue;
     const Effect* effect = &declared_effect(*declaration);
-    const bool twice = std::any_of(declared.begin(), declared.end(), [&](const Effect* other) {
-      return other->id == effect->id;
-    });
+    const bool twice =
+        any_of(declared, [&](const Effect* other) { return other->id == effect->id; });
     if (twice) {
       own.child("id").expect("a name that no other effect of this machine has");
     } else {

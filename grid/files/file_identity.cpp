@@ -3,9 +3,9 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <mutex>
 
+#include "grid/containers.hpp"
 #include "grid/files/read_log.hpp"
 
 namespace chaintrue::grid::files {
@@ -46,8 +46,7 @@ void note_as_read(int descriptor) {
   if (!identity) return;
   ReadLog& log = read_log();
   const std::scoped_lock lock(log.mutex);
-  if (std::find(log.files.begin(), log.files.end(), *identity) == log.files.end())
-    log.files.push_back(*identity);
+  if (!contains(log.files, *identity)) log.files.push_back(*identity);
 }
 
 void forget_files_read() {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/formats.hpp"
@@ -134,9 +135,7 @@ FileKind kind_of(const std::string& text, const std::string& file) {
 }
 
 std::string expected_kinds(const std::vector<FileKind>& kinds) {
-  const auto takes = [&](FileKind kind) {
-    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-  };
+  const auto takes = [&](FileKind kind) { return contains(kinds, kind); };
   std::string words;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     // Both kinds of holes have one name.

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
+#include "grid/containers.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/setting_reader.hpp"
 
@@ -14,9 +14,8 @@ namespace chaintrue::grid::files {
 bool is_fluidnc(const std::string& text) {
   Problems problems("");
   const auto values = yaml_texts(text, problems);
-  return std::any_of(values.begin(), values.end(), [](const auto& value) {
-    return value.first.starts_with("kinematics/WallPlotter/");
-  });
+  return any_of(
+      values, [](const auto& value) { return value.first.starts_with("kinematics/WallPlotter/"); });
 }
 
 ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
@@ -43,8 +42,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
                          number(anchors + "left_anchor_y", kAnchor)};
   machine.motors.right = {number(anchors + "right_anchor_x", kAnchor),
                           number(anchors + "right_anchor_y", kAnchor)};
-  machine.bed = {number("axes/x/max_travel_mm", kTravel),
-                 number("axes/y/max_travel_mm", kTravel)};
+  machine.bed = {number("axes/x/max_travel_mm", kTravel), number("axes/y/max_travel_mm", kTravel)};
   machine.controller = {model::ControllerKind::fluidnc_wallplotter, {}};
   problems.throw_if_any();
   check_geometry(machine, problems);

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/schemas.hpp"
 #include "model/machine_ranges.hpp"
@@ -31,11 +32,10 @@ constexpr std::array kDescribed = {
               "controller's settings; `chaintrue start` alone writes one to fill in. Ranges "
               "include every real hanging router. The motors must hang above the bed, the left "
               "one on the left."},
-    Described{
-        &kGridFormat,
-        grid_schema,
-        "A grid of measured points",
-        "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue "
+    Described{&kGridFormat,
+              grid_schema,
+              "A grid of measured points",
+              "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue "
               "plan` writes one to fill in, `simulate` and `import optical` write whole ones; "
               "`fit`, `diagnose` and `check` read them.\n\nAs CSV the first line names the "
               "columns, in any order: `x_mm`, `y_mm`, and `left_mm`, `right_mm` or "
@@ -45,11 +45,10 @@ constexpr std::array kDescribed = {
               "in`; a fraction is of an inch), a column may be in inches (`x_in`), and unknown "
               "columns, notes below the last row and lines that begin with # are ignored. A row "
               "without readings counts as not measured."},
-    Described{
-        &kHolesFormat,
-        holes_schema,
-        "Holes and distances",
-        "Holes that the machine drilled, and taped distances between them. `chaintrue plan "
+    Described{&kHolesFormat,
+              holes_schema,
+              "Holes and distances",
+              "Holes that the machine drilled, and taped distances between them. `chaintrue plan "
               "--holes` writes one to fill in; `fit`, `diagnose` and `check` read them.\n\nAs CSV "
               "it is two tables, one below the other: `hole`, `x_mm`, `y_mm`, and `from`, `to`, "
               "`distance_mm`, and optionally `sigma_mm`; the rest comes from options."},
@@ -70,11 +69,10 @@ constexpr std::array kDescribed = {
               "A sweep",
               "The combinations that `chaintrue sweep` simulates: all combinations of the lists' "
               "entries. See [sweeps](../sweeps.md)."},
-    Described{
-        &kBeltsFormat,
-        belts_schema,
-        "Belt lengths of a router on four belts",
-        "The four belt lengths at places whose positions are unknown. `chaintrue import "
+    Described{&kBeltsFormat,
+              belts_schema,
+              "Belt lengths of a router on four belts",
+              "The four belt lengths at places whose positions are unknown. `chaintrue import "
               "maslow4` writes one from the machine's log; `fit` makes anchors of it."},
     Described{&kAnchorsFormat,
               anchors_schema,
@@ -82,11 +80,10 @@ constexpr std::array kDescribed = {
               "The points where the belts leave the frame, their uncertainty and the readings "
               "behind them. `chaintrue fit` writes one from belt lengths; `export maslow4` prints "
               "the lines to paste. Do not edit it: a hash detects changes."},
-    Described{
-        &kEffectFormat,
-        effect_schema,
-        "A declared effect",
-        "A cause of error that is not in the catalogue: what it acts on, its size, its "
+    Described{&kEffectFormat,
+              effect_schema,
+              "A declared effect",
+              "A cause of error that is not in the catalogue: what it acts on, its size, its "
               "place, and a formula. `--effects` gives it to `diagnose`, `fit`, `simulate` and "
               "`effects`; [effects](../effects.md) explains formulas and shows three."},
     Described{&kPlotterFormat,
@@ -186,8 +183,7 @@ std::string anchor_of(const std::string& noun) {
 bool allows_null(const Json& schema) {
   const Json null;
   const auto holds = [&](const char* key) {
-    return schema.contains(key) && schema[key].is_array() &&
-           std::find(schema[key].begin(), schema[key].end(), null) != schema[key].end();
+    return schema.contains(key) && schema[key].is_array() && contains(schema[key], null);
   };
   if (holds("type") || holds("enum")) return true;
   return schema.contains("anyOf") && schema["anyOf"].back() == Json{{"type", "null"}};
@@ -263,7 +259,7 @@ std::string values_of(const Json& schema) {
 std::string absent_words(const Json& object, const std::string& key, const Json& schema) {
   if (key == "file_type" || key == "format_version") return "must begin a file";
   const Json names = object.value("required", Json::array());
-  if (std::find(names.begin(), names.end(), Json(key)) != names.end())
+  if (contains(names, Json(key)))
     return allows_null(schema) ? "must stand; may be null" : "must stand";
   if (schema.contains("default")) return fmt::format("`{}`", compact_json(schema["default"]));
   return "may be left out";
@@ -341,8 +337,10 @@ std::string write_format_page(std::string_view name) {
       "# {0}\n\n{1}\n\nA JSON file of type `{2}`, version {3}. Unknown keys are errors, but for "
       "`comment`, "
       "which may hold anything; a key that may be left out may be null as well. "
-      "`chaintrue formats {4} --schema` prints the JSON Schema, with which editors complete and check "
-      "such files. This page is written by `chaintrue formats {4}` from the tables that the reader goes "
+      "`chaintrue formats {4} --schema` prints the JSON Schema, with which editors complete and "
+      "check "
+      "such files. This page is written by `chaintrue formats {4}` from the tables that the reader "
+      "goes "
       "by.\n",
       d.title,
       d.about,

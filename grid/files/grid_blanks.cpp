@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/files/grid_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -16,7 +17,7 @@ namespace {
 /// to a hundredth once in a thousand times or less.
 bool is_finer_than_noise(const std::vector<StatedPoint>& points) {
   constexpr double kPerMm = 10.0;
-  return std::any_of(points.begin(), points.end(), [](const StatedPoint& point) {
+  return any_of(points, [](const StatedPoint& point) {
     const double tenths = kPerMm * point.left_mm.value_or(0.0);
     return std::abs(tenths - std::round(tenths)) > 1e-6;  // rounding of a length in tenths
   });

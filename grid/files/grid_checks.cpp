@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_checks.hpp"
 
@@ -186,17 +187,19 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
   const auto right = slope_of(grid.points, right_of);
   if (left && right) {
     if (left->per_x < 0.0 && right->per_x > 0.0) {
-      problems.explain(places.all,
-                       ProblemKind::sides_swapped,
-                       "the columns left_mm and right_mm look swapped: left lengths shrink and right "
-                       "ones grow towards +x.");
+      problems.explain(
+          places.all,
+          ProblemKind::sides_swapped,
+          "the columns left_mm and right_mm look swapped: left lengths shrink and right "
+          "ones grow towards +x.");
     }
     constexpr double kClearly = 0.1;
     if (left->per_y > kClearly && right->per_y > kClearly) {
-      problems.explain(places.all,
-                       ProblemKind::axes,
-                       "y_mm looks counted downwards: both chains grow towards +y, where the motors "
-                       "are. y_mm counts up the sheet.");
+      problems.explain(
+          places.all,
+          ProblemKind::axes,
+          "y_mm looks counted downwards: both chains grow towards +y, where the motors "
+          "are. y_mm counts up the sheet.");
     }
   }
 }
@@ -314,9 +317,7 @@ void check_points_together(const MeasuredGrid& grid,
                                  fewest_points - count));
   }
   const bool has_commands =
-      std::any_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {
-        return point.commanded.has_value();
-      });
+      any_of(grid.points, [](const MeasuredPoint& point) { return point.commanded.has_value(); });
   if (has_commands && !grid.machine) {
     problems.add(places.all,
                  "commanded positions, but no machine",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/grid_checks.hpp"
@@ -200,9 +201,7 @@ ReadGrid finish(StatedGrid stated,
   grid.sheet = stated.sheet;
   grid.readings = std::move(stated.readings);
   const bool points_are_whole =
-      std::none_of(stated.points.begin(), stated.points.end(), [](const StatedPoint& point) {
-        return point.is_spoilt;
-      });
+      none_of(stated.points, [](const StatedPoint& point) { return point.is_spoilt; });
   const std::size_t problems_before = problems.list().size();
   grid.points = measured_points(stated.points, places, problems);
   if (points_are_whole && problems.list().size() == problems_before) {
@@ -247,9 +246,8 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
   constexpr std::size_t kOrder = 4;
   // Lengths are required unless the header has commands in their place.
   const std::vector<std::string> header = csv_header(text);
-  const bool commanded = std::any_of(header.begin(), header.end(), [](const std::string& name) {
-    return name.rfind("commanded_", 0) == 0;
-  });
+  const bool commanded =
+      any_of(header, [](const std::string& name) { return name.rfind("commanded_", 0) == 0; });
   const double unit = options.inches ? input_checks::kMmPerInch : 1.0;
   const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate, true, commanded, unit},
                                           {"y_mm", kCoordinate, true, commanded, unit},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/containers.hpp"
 #include "grid/files/grid_checks.hpp"
 #include "model/kinematics.hpp"
 
@@ -102,28 +103,28 @@ void warn_of_pair(const Comparison& comparison,
   // A point that was already reported disagrees with everything.
   const auto is_asked_about = [&](std::size_t row) {
     const auto& warnings = problems.warnings();
-    return std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {
+    return any_of(warnings, [&](const Warning& warning) {
       return warning.place == places.of(row, "") && warning.sentence.rfind("Mark", 0) == 0;
     });
   };
   if (is_asked_about(a.index) || is_asked_about(b.index)) return;
   const bool first_is_worse = first_mm >= second_mm;
-  problems.warn(places.of(b.index, ""),
-                fmt::format("this mark was measured twice, also at {}, and the two differ by {} ({}), "
-                            "where {:.1f} mm would be usual{}. Is a digit or a minus wrong in one of "
-                            "them?",
-                            places.of(a.index, ""),
-                            difference_in_words(std::max(first_mm, second_mm)),
-                            first_is_worse ? comparison.first_name : comparison.second_name,
-                            allowed_mm,
-                            apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm)));
+  problems.warn(
+      places.of(b.index, ""),
+      fmt::format("this mark was measured twice, also at {}, and the two differ by {} ({}), "
+                  "where {:.1f} mm would be usual{}. Is a digit or a minus wrong in one of "
+                  "them?",
+                  places.of(a.index, ""),
+                  difference_in_words(std::max(first_mm, second_mm)),
+                  first_is_worse ? comparison.first_name : comparison.second_name,
+                  allowed_mm,
+                  apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm)));
 }
 
 void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& problems) {
   auto& readings = comparison.readings;
-  std::stable_sort(readings.begin(), readings.end(), [](const Compared& a, const Compared& b) {
-    return a.mark.x_mm < b.mark.x_mm;
-  });
+  stable_sort(readings,
+              [](const Compared& a, const Compared& b) { return a.mark.x_mm < b.mark.x_mm; });
   const std::size_t warnings_before = problems.warnings().size();
   for (std::size_t i = 0; i < readings.size(); ++i) {
     for (std::size_t j = i + 1; j < readings.size(); ++j) {

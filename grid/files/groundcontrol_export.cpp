@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "grid/containers.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "model/kinematics.hpp"
 
@@ -74,7 +75,8 @@ class Lines {
 /// The pitch of a chain that its tolerance states.
 bool is_tolerance(const model::AppliedEffect& effect, const model::ControllerSettings& settings) {
   const auto size = effect.parameters.find("elongation");
-  if (effect.effect != "chain_pitch_error" || effect.side == "both" || size == effect.parameters.end())
+  if (effect.effect != "chain_pitch_error" || effect.side == "both" ||
+      size == effect.parameters.end())
     return false;
   const auto& percent = effect.side == "left" ? settings.left_chain_tolerance_percent
                                               : settings.right_chain_tolerance_percent;
@@ -129,11 +131,11 @@ bool says_more_than_its_settings(const Machine& machine) {
   constexpr double kRoundingMm = 1e-6;
   const bool has_other_beam =
       std::abs(left.x_mm + right.x_mm) > kRoundingMm ||
-      std::abs(right.y_mm - left.y_mm - *settings.motor_spacing_mm * std::sin(tilt_rad)) > kRoundingMm;
+      std::abs(right.y_mm - left.y_mm - *settings.motor_spacing_mm * std::sin(tilt_rad)) >
+          kRoundingMm;
   return has_other_beam || !write_groundcontrol(machine).remarks.empty() ||
          machine.chain_zero.left_mm != 0.0 || machine.chain_zero.right_mm != 0.0 ||
-         machine.sprocket.radius_mm ||
-         !std::all_of(machine.effects.begin(), machine.effects.end(), [&](const auto& effect) {
+         machine.sprocket.radius_mm || !all_of(machine.effects, [&](const auto& effect) {
            return is_tolerance(effect, settings);
          });
 }
@@ -172,8 +174,10 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
   if (settings.chain_elongation_per_n) {
     const std::string typed = fmt::format("{}", *settings.chain_elongation_per_n);
     lines.word("chainelongationfactor", typed);
-    if (now.chain_elongation_per_n && *now.chain_elongation_per_n != *settings.chain_elongation_per_n)
-      lines.changes("chainelongationfactor", fmt::format("{}", *now.chain_elongation_per_n), typed, by);
+    if (now.chain_elongation_per_n &&
+        *now.chain_elongation_per_n != *settings.chain_elongation_per_n)
+      lines.changes(
+          "chainelongationfactor", fmt::format("{}", *now.chain_elongation_per_n), typed, by);
   }
   lines.word("chainoversprocket",
              settings.chain_over_sprocket_top.value_or(machine.feed == model::Feed::over_top)

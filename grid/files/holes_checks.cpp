@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "grid/containers.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/input_checks/distance_checks.hpp"
 #include "grid/input_checks/number_checks.hpp"
@@ -121,7 +122,7 @@ void check_triangles(const MeasuredHoles& set,
       const auto bc = first.find({ab.second, c});
       if (ac == first.end() || bc == first.end()) continue;
       std::array<std::size_t, 3> sides = {index_ab, ac->second, bc->second};
-      std::sort(sides.begin(), sides.end(), [&](std::size_t i, std::size_t j) {
+      sort(sides, [&](std::size_t i, std::size_t j) {
         return set.distances[i].distance_mm > set.distances[j].distance_mm;
       });
       double excess = length_of(set, set.distances[sides[0]]);
@@ -134,8 +135,7 @@ void check_triangles(const MeasuredHoles& set,
       if (excess <= kBeyondChance * std::sqrt(variance)) continue;
       std::string question;
       for (const input_checks::RowFinding& row : asked) {
-        if (std::find(sides.begin(), sides.end(), row.row) != sides.end())
-          question += fmt::format(". {}", row.sentence);
+        if (contains(sides, row.row)) question += fmt::format(". {}", row.sentence);
       }
       problems.add(
           places.distance(sides[0], "distance_mm"),
@@ -166,7 +166,7 @@ std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
       if (measured.count({a, b}) == 0) others.push_back({.from = a, .to = b});
     }
   }
-  std::stable_sort(others.begin(), others.end(), [&](const auto& a, const auto& b) {
+  stable_sort(others, [&](const auto& a, const auto& b) {
     return commanded_mm(set, a) > commanded_mm(set, b);
   });
   std::vector<std::string> words;
@@ -302,7 +302,7 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const StatedDistance& from = stated[i];
     HoleDistance distance;
-    distance.distance_mm = from.distance_mm;
+    distance.distance_mm = from.distance_mm.value_or(0.0);
     distance.sigma_mm = from.sigma_mm;
     if (!from.is_spoilt) {
       const auto start = hole_of(from.from, holes);

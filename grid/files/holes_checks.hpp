@@ -20,12 +20,11 @@ struct StatedDistance {
   /// A name, or the hole's number as text.
   std::string from;
   std::string to;
-  double distance_mm = 0.0;
+  /// Empty on a line that was not filled in, or whose reading is wrong.
+  std::optional<double> distance_mm;
   std::optional<double> sigma_mm;
-  /// A value was wrong and is already reported.
-  bool is_spoilt = false;
-  /// Line of a sheet to fill in that has not been read yet.
-  bool is_blank = false;
+  /// A value was wrong and is already reported; true before any was read.
+  bool is_spoilt = true;
 };
 
 /// The places of values in their file, for messages.

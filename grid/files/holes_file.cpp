@@ -21,8 +21,10 @@ ReadHoles finish(StatedHoles stated,
                  const HolesOptions& options,
                  Problems& problems) {
   std::vector<std::string> blanks;
-  for (const StatedDistance& distance : stated.distances)
-    blanks.push_back(distance.is_blank ? fmt::format("{}-{}", distance.from, distance.to) : "");
+  for (const StatedDistance& distance : stated.distances) {
+    const bool is_blank = !distance.distance_mm && !distance.is_spoilt;
+    blanks.push_back(is_blank ? fmt::format("{}-{}", distance.from, distance.to) : "");
+  }
   constexpr EntryWords kWords{"distances", "tape readings, written into distance_mm"};
   keep_only(
       filled_in(blanks, kWords, places.distances, problems), stated.distances, places.distance);
@@ -126,7 +128,7 @@ std::string write_holes(const MeasuredHoles& set, const std::optional<model::Bel
 
 std::string write_holes_sheet(const MeasuredHoles& plan) {
   StatedHoles stated = stated_holes(plan);
-  for (StatedDistance& distance : stated.distances) distance.is_blank = true;
+  for (StatedDistance& distance : stated.distances) distance.distance_mm.reset();
   Json json = holes_record().write(stated);
   // The tape's zero offset is not known before the measurement.
   json["tape"].erase("hook_offset_mm");

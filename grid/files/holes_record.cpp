@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
 #include <utility>
 
 #include "grid/files/belts_record.hpp"
@@ -48,18 +47,15 @@ Record<SheetSize> sheet_record() {
                 number({"mm", 0.0, 100.0}));
 }
 
-const Record<Hole>& hole_record() {
-  static const auto record = [] {
-    Record<Hole> hole("a hole");
-    hole.sparse("name", "Any word; without one the holes are numbered from 0.", &Hole::name);
-    const auto coordinate = [&hole](const char* key, const char* meaning, auto member) {
-      hole.required(key, meaning, path(&Hole::commanded, member), kHoleCoordinate);
-    };
-    coordinate("x_mm", "Commanded x of the hole.", &model::BedPoint::x_mm);
-    coordinate("y_mm", "Commanded y of the hole, up.", &model::BedPoint::y_mm);
-    return hole;
-  }();
-  return record;
+Record<Hole> hole_record() {
+  Record<Hole> hole("a hole");
+  hole.sparse("name", "Any word; without one the holes are numbered from 0.", &Hole::name);
+  const auto coordinate = [&hole](const char* key, const char* meaning, auto member) {
+    hole.required(key, meaning, path(&Hole::commanded, member), kHoleCoordinate);
+  };
+  coordinate("x_mm", "Commanded x of the hole.", &model::BedPoint::x_mm);
+  coordinate("y_mm", "Commanded y of the hole, up.", &model::BedPoint::y_mm);
+  return hole;
 }
 
 /// A hole by its name or by its number.
@@ -86,55 +82,24 @@ Record<StatedDistance>& end_of(Record<StatedDistance>& record,
       [member](const StatedDistance& distance) { return std::optional<Json>(distance.*member); });
 }
 
-const Record<StatedDistance>& distance_record() {
-  static const auto record = [] {
-    Record<StatedDistance> distance("a distance");
-    end_of(distance, "from", "A hole's name or number.", &StatedDistance::from);
-    end_of(distance,
-           "to",
-           "A hole's name or number, or an edge: left, right, top, bottom.",
-           &StatedDistance::to);
-    distance
-        .custom(
-            "distance_mm",
-            "The tape reading between the holes' centres. Null if not measured yet.",
-            true,
-            {kTapeDistance.expected(),
-             [] {
-               Json schema = number_schema(kTapeDistance);
-               schema["type"] = {"number", "null"};
-               return schema;
-             }},
-            [](const Cursor& at, StatedDistance& d) {
-              d.is_blank = at.json().is_null();
-              if (d.is_blank) return;
-              if (const auto value = at.number(kTapeDistance)) d.distance_mm = *value;
-            },
-            [](const StatedDistance& d) {
-              return std::optional<Json>(d.is_blank ? Json(nullptr) : Json(d.distance_mm));
-            })
-        .optional("sigma_mm",
-                  "Noise of this reading, if it differs from the tape's.",
-                  &StatedDistance::sigma_mm,
-                  kTapeSigmaMm);
-    return distance;
-  }();
-  return record;
-}
-
-/// Reads a list of records and records which were wrong.
-template <class T>
-void read_list(const Cursor& at,
-               const Record<T>& record,
-               std::vector<T>& values,
-               const std::function<void(T&, bool)>& note) {
-  if (!at.json().is_array()) return at.expect("a list");
-  for (std::size_t i = 0; i < at.json().size(); ++i) {
-    const std::size_t before = at.problems().list().size();
-    T value = record.read(at.element(i)).value_or(T{});
-    note(value, at.problems().list().size() > before);
-    values.push_back(std::move(value));
-  }
+Record<StatedDistance> distance_record() {
+  Record<StatedDistance> distance("a distance");
+  end_of(distance, "from", "A hole's name or number.", &StatedDistance::from);
+  end_of(distance,
+         "to",
+         "A hole's name or number, or an edge: left, right, top, bottom.",
+         &StatedDistance::to);
+  distance
+      .required("distance_mm",
+                "The tape reading between the holes' centres. Null if not measured yet.",
+                &StatedDistance::distance_mm,
+                or_null(number(kTapeDistance)))
+      .optional("sigma_mm",
+                "Noise of this reading, if it differs from the tape's.",
+                &StatedDistance::sigma_mm,
+                kTapeSigmaMm)
+      .check([](const Cursor& at, StatedDistance& own) { own.is_spoilt = !at.clean(); });
+  return distance;
 }
 
 /// A machine with anchors hangs on belts.
@@ -154,14 +119,6 @@ std::optional<Json> written_stated_machine(const StatedHoles& stated) {
   if (stated.belt_machine) return belt_machine_record().write(*stated.belt_machine);
   if (stated.machine) return machine_record().write(*stated.machine);
   return std::nullopt;
-}
-
-template <class T>
-std::function<std::optional<Json>(const StatedHoles&)> list_writer(
-    const Record<T>& record, std::vector<T> StatedHoles::*member) {
-  return [value = list(object(record)), member](const StatedHoles& stated) {
-    return std::optional<Json>(value.write(stated.*member));
-  };
 }
 
 }  // namespace
@@ -202,30 +159,11 @@ const Record<StatedHoles>& holes_record() {
                   "What was measured besides the distances.",
                   &StatedHoles::readings,
                   list(reading_record()))
-          .custom(
-              "holes",
-              "The holes as commanded.",
-              true,
-              {"a list of holes", [] { return list_schema(hole_record().schema(), 0); }},
-              [](const Cursor& at, StatedHoles& stated) {
-                read_list<Hole>(at, hole_record(), stated.holes, [&stated](Hole&, bool spoilt) {
-                  stated.is_hole_spoilt.push_back(spoilt);
-                });
-              },
-              list_writer(hole_record(), &StatedHoles::holes))
-          .custom(
-              "distances",
-              "The distances between them, and to edges.",
-              true,
-              {"a list of distances", [] { return list_schema(distance_record().schema(), 0); }},
-              [](const Cursor& at, StatedHoles& stated) {
-                read_list<StatedDistance>(
-                    at,
-                    distance_record(),
-                    stated.distances,
-                    [](StatedDistance& distance, bool spoilt) { distance.is_spoilt = spoilt; });
-              },
-              list_writer(distance_record(), &StatedHoles::distances))
+          .required("holes", "The holes as commanded.", &StatedHoles::holes, list(hole_record()))
+          .required("distances",
+                    "The distances between them, and to edges.",
+                    &StatedHoles::distances,
+                    list(distance_record()))
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedHoles& stated) {
             stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&

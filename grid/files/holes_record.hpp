@@ -32,7 +32,6 @@ struct StatedHoles {
   SheetSize sheet;
   std::vector<ExtraReading> readings;
   std::vector<Hole> holes;
-  std::vector<bool> is_hole_spoilt;
   std::vector<StatedDistance> distances;
 };
 

@@ -67,13 +67,11 @@ double required_number(const CsvCell& cell,
 }
 
 void read_hole_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
-  const std::size_t before = problems.list().size();
   Hole hole;
   hole.name = cell_of(row, 0).text;
   hole.commanded = {required_number(cell_of(row, 1), "x_mm", kHoleCoordinate, problems),
                     required_number(cell_of(row, 2), "y_mm", kHoleCoordinate, problems)};
   stated.holes.push_back(hole);
-  stated.is_hole_spoilt.push_back(problems.list().size() > before);
 }
 
 /// `first` is the column of the reading, behind its two ends.
@@ -86,31 +84,31 @@ void read_distance_row(const CsvRow& row,
                        Problems& problems) {
   const std::size_t before = problems.list().size();
   const CsvCell reading = cell_of(row, first);
-  distance.is_blank = reading.text.empty();
-  if (!distance.is_blank) {
-    distance.distance_mm =
-        number_in_unit(reading, unit, "distance_mm", kTapeDistance, problems).value_or(0.0);
-  }
+  if (!reading.text.empty())
+    distance.distance_mm = number_in_unit(reading, unit, "distance_mm", kTapeDistance, problems);
   const CsvCell sigma = cell_of(row, first + 1);
   if (has_sigma && !sigma.text.empty()) {
-    distance.sigma_mm = checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigmaMm, problems);
+    distance.sigma_mm =
+        checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigmaMm, problems);
   }
   distance.is_spoilt = problems.list().size() > before;
   stated.distances.push_back(distance);
 }
 
 /// The hole at these two cells; one that is there already has its name.
-std::string hole_at(const CsvRow& row, std::size_t column, StatedHoles& stated, Problems& problems,
+std::string hole_at(const CsvRow& row,
+                    std::size_t column,
+                    StatedHoles& stated,
+                    Problems& problems,
                     std::vector<CsvCell>& cells) {
-  const std::size_t before = problems.list().size();
   const model::BedPoint at{
       required_number(cell_of(row, column), kBetweenHeader[column], kHoleCoordinate, problems),
-      required_number(cell_of(row, column + 1), kBetweenHeader[column + 1], kHoleCoordinate, problems)};
+      required_number(
+          cell_of(row, column + 1), kBetweenHeader[column + 1], kHoleCoordinate, problems)};
   for (const Hole& hole : stated.holes) {
     if (hole.commanded.x_mm == at.x_mm && hole.commanded.y_mm == at.y_mm) return hole.name;
   }
   stated.holes.push_back({fmt::format("({:g}, {:g})", at.x_mm, at.y_mm), at});
-  stated.is_hole_spoilt.push_back(problems.list().size() > before);
   cells.push_back(cell_of(row, column));
   return stated.holes.back().name;
 }
@@ -180,10 +178,12 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
       "the holes",
       "the distances",
       [cells = std::move(hole_cells)](std::size_t index) { return cells[index].place(); },
-      [found = std::move(distance_rows), is_between_points = table == Table::between](std::size_t index, std::string_view field) {
+      [found = std::move(distance_rows), is_between_points = table == Table::between](
+          std::size_t index, std::string_view field) {
         const std::size_t ends = is_between_points ? 2 : 0;  // two columns more
         for (std::size_t c = 0; c < std::size(kDistanceHeader); ++c) {
-          if (kDistanceHeader[c] == field) return cell_of(found[index], c + (c < 2 ? 0 : ends)).place();
+          if (kDistanceHeader[c] == field)
+            return cell_of(found[index], c + (c < 2 ? 0 : ends)).place();
         }
         return found[index].front().place();
       },

@@ -5,22 +5,11 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/file_type.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-/// The schema with null allowed as well: for a key that may be absent.
-Json or_null(Json schema) {
-  if (schema.contains("enum")) {
-    schema["enum"].push_back(nullptr);
-  } else if (schema.contains("type") && schema["type"].is_string()) {
-    schema["type"] = {schema["type"], "null"};
-  } else if (!schema.empty()) {
-    schema = {{"anyOf", {schema, {{"type", "null"}}}}};
-  }
-  return schema;
-}
 
 class PlainMember : public Member {
  public:
@@ -177,7 +166,7 @@ Json RecordTable::schema_of_keys() const {
   properties["comment"] = {{"description", "Anything; not read."}};
   for (const Field& field : fields_) {
     Json schema = field.expected.schema();
-    if (!field.is_required) schema = or_null(std::move(schema));
+    if (!field.is_required) schema = schema_or_null(std::move(schema));
     schema["description"] = field.meaning;
     properties[field.key] = std::move(schema);
     if (field.is_required) required.push_back(field.key);
@@ -212,8 +201,7 @@ std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) cons
 }
 
 bool RecordTable::has_key(const std::string& key) const {
-  return std::any_of(
-      fields_.begin(), fields_.end(), [&key](const Field& field) { return field.key == key; });
+  return any_of(fields_, [&key](const Field& field) { return field.key == key; });
 }
 
 std::vector<std::string> RecordTable::keys() const {
@@ -232,8 +220,7 @@ bool RecordTable::read_fields(const Cursor& at,
   for (const Field& field : fields_) {
     const Cursor child = at.child(field.key);
     if (!at.has(field.key) || (!field.is_required && child.json().is_null())) {
-      const bool misspelt = std::find(probably_meant.begin(), probably_meant.end(), field.key) !=
-                            probably_meant.end();
+      const bool misspelt = contains(probably_meant, field.key);
       if (field.is_required && !misspelt) child.missing(field.expected);
       continue;
     }

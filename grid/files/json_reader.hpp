@@ -340,11 +340,6 @@ class Record : public RecordTable {
     return object;
   }
 
-  /// The same into an object that other records fill as well; false if this is not an object.
-  bool read_into(const Cursor& at, T& object, bool is_root = false) const {
-    return read_fields(at, &object, is_root);
-  }
-
   [[nodiscard]] Json write(const T& object) const { return write_fields(&object); }
 
   operator Value<T>() const { return object(*this); }  // NOLINT: tables name the record alone

@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/precondition.hpp"
 
@@ -324,7 +325,7 @@ void append_wrapped_numbers(const Json& numbers, std::size_t indent, std::string
 }
 
 bool holds_scalars_only(const Json& value) {
-  return std::none_of(value.begin(), value.end(), [](const Json& v) { return v.is_structured(); });
+  return none_of(value, [](const Json& v) { return v.is_structured(); });
 }
 
 /// A record in a list is written on one line, however long: one point, one line.
@@ -341,8 +342,7 @@ void append_pretty(
     out += compact;
     return;
   }
-  if (value.is_array() &&
-      std::all_of(value.begin(), value.end(), [](const Json& v) { return v.is_number(); })) {
+  if (value.is_array() && all_of(value, [](const Json& v) { return v.is_number(); })) {
     append_wrapped_numbers(value, indent, out);
     return;
   }
@@ -361,9 +361,7 @@ void append_pretty(
 }  // namespace
 
 Json parse_json(const std::string& text, Problems& problems) {
-  if (std::all_of(text.begin(), text.end(), [](char c) {
-        return c == ' ' || c == '\n' || c == '\r' || c == '\t';
-      })) {
+  if (all_of(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; })) {
     problems.add("", "an empty file", "JSON text", ProblemKind::empty_file);
     problems.throw_if_any();
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -41,7 +43,7 @@ std::optional<std::string> word_among(const Cursor& at,
     return std::nullopt;
   }
   const auto& word = at.json().get_ref<const std::string&>();
-  if (std::find(names.begin(), names.end(), word) != names.end()) return word;
+  if (contains(names, word)) return word;
   const std::string meant = nearest(word, names);
   at.expect(meant.empty() ? expected : fmt::format("{}; \"{}\" is the nearest", expected, meant),
             ProblemKind::unknown_word);
@@ -283,6 +285,17 @@ Json number_schema(const Range& range) {
   if (!range.unit.empty()) schema["unit"] = std::string(range.unit);
   if (range.least > -kWiderThanAnyMeaning) schema["minimum"] = range.least;
   if (range.most < kWiderThanAnyMeaning) schema["maximum"] = range.most;
+  return schema;
+}
+
+Json schema_or_null(Json schema) {
+  if (schema.contains("enum")) {
+    schema["enum"].push_back(nullptr);
+  } else if (schema.contains("type") && schema["type"].is_string()) {
+    schema["type"] = {schema["type"], "null"};
+  } else if (!schema.empty()) {
+    schema = {{"anyOf", {schema, {{"type", "null"}}}}};
+  }
   return schema;
 }
 

@@ -218,6 +218,21 @@ template <class V>
   return list(number(range), fewest);
 }
 
+/// The schema with null allowed as well.
+[[nodiscard]] Json schema_or_null(Json schema);
+
+/// Empty where the file has null.
+template <class V>
+[[nodiscard]] Value<std::optional<V>> or_null(const Value<V>& value) {
+  return {[value](const Cursor& at) {
+            const bool is_null = at.json().is_null();
+            const std::optional<V> read = is_null ? std::nullopt : value.read(at);
+            return read || is_null ? std::make_optional(read) : std::nullopt;
+          },
+          [value](const std::optional<V>& own) { return own ? value.write(*own) : Json(nullptr); },
+          {value.expected.words, [value] { return schema_or_null(value.expected.schema()); }}};
+}
+
 /// Schema of an object whose keys are not known in advance.
 [[nodiscard]] Json dictionary_schema(const Json& element);
 

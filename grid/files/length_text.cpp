@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/length_text.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/input_checks/number_checks.hpp"
@@ -44,9 +44,7 @@ std::optional<double> take_unit(std::string_view& text) {
 
 /// Digits alone: no sign, point or exponent.
 std::optional<double> whole(std::string_view text) {
-  const bool is_whole = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return c >= '0' && c <= '9';
-  });
+  const bool is_whole = !text.empty() && all_of(text, [](char c) { return c >= '0' && c <= '9'; });
   return is_whole ? number_of(text) : std::nullopt;
 }
 
@@ -87,7 +85,8 @@ std::optional<double> inches_behind_feet(std::string_view text) {
   const auto unit = take_unit(text);
   if (unit && *unit != kMmPerInch) return std::nullopt;
   auto inches = fraction(text);
-  if (!inches && text.find_first_not_of("0123456789.") == std::string_view::npos) inches = number_of(text);
+  if (!inches && text.find_first_not_of("0123456789.") == std::string_view::npos)
+    inches = number_of(text);
   return inches && *inches < kInchesPerFoot ? inches : std::nullopt;
 }
 
@@ -102,7 +101,8 @@ std::optional<std::string> fraction_of_date(std::string_view text) {
   const std::string_view name = month_first ? text.substr(0, dash) : text.substr(dash + 1);
   const std::string_view below = month_first ? text.substr(dash + 1) : text.substr(0, dash);
   const std::size_t at = kMonths.find(name);
-  if (name.size() != 3 || at == std::string_view::npos || at % 3 != 0 || below.size() > 2 || !whole(below))
+  if (name.size() != 3 || at == std::string_view::npos || at % 3 != 0 || below.size() > 2 ||
+      !whole(below))
     return std::nullopt;
   return std::to_string(at / 3 + 1) + "/" + std::to_string(static_cast<int>(*whole(below)));
 }

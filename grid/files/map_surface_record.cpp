@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/parse_double.hpp"
 #include "grid/files/record_values.hpp"
@@ -113,8 +114,7 @@ void check_nodes(const Cursor& at, const Part& part, std::initializer_list<NodeV
   if (!rises(part.x_nodes_mm)) at.child("x_nodes_mm").expect("numbers that rise");
   if (!rises(part.y_nodes_mm)) at.child("y_nodes_mm").expect("numbers that rise");
   const auto shape = [&](const std::vector<Numbers>& rows) {
-    return rows.size() == part.x_nodes_mm.size() &&
-           std::all_of(rows.begin(), rows.end(), [&](const Numbers& column) {
+    return rows.size() == part.x_nodes_mm.size() && all_of(rows, [&](const Numbers& column) {
              return column.size() == part.y_nodes_mm.size();
            });
   };

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 
 namespace chaintrue::grid::files {
@@ -24,7 +25,9 @@ constexpr std::size_t kMostNames = 20'000;
 constexpr std::size_t kMostConditions = 100;
 
 bool is_of_a_name(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
-bool begins_a_number(char c) { return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool begins_a_number(char c) {
+  return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
 
 /// Words and signs, one after another.
 struct CodeReader {
@@ -135,7 +138,8 @@ class CFormula {
   /// NaN if the text is not a formula.
   double value() {
     const CNumber whole = sum();
-    return is_formula_ && code_.is_at_end() ? whole.value : std::numeric_limits<double>::quiet_NaN();
+    return is_formula_ && code_.is_at_end() ? whole.value
+                                            : std::numeric_limits<double>::quiet_NaN();
   }
   /// A quotient of whole numbers that is not whole.
   [[nodiscard]] std::optional<double> cut() const { return cut_; }
@@ -167,9 +171,11 @@ class CFormula {
       return {-own.value, own.is_whole};
     }
     if (code_.takes("+")) return factor();
-    if (!trimmed(code_.rest).empty() && begins_a_number(trimmed(code_.rest).front())) return number();
+    if (!trimmed(code_.rest).empty() && begins_a_number(trimmed(code_.rest).front()))
+      return number();
     const std::string function = code_.word();
-    is_formula_ = (function.empty() || function == "sq" || function == "sqrt") && code_.takes("(") && is_formula_;
+    is_formula_ = (function.empty() || function == "sq" || function == "sqrt") &&
+                  code_.takes("(") && is_formula_;
     if (!is_formula_) return {};
     const CNumber own = sum();
     is_formula_ = code_.takes(")") && is_formula_;
@@ -179,9 +185,9 @@ class CFormula {
   CNumber number() {
     const std::string_view rest = trimmed(code_.rest);
     std::size_t end = 0;
-    while (end < rest.size() &&
-           (begins_a_number(rest[end]) || is_of_a_name(rest[end]) ||
-            ((rest[end] == '-' || rest[end] == '+') && (rest[end - 1] == 'e' || rest[end - 1] == 'E'))))
+    while (end < rest.size() && (begins_a_number(rest[end]) || is_of_a_name(rest[end]) ||
+                                 ((rest[end] == '-' || rest[end] == '+') &&
+                                  (rest[end - 1] == 'e' || rest[end - 1] == 'E'))))
       ++end;
     std::string_view digits = rest.substr(0, end);
     code_.rest = rest.substr(end);
@@ -209,10 +215,12 @@ class Defines {
       const std::string place = fmt::format("line {}", first);
       take(line, place);
       if (branches_.size() <= kMostConditions && defined_.size() <= kMostNames) continue;
-      problems_.add(place,
-                    "more names or conditions",
-                    fmt::format("at most {} names, and {} conditions within each other", kMostNames, kMostConditions),
-                    ProblemKind::too_many);
+      problems_.add(
+          place,
+          "more names or conditions",
+          fmt::format(
+              "at most {} names, and {} conditions within each other", kMostNames, kMostConditions),
+          ProblemKind::too_many);
       return;
     }
   }
@@ -266,7 +274,8 @@ class Defines {
     } else if (directive == "elif" || directive == "else") {
       if (branches_.empty()) return;
       Branch& own = branches_.back();
-      own.holds = both_hold(negated(own.held), directive == "else" ? Truth(true) : condition(code.rest));
+      own.holds =
+          both_hold(negated(own.held), directive == "else" ? Truth(true) : condition(code.rest));
       own.held = one_holds(own.held, own.holds);
     } else if (directive == "define" || directive == "undef") {
       const std::string name = code.word();
@@ -277,9 +286,8 @@ class Defines {
   void open(Truth holds) { branches_.push_back({holds, holds}); }
 
   void define(const std::string& name, SettingText own, bool is_undefined) {
-    const bool may_hold = std::none_of(branches_.begin(), branches_.end(), [](const Branch& branch) {
-      return branch.holds == Truth(false);
-    });
+    const bool may_hold =
+        none_of(branches_, [](const Branch& branch) { return branch.holds == Truth(false); });
     Definition& all = defined_[name];
     std::vector<SettingText>& texts = may_hold ? all.in_force : all.others;
     if (is_undefined) {
@@ -313,17 +321,19 @@ class Defines {
         own->second.in_force.empty() ? own->second.others : own->second.in_force;
     if (texts.size() == 1) return &texts.front();
     if (texts.size() > 1 && reported_.insert(name).second) {
-      problems_.add(texts[0].place,
-                    fmt::format("{} {}, and at {}, {}", name, texts[0].text, texts[1].place, texts[1].text),
-                    "one #define of it: which #if holds is not known here, so leave the one in force",
-                    ProblemKind::repeated_key);
+      problems_.add(
+          texts[0].place,
+          fmt::format("{} {}, and at {}, {}", name, texts[0].text, texts[1].place, texts[1].text),
+          "one #define of it: which #if holds is not known here, so leave the one in force",
+          ProblemKind::repeated_key);
     }
     return nullptr;
   }
 
   /// Appends the text, with names replaced as long as there are any and room.
   void expand(std::string_view text, std::string& formula, std::size_t& words_left) {
-    for (std::size_t i = 0; i < text.size() && words_left > 0 && formula.size() <= kLongestFormula;) {
+    for (std::size_t i = 0;
+         i < text.size() && words_left > 0 && formula.size() <= kLongestFormula;) {
       std::size_t end = i;
       while (end < text.size() && (is_of_a_name(text[end]) || text[end] == '.')) ++end;
       const std::string word(text.substr(i, end - i));
@@ -355,17 +365,16 @@ class Defines {
     }
     const std::string_view hint =
         looks_like_decimal_comma(formula) ? ", with a decimal point, not a comma" : "";
-    problems_.add(own.place,
-                  own.text.empty() ? "nothing" : own.text,
-                  std::isfinite(value)
-                      ? fmt::format("a quotient that comes out whole, or .0 behind one of its numbers: "
-                                    "the compiler cuts {} down ({})",
-                                    *parsed.cut(),
-                                    name)
-                      : fmt::format("a number, or a sum of numbers and of defined names ({}){}",
-                                    name,
-                                    hint),
-                  kind_of_bad_number(formula));
+    problems_.add(
+        own.place,
+        own.text.empty() ? "nothing" : own.text,
+        std::isfinite(value)
+            ? fmt::format("a quotient that comes out whole, or .0 behind one of its numbers: "
+                          "the compiler cuts {} down ({})",
+                          *parsed.cut(),
+                          name)
+            : fmt::format("a number, or a sum of numbers and of defined names ({}){}", name, hint),
+        kind_of_bad_number(formula));
   }
 
   Problems& problems_;

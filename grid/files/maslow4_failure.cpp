@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -128,9 +127,10 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
       model::words(worst),
       std::abs(excess_mm),
       excess_mm > 0.0 ? "longer" : "shorter",
-      turns > 0      ? fmt::format("{}, lost or gained,", turns_in_words(turns))
-      : excess_mm > 0.0 ? "a slack belt, or an anchor nearer than in the settings,"
-                     : "an anchor that is farther than in the settings, or an arm that catches,");
+      turns > 0 ? fmt::format("{}, lost or gained,", turns_in_words(turns))
+      : excess_mm > 0.0
+          ? "a slack belt, or an anchor nearer than in the settings,"
+          : "an anchor that is farther than in the settings, or an arm that catches,");
 }
 
 std::string_view by_kind(StopKind kind) {
@@ -200,8 +200,7 @@ bool is_setting_refused(std::string_view line) {
                                                       "Using default configuration",
                                                       "Configuration validation error",
                                                       "Cannot open configuration file"};
-  return std::any_of(
-      kSigns.begin(), kSigns.end(), [&](std::string_view sign) { return has(line, sign); });
+  return any_of(kSigns, [&](std::string_view sign) { return has(line, sign); });
 }
 
 std::string words_of(const SettingsRefused& refused) {
@@ -209,7 +208,8 @@ std::string words_of(const SettingsRefused& refused) {
       "the controller refused its settings ({}), so those typed in or found are not in force. "
       "Firmware "
       "before July 2025 takes lines such as $/Maslow_trX=, later firmware "
-      "$/kinematics/MaslowKinematics/trX=. Look at the maslow.yaml that is on the machine, send the "
+      "$/kinematics/MaslowKinematics/trX=. Look at the maslow.yaml that is on the machine, send "
+      "the "
       "lines in its layout (export maslow4 writes them so once import maslow4 was given it as "
       "--settings), restart the machine and see that it prints no error",
       shortened(refused.said));
@@ -224,8 +224,7 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   text += found.empty() ? std::string(by_kind(stopped.kind)) : found;
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {
-    text += fmt::format(
-        " {} places were read before: chaintrue diagnose can use these.", count);
+    text += fmt::format(" {} places were read before: chaintrue diagnose can use these.", count);
   } else {
     text += fmt::format(" {} were read before; a fit needs {}.",
                         count == 0   ? "No places"

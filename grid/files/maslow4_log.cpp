@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
 #include "grid/files/maslow4_places.hpp"
 #include "grid/files/maslow4_scan.hpp"
@@ -26,7 +27,8 @@ class Settings {
  public:
   Settings(const Maslow4Options& options, std::vector<std::string>& assumed)
       : problems_(options.settings_file),
-        reader_(options.settings ? yaml_texts(*options.settings, problems_) : SettingTexts{}, problems_),
+        reader_(options.settings ? yaml_texts(*options.settings, problems_) : SettingTexts{},
+                problems_),
         assumed_(assumed) {
     if (options.settings && reader_.empty()) {
       problems_.add("", "no settings", "the machine's maslow.yaml", ProblemKind::missing);
@@ -66,7 +68,7 @@ std::vector<std::string> keys_of(const std::string& key) {
 /// accepts.
 void take_names(Settings& settings, BeltMachine& machine) {
   const auto has = [&](std::size_t names) {
-    return std::any_of(kBelts.begin(), kBelts.end(), [&](Belt belt) {
+    return any_of(kBelts, [&](Belt belt) {
       return settings.reader().look(keys_of(std::string(name(belt)) + "X")[names]) != nullptr;
     });
   };
@@ -184,14 +186,16 @@ std::vector<LogPart> log_parts_of(const std::string& text, const std::string& op
     const auto points = pair_of(part, ':', 0, kMost);
     const auto run = number_of(part);
     if (points && (*points)[0] <= (*points)[1]) {
-      parts.emplace_back(PointRange{static_cast<std::size_t>((*points)[0]), static_cast<std::size_t>((*points)[1])});
+      parts.emplace_back(PointRange{static_cast<std::size_t>((*points)[0]),
+                                    static_cast<std::size_t>((*points)[1])});
     } else if (run && *run >= 1.0 && *run <= kMost && *run == std::floor(*run)) {
       parts.emplace_back(static_cast<int>(*run));
     } else {
       throw InputError({{"the command line",
                          option,
                          shortened(text),
-                         "runs, counted from 1, as in 1,2; or first and last point, counted from 0, as in 0:98"}});
+                         "runs, counted from 1, as in 1,2; or first and last point, counted from "
+                         "0, as in 0:98"}});
     }
   }
   return parts;
@@ -202,7 +206,8 @@ namespace {
 /// No readings: describes a log, or why the run in it failed.
 void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
   if (log.refused) {
-    problems.explain(fmt::format("line {}", log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
+    problems.explain(
+        fmt::format("line {}", log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
     return;
   }
   if (log.stopped) {
@@ -329,10 +334,9 @@ Maslow4Import parse_maslow4(const std::string& text,
   choose_lengths(options, taken.is_list, belts.machine, result.assumed);
   const bool is_last = result.taken + 1 == runs.size();
   if (is_last && !log.list_has_end) {
-    problems.warn(
-        "",
-        "the log ends in the middle of a list: the readings before are used. If the list "
-        "continues, paste it again from its beginning to its end");
+    problems.warn("",
+                  "the log ends in the middle of a list: the readings before are used. If the list "
+                  "continues, paste it again from its beginning to its end");
   }
   if (log.first_passed_over) {
     problems.warn(fmt::format("line {}", *log.first_passed_over),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/maslow4_text.hpp"
 #include "grid/files/number_text.hpp"
@@ -98,8 +99,7 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
     if (value) lengths_mm[*belt] = *value;
   }
   // Objects of other programs.
-  if (std::none_of(kBelts.begin(), kBelts.end(), [&](Belt belt) { return known[belt]; }))
-    return std::nullopt;
+  if (none_of(kBelts, [&](Belt belt) { return known[belt]; })) return std::nullopt;
   const std::string whole = fmt::format("{{{}{}", unquoted(text), end == End::lost ? "" : "}");
   for (const Belt belt : kBelts) {
     if (!known[belt]) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "grid/belts/two_frames.hpp"
+#include "grid/containers.hpp"
 #include "grid/files/number_text.hpp"
 
 namespace chaintrue::grid::files {
@@ -39,10 +40,11 @@ void give_pull(const BeltPull& pull, MeasuredBelts& belts) {
 
 void check_all_have_pulls(const std::vector<Maslow4Import>& runs, std::size_t given) {
   if (given > 0 && given != runs.size()) {
-    throw InputError({{"the command line",
-                       "--pulls",
-                       fmt::format("{}", given),
-                       fmt::format("a pull for each of the {} runs, in their order", runs.size())}});
+    throw InputError(
+        {{"the command line",
+          "--pulls",
+          fmt::format("{}", given),
+          fmt::format("a pull for each of the {} runs, in their order", runs.size())}});
   }
   if (given > 0 || runs.size() == 1) return;
   for (const Maslow4Import& run : runs) {
@@ -51,7 +53,8 @@ void check_all_have_pulls(const std::vector<Maslow4Import>& runs, std::size_t gi
         {{run.belts.name,
           "",
           "no Maslow_Calibration_Current_Threshold",
-          "how hard belts were pulled in each run: --pulls 1300mA,1900mA (that setting), or --pulls "
+          "how hard belts were pulled in each run: --pulls 1300mA,1900mA (that setting), or "
+          "--pulls "
           "1,1.6 where only the ratio is known; --pulls 1,1 where nothing was changed"}});
   }
 }
@@ -104,7 +107,7 @@ Maslow4Import one_session(std::vector<Maslow4Import> runs, const std::vector<Bel
       session.belts.points.push_back(std::move(point));
     }
     check_frame(session.belts, run.belts.name);
-    session.warnings.insert(session.warnings.end(), run.warnings.begin(), run.warnings.end());
+    append_all(session.warnings, run.warnings);
     session.is_enough = session.is_enough || run.is_enough;
     if (run.stopped) session.stopped = std::move(run.stopped);
     // The machine's own figures cover one run.

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/length_text.hpp"
 #include "grid/files/parse_double.hpp"
 
@@ -93,7 +94,7 @@ bool looks_like_decimal_comma(std::string_view text) {
   }
   if (comma == 0 || comma + 1 == text.size()) return false;
   if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return false;
-  return std::all_of(text.begin(), text.end(), [](char c) {
+  return all_of(text, [](char c) {
     return is_digit(c) || c == ',' || c == '.' || c == '-' || c == '+' || c == ' ';
   });
 }

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/grid_checks.hpp"
 #include "grid/files/ranges.hpp"
@@ -101,9 +101,7 @@ int visit(VisitOrder order, int row, int column) {
 void number_visits(std::vector<StatedPoint>& points) {
   std::vector<StatedPoint*> in_order;
   for (StatedPoint& point : points) in_order.push_back(&point);
-  std::sort(in_order.begin(), in_order.end(), [](const StatedPoint* a, const StatedPoint* b) {
-    return *a->order < *b->order;
-  });
+  sort(in_order, [](const StatedPoint* a, const StatedPoint* b) { return *a->order < *b->order; });
   for (std::size_t i = 0; i < in_order.size(); ++i) in_order[i]->order = static_cast<int>(i);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "grid/containers.hpp"
 #include "grid/files/content_hash.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/input_error.hpp"
@@ -64,7 +65,7 @@ std::vector<std::string> comments_of(const Json& document) {
 
 bool is_as_signed(const Json& document) {
   const std::vector<std::string> comments = comments_of(document);
-  return std::any_of(comments.begin(), comments.end(), [&](const std::string& comment) {
+  return any_of(comments, [&](const std::string& comment) {
     return comment == std::string(kSignature) + content_hash(document);
   });
 }

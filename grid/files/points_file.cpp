@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/points_file.hpp"
 
-#include <algorithm>
-
+#include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -17,7 +16,7 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
   Problems problems(file);
   // A list of commands: the positions that the tool was sent to.
   const std::vector<std::string> header = csv_header(text);
-  const bool is_sheet = std::find(header.begin(), header.end(), "commanded_x_mm") != header.end();
+  const bool is_sheet = contains(header, "commanded_x_mm");
   const CsvTable table = read_csv(text,
                                   {{"x_mm", kCoordinate, true, is_sheet},
                                    {"y_mm", kCoordinate, true, is_sheet},

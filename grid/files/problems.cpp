@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -83,16 +85,14 @@ void Problems::warn(std::string place, std::string sentence, std::optional<Probl
   warnings_.push_back({file_, std::move(place), std::move(sentence), kind});
 }
 
-void Problems::add_all(const InputError& error) {
-  list_.insert(list_.end(), error.problems().begin(), error.problems().end());
-}
+void Problems::add_all(const InputError& error) { append_all(list_, error.problems()); }
 
 void Problems::add_warnings(const std::vector<Warning>& warnings) {
-  warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
+  append_all(warnings_, warnings);
 }
 
 bool Problems::at_or_below(std::string_view pointer) const {
-  return std::any_of(list_.begin(), list_.end(), [pointer](const InputProblem& problem) {
+  return any_of(list_, [pointer](const InputProblem& problem) {
     const std::string_view place = problem.place;
     return place.substr(0, pointer.size()) == pointer &&
            (place.size() == pointer.size() || place[pointer.size()] == '/');
@@ -105,8 +105,7 @@ void Problems::throw_if_any() const {
   if (shown.size() > kMostProblems) {
     const std::size_t more = shown.size() - kMostProblems;
     shown.resize(kMostProblems);
-    shown.push_back(
-        {file_,
+    shown.push_back({file_,
                      "",
                      fmt::format("{} more problems", more),
                      "those above corrected first",

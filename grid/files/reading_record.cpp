@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -39,7 +41,7 @@ void check_reading(const Cursor& at, ExtraReading& reading) {
     if (reading.side.empty() || !at.child("side").clean()) continue;
     if (sides.empty())
       at.child("side").expect(fmt::format("no side, {} has none", name(kind.what)));
-    if (!sides.empty() && std::find(sides.begin(), sides.end(), reading.side) == sides.end()) {
+    if (!sides.empty() && !contains(sides, reading.side)) {
       at.child("side").expect(fmt::format("{} for {}", fmt::join(sides, ", "), name(kind.what)));
     }
   }

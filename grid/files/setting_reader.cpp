@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 
 namespace chaintrue::grid::files {
@@ -43,7 +44,9 @@ bool is_first(std::map<std::string, std::string>& places,
   return is_new;
 }
 
-std::string at_most_settings() { return fmt::format("at most {} lines of settings", kMostSettings); }
+std::string at_most_settings() {
+  return fmt::format("at most {} lines of settings", kMostSettings);
+}
 
 }  // namespace
 
@@ -59,7 +62,8 @@ SettingReader::SettingReader(SettingTexts texts,
                              Problems& problems,
                              std::vector<std::string> folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
-  if (texts_.size() > kMostSettings) problems.add("", "more settings", at_most_settings(), ProblemKind::too_many);
+  if (texts_.size() > kMostSettings)
+    problems.add("", "more settings", at_most_settings(), ProblemKind::too_many);
 }
 
 const SettingText* SettingReader::look(const std::string& key) {
@@ -99,7 +103,7 @@ std::optional<std::string> SettingReader::find_word(const std::string& key,
                                                     const std::vector<std::string>& words) {
   const SettingText* setting = look(key);
   if (setting == nullptr) return std::nullopt;
-  if (std::find(words.begin(), words.end(), setting->text) != words.end()) return setting->text;
+  if (contains(words, setting->text)) return setting->text;
   problems_.add(setting->place,
                 setting->text.empty() ? "nothing" : setting->text,
                 fmt::format("{} ({})", fmt::join(words, " or "), key),
@@ -164,7 +168,8 @@ SettingTexts yaml_texts(const std::string& text, Problems& problems) {
     const std::string path = levels.empty() ? key : levels.back().path + "/" + key;
     levels.push_back({indent, path});
     const bool is_of_a_list = path.find("/-") != std::string::npos || path.starts_with("-");
-    if (!is_of_a_list && !is_first(places, path, line_place(number), trimmed(line), problems)) continue;
+    if (!is_of_a_list && !is_first(places, path, line_place(number), trimmed(line), problems))
+      continue;
     const std::string_view value = trimmed(std::string_view(line).substr(colon + 1));
     if (!value.empty()) texts[path] = {std::string(value), line_place(number)};
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/read_log.hpp"
 
 namespace chaintrue::grid::files {
@@ -35,8 +36,7 @@ void state_sources(std::vector<SourceFile> sources) { stated_sources() = std::mo
 
 void note_source(SourceFile source) {
   std::vector<SourceFile>& sources = sources_of_this_thread();
-  if (std::find(sources.begin(), sources.end(), source) == sources.end())
-    sources.push_back(std::move(source));
+  if (!contains(sources, source)) sources.push_back(std::move(source));
 }
 
 void forget_sources() {
@@ -49,9 +49,8 @@ std::vector<std::string> changed_since(const Provenance& then, const std::vector
   std::vector<std::string> changed;
   for (const SourceFile& given : now) {
     const auto has_name = [&](const SourceFile& one) { return one.name == given.name; };
-    const bool was_there = std::any_of(then.inputs.begin(), then.inputs.end(), has_name);
-    const bool is_same =
-        std::find(then.inputs.begin(), then.inputs.end(), given) != then.inputs.end();
+    const bool was_there = any_of(then.inputs, has_name);
+    const bool is_same = contains(then.inputs, given);
     if (was_there && !is_same) changed.push_back(given.name);
   }
   return changed;

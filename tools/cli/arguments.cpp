@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -168,7 +169,7 @@ std::vector<GivenOption> Verb::given_options() const {
   for (CLI::App* group : app_->get_subcommands([](const CLI::App*) { return true; })) {
     if (!group->get_name().empty()) continue;
     const std::vector<GivenOption> own = Verb(*group).given_options();
-    given.insert(given.end(), own.begin(), own.end());
+    grid::append_all(given, own);
   }
   return given;
 }

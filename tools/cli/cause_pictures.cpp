@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/synthetic/strength.hpp"
 #include "model/reading_model.hpp"
@@ -67,8 +68,7 @@ std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
     const auto shifts =
         grid::synthetic::signature(machine_without(found, applied), {applied}, visits)
             .tool_shift_mm();
-    const bool finite = std::all_of(
-        shifts.begin(), shifts.end(), [](const auto& shift) { return shift.allFinite(); });
+    const bool finite = grid::all_of(shifts, [](const auto& shift) { return shift.allFinite(); });
     return finite ? std::optional(shifts) : std::nullopt;
   } catch (const std::invalid_argument&) {
     return std::nullopt;

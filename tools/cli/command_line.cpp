@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "grid/containers.hpp"
 #include "grid/files/problems.hpp"
 
 namespace chaintrue::cli {
@@ -29,7 +30,7 @@ void add_options(const CLI::App& app, std::vector<std::string>& names) {
 
 const CLI::App* verb_named(const CLI::App& app, const std::string& name) {
   const std::vector<std::string> names = verbs_of(app);
-  if (std::find(names.begin(), names.end(), name) == names.end()) return nullptr;
+  if (!grid::contains(names, name)) return nullptr;
   return app.get_subcommand(name);
 }
 
@@ -64,7 +65,7 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
   for (; at < words.size(); ++at) {
     const std::string option = words[at].substr(0, words[at].find('='));
     if (option.rfind("--", 0) != 0 || option == "--") continue;
-    if (std::find(known.begin(), known.end(), option) != known.end()) continue;
+    if (grid::contains(known, option)) continue;
     const std::string near = grid::files::nearest(option, known);
     if (near.empty()) {
       return fmt::format(

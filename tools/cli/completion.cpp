@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -211,7 +212,7 @@ std::string item_of(const CLI::Option& option) {
 
 std::string manual_of(const Command& command) {
   std::vector<std::string> words = {"chaintrue"};
-  words.insert(words.end(), command.words.begin(), command.words.end());
+  grid::append_all(words, command.words);
   const std::string title = fmt::format("{}", fmt::join(words, "-"));
   std::string text =
       fmt::format(".TH \"{}\" 1 \"\" \"chaintrue {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n",

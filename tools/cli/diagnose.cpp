@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -43,10 +44,9 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next({"report", command.output, "-o", page_alongside(command.output)});
   std::vector<std::string> words;
-  const bool parts_causes = std::any_of(
-      found.next_measurements.begin(), found.next_measurements.end(), [&](const auto& next) {
-        return !found.belts || next.kind != grid::diagnosis::MeasurementKind::distance;
-      });
+  const bool parts_causes = grid::any_of(found.next_measurements, [&](const auto& next) {
+    return !found.belts || next.kind != grid::diagnosis::MeasurementKind::distance;
+  });
   if (found.belts && (command.output.empty() || !parts_causes || !command.without.empty())) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
     if (!command.without.empty()) words.insert(words.end(), {"--without", command.without});
@@ -109,16 +109,18 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(found, source); });
   add(command.corrected_grid, [&] {
-    const auto ordered =
-        found.visiting_order ? grid::diagnosis::visited_in(input, found.visiting_order->order) : std::nullopt;
+    const auto ordered = found.visiting_order
+                             ? grid::diagnosis::visited_in(input, found.visiting_order->order)
+                             : std::nullopt;
     grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
-    return corrected_grid_text(found, std::move(corrected), ordered || !command.assume_order.empty());
+    return corrected_grid_text(
+        found, std::move(corrected), ordered || !command.assume_order.empty());
   });
   tl::expected<std::string, std::string> law;
   if (!command.law.empty()) law = law_text(found);
   if (law && !law->empty()) outputs.push_back({command.law, *law});
-  const bool is_stdout_taken = std::any_of(
-      outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
+  const bool is_stdout_taken =
+      grid::any_of(outputs, [](const auto& output) { return output.path == "-"; });
   write_outputs(outputs);
   if (command.json && !is_stdout_taken) {
     fmt::print("{}", written);
@@ -201,14 +203,15 @@ void add_diagnose(Verb app) {
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links, without "
-                 "a measurement of them")
+                "a measurement of them")
       .acts_on(facts::grid | facts::holes,
                "to be left out: it is of a chain or a tape that is long");
   verb.add_flag("--no-gain",
                 command->without_gain,
                 "Do not compute how much naming the causes improves the map, which takes most of "
                 "the time")
-      .acts_on(facts::grid | facts::holes, "to be left out of belts and drawings: what is gained is of a map");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out of belts and drawings: what is gained is of a map");
   add_number(verb,
              "--seed",
              command->seed,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "grid/belts/belts_error.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/belts_file.hpp"
@@ -29,9 +30,7 @@ namespace {
 void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) {
   if (command.assume_order.empty()) return;
   OptionProblems problems;
-  if (std::any_of(measured.points.begin(), measured.points.end(), [](const auto& point) {
-        return point.order.has_value();
-      })) {
+  if (grid::any_of(measured.points, [](const auto& point) { return point.order.has_value(); })) {
     problems.add("--assume-order",
                  command.assume_order,
                  "to be left out, because these points have the order of their visits",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
@@ -86,9 +87,8 @@ Section next_section(const Diagnosis& found) {
                             "{}; the command prints the lines.",
                             where_it_goes(found)),
                 Detail::page});
-  const bool has_places = std::any_of(found.next_measurements.begin(),
-                                      found.next_measurements.end(),
-                                      [](const auto& next) { return next.mark.has_value(); });
+  const bool has_places =
+      grid::any_of(found.next_measurements, [](const auto& next) { return next.mark.has_value(); });
   if (found.belts) return section;
   if (has_places && !is_of_distances(found)) section.blocks.emplace_back(next_points_chart(found));
   if (proposes(found, grid::diagnosis::MeasurementKind::distance))
@@ -135,10 +135,9 @@ Section remarks_section(const Diagnosis& found) {
                     fmt::format("the noise found is {:.2f} times that.", found.noise_factor),
                 Detail::page});
   for (const auto& correction : found.data_corrections) {
-    section.blocks.emplace_back(
-        Paragraph{fmt::format("Corrected in the data, not in the machine: {}.",
-                              cause_title(correction)),
-                  Detail::page});
+    section.blocks.emplace_back(Paragraph{
+        fmt::format("Corrected in the data, not in the machine: {}.", cause_title(correction)),
+        Detail::page});
   }
   return section;
 }

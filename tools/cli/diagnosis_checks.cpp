@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
@@ -46,7 +47,7 @@ Table removals_table(const Diagnosis& found) {
   constexpr std::size_t kShown = 8;
   std::vector<const Removal*> order;
   for (const Removal& removal : found.stability->removals) order.push_back(&removal);
-  std::stable_sort(order.begin(), order.end(), [](const Removal* a, const Removal* b) {
+  grid::stable_sort(order, [](const Removal* a, const Removal* b) {
     return a->stands != b->stands ? b->stands : a->support > b->support;
   });
   const auto changes =
@@ -84,8 +85,7 @@ Section stability_section(const Diagnosis& found) {
                       fmt::format("Does the name depend on a few {}?", name(found.observations))};
   section.blocks.emplace_back(removals_table(found));
   const auto& removals = found.stability->removals;
-  section.is_folded = std::all_of(
-      removals.begin(), removals.end(), [](const Removal& removal) { return removal.stands; });
+  section.is_folded = grid::all_of(removals, [](const Removal& removal) { return removal.stands; });
   return section;
 }
 

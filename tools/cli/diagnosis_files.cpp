@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"
@@ -22,9 +23,7 @@ std::string corrected_grid_text(const Diagnosis& found,
                                 grid::MeasuredGrid measured,
                                 bool order_assumed) {
   measured.machine = found.extended_machine;
-  measured.machine->effects.insert(measured.machine->effects.end(),
-                                   found.data_corrections.begin(),
-                                   found.data_corrections.end());
+  grid::append_all(measured.machine->effects, found.data_corrections);
   auto corrected = grid::corrected_data(measured);
   if (!corrected)
     throw files::InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});

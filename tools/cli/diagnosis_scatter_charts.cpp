@@ -66,7 +66,8 @@ std::vector<std::pair<double, double>> means_of(const Diagnosis& found, const Sc
 
 Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   const bool has_after = !scatter.by_direction && !found.causes.empty();
-  ResidualScatter chart{.title = scatter.title, .caption = scatter.caption, .x_title = scatter.x_title};
+  ResidualScatter chart{
+      .title = scatter.title, .caption = scatter.caption, .x_title = scatter.x_title};
   const auto add = [&](const PointPicture& point, double residual_mm, bool is_first) {
     chart.dots.push_back({point_name(point.index),
                           scatter.x(point, scatter.chain),
@@ -155,19 +156,17 @@ report::ChartRow angle_charts(const Diagnosis& found) {
 }
 
 bool has_order(const Diagnosis& found) {
-  return !found.points.empty() &&
-         std::all_of(found.points.begin(), found.points.end(), [](const PointPicture& point) {
-           return point.order.has_value();
-         });
+  return !found.points.empty() && grid::all_of(found.points, [](const PointPicture& point) {
+    return point.order.has_value();
+  });
 }
 
 report::ChartRow order_charts(const Diagnosis& found) {
   // A cause of the visit shows before it is removed; without one, other causes would only hide the
   // remainder.
-  const bool of_the_visit =
-      std::any_of(found.causes.begin(), found.causes.end(), [](const auto& cause) {
-        return model::effects::depends_on_visit(*cause.cause.effect);
-      });
+  const bool of_the_visit = grid::any_of(found.causes, [](const auto& cause) {
+    return model::effects::depends_on_visit(*cause.cause.effect);
+  });
   const bool shows_rest = !of_the_visit && !found.causes.empty();
   report::ChartRow row;
   for (const Side chain : model::kSides) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/residual_scatter.hpp"
@@ -105,7 +106,7 @@ class Panels {
   Chart finish(Chart chart) {
     chart.specification = "hole_distances";
     std::vector<report::Arrow> marks = marks_of(found_);
-    marks.insert(marks.end(), marks_.begin(), marks_.end());
+    grid::append_all(marks, marks_);
     chart.signals = report::bed_signals(bed_of(found_), marks);
     chart.signals.push_back({"panels", static_cast<double>(heads_.rows.size())});
     chart.data = {std::move(heads_), std::move(lines_), std::move(holes_)};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/files/parse_double.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -66,14 +67,17 @@ void OptionProblems::add(std::string_view option,
 
 void OptionProblems::require(std::string_view option, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most), grid::ProblemKind::out_of_range);
+  add(option,
+      fmt::format("{}", value),
+      fmt::format("a number from {} to {}", least, most),
+      grid::ProblemKind::out_of_range);
 }
 
 void OptionProblems::take_from(const std::function<void()>& check) {
   try {
     check();
   } catch (const grid::files::InputError& error) {
-    problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+    grid::append_all(problems_, error.problems());
   }
 }
 

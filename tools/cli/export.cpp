@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/anchors_file.hpp"
@@ -275,7 +276,7 @@ std::string left_out_in_words(const grid::diagnosis::Diagnosis& found) {
     return same.cause.effect->station == model::effects::Station::paper;
   };
   for (const grid::diagnosis::Cause& cause : causes_left_out(found)) {
-    if (std::none_of(cause.same_as.begin(), cause.same_as.end(), is_of_paper)) continue;
+    if (grid::none_of(cause.same_as, is_of_paper)) continue;
     words += fmt::format(
         "These numbers leave out what may be {}{} or the tape that the marks were measured with. A "
         "map "
@@ -339,14 +340,13 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
     const grid::diagnosis::Diagnosis found = load_diagnosis(file);
     if (found.drawing) refuse_drawing(file);
     if (found.belts) {
-      throw files::InputError(
-          {{file.name,
-            "/observations",
-            "a diagnosis of four belts",
-            "one of a machine on chains; for belts use export maslow4"}});
+      throw files::InputError({{file.name,
+                                "/observations",
+                                "a diagnosis of four belts",
+                                "one of a machine on chains; for belts use export maslow4"}});
     }
     std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
-    taken.insert(taken.end(), found.data_corrections.begin(), found.data_corrections.end());
+    grid::append_all(taken, found.data_corrections);
     if (!forced && refuses_weak_causes(taken, file.name))
       return Exported{{}, "", {}, std::nullopt, true};
     return of_diagnosis(file, found);
@@ -400,11 +400,10 @@ std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file,
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
   if (found.drawing) refuse_drawing(file);
   if (!found.belts) {
-    throw files::InputError(
-        {{file.name,
-          "/observations",
-          "a diagnosis of a machine on chains",
-          "one of four belts; for chains use export groundcontrol"}});
+    throw files::InputError({{file.name,
+                              "/observations",
+                              "a diagnosis of a machine on chains",
+                              "one of four belts; for chains use export groundcontrol"}});
   }
   return files::write_maslow4_settings(found);
 }

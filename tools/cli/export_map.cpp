@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "grid/containers.hpp"
 #include "grid/files/klipper_kinematics.hpp"
 #include "grid/files/linuxcnc_kinematics.hpp"
 #include "grid/map/map_in_frame.hpp"
@@ -75,7 +76,7 @@ void check_module_name(const std::string& output, OptionProblems& problems) {
   const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
   const bool is_identifier =
       !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
-      std::all_of(name.begin(), name.end(), [&](char c) {
+      grid::all_of(name, [&](char c) {
         return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
       });
   if (!is_identifier) {

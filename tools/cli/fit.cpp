@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/fit_file.hpp"
 #include "grid/files/map_file.hpp"
@@ -199,7 +200,7 @@ int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile&
 }
 
 Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
-  const bool of_belts = std::any_of(files.begin(), files.end(), is_of_four_belts);
+  const bool of_belts = grid::any_of(files, is_of_four_belts);
   Facts facts = command.surface == "direct" ? facts::direct : facts::residual;
   if (!command.plain) facts |= facts::causes;
   if (command.outside.way == "fade") facts |= facts::fade;

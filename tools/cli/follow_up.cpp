@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
@@ -44,19 +45,15 @@ std::string follow_up_list(const Diagnosis& found) {
   std::string text = "Measure, in this order:\n";
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < sentences.size(); ++i) {
-    fmt::format_to(std::back_inserter(text),
-                   "{:>3}. {}{}\n",
-                   i + 1,
-                   sentences[i],
-                   chance_then(found, i));
+    fmt::format_to(
+        std::back_inserter(text), "{:>3}. {}{}\n", i + 1, sentences[i], chance_then(found, i));
   }
   return text;
 }
 
 bool proposes(const Diagnosis& found, MeasurementKind kind) {
-  return std::any_of(found.next_measurements.begin(),
-                     found.next_measurements.end(),
-                     [&](const NextMeasurement& next) { return next.kind == kind; });
+  return grid::any_of(found.next_measurements,
+                      [&](const NextMeasurement& next) { return next.kind == kind; });
 }
 
 std::string points_json(const Diagnosis& found, const MeasuredGrid& measured) {

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <vector>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
@@ -28,9 +30,7 @@ class FreeNames {
     std::string name;
     do {
       name = fmt::format("N{}", ++number_);
-    } while (std::any_of(set_.holes.begin(), set_.holes.end(), [&](const grid::Hole& hole) {
-      return hole.name == name;
-    }));
+    } while (grid::any_of(set_.holes, [&](const grid::Hole& hole) { return hole.name == name; }));
     return name;
   }
 
@@ -49,9 +49,8 @@ std::string name_in_file(const MeasuredHoles& set, std::size_t position, const s
   for (const grid::Hole& hole : set.holes) {
     if (name_in_diagnosis(hole, position) == name) return hole.name;
   }
-  const bool edge = std::any_of(std::begin(grid::kSheetEdges),
-                                std::end(grid::kSheetEdges),
-                                [&](grid::SheetEdge e) { return grid::name(e) == name; });
+  const bool edge =
+      grid::any_of(grid::kSheetEdges, [&](grid::SheetEdge e) { return grid::name(e) == name; });
   return edge ? name : "";
 }
 

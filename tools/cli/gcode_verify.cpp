@@ -3,12 +3,12 @@
 /// chaintrue gcode verify.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
@@ -137,7 +137,7 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources,
   if (hashes.empty()) return;
   for (const grid::SourceFile& file : sources) {
     const std::string beginning = file.sha256.substr(0, gcode::kHashDigits);
-    if (std::find(hashes.begin(), hashes.end(), beginning) != hashes.end()) continue;
+    if (grid::contains(hashes, beginning)) continue;
     fmt::print(stderr,
                "{} was made from another version of {}: compensate again.\n",
                grid::files::name_without_folders(name),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/file_type.hpp"
@@ -115,8 +116,8 @@ files::HolesOptions holes_options(const TapeInput& tape) {
 }
 
 Facts facts_of_tables(const std::vector<InputFile>& files) {
-  const bool any = std::any_of(
-      files.begin(), files.end(), [](const InputFile& file) { return !files::is_json(file.text); });
+  const bool any =
+      grid::any_of(files, [](const InputFile& file) { return !files::is_json(file.text); });
   return any ? facts::table : facts::nothing;
 }
 

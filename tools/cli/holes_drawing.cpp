@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/svg.hpp"
 #include "tools/report/hole_labels.hpp"
@@ -48,23 +49,24 @@ void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& 
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const report::DrawnHole& hole = drawn[i];
     const report::HoleLabel& label = labels[i];
-    svg.add("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\" "
-                   "stroke=\"#333333\"/>\n"
-                   "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#ffffff\" "
-                   "stroke=\"{4}\" stroke-width=\"3\"/>\n"
-                   "<text x=\"{5:.1f}\" y=\"{6:.1f}\" stroke=\"#fff7ec\" "
-                   "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
-                   "font-size=\"18\">{7}</tspan>{8}{9}</text>\n",
-                   hole.x,
-                   hole.y,
-                   std::clamp(hole.x, label.left, label.right),
-                   std::clamp(hole.y, label.top, label.bottom),
-                   report::kBeforeColor,
-                   label.left,
-                   label.bottom - 3.0,
-                   hole.name,
-                   label.has_place ? " " : "",
-                   label.has_place ? hole.place : "");
+    svg.add(
+        "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\" "
+        "stroke=\"#333333\"/>\n"
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#ffffff\" "
+        "stroke=\"{4}\" stroke-width=\"3\"/>\n"
+        "<text x=\"{5:.1f}\" y=\"{6:.1f}\" stroke=\"#fff7ec\" "
+        "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
+        "font-size=\"18\">{7}</tspan>{8}{9}</text>\n",
+        hole.x,
+        hole.y,
+        std::clamp(hole.x, label.left, label.right),
+        std::clamp(hole.y, label.top, label.bottom),
+        report::kBeforeColor,
+        label.left,
+        label.bottom - 3.0,
+        hole.name,
+        label.has_place ? " " : "",
+        label.has_place ? hole.place : "");
   }
 }
 
@@ -72,17 +74,15 @@ void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& 
 
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const model::Bed& bed = plan.set.machine->bed;
-  const BedView view(
-      bed.width_mm, bed.height_mm, {kSheetLeft, kSheetTop}, kSheetWide);
-  const bool has_edges =
-      std::any_of(plan.set.distances.begin(), plan.set.distances.end(), [](const auto& distance) {
-        return distance.edge.has_value();
-      });
+  const BedView view(bed.width_mm, bed.height_mm, {kSheetLeft, kSheetTop}, kSheetWide);
+  const bool has_edges = grid::any_of(
+      plan.set.distances, [](const auto& distance) { return distance.edge.has_value(); });
   const double high = kSheetTop + view.high() + kSheetBelow;
-  const std::string title = fmt::format("{} holes, {}: {:.2f} mm expected at the tool (rms, one sigma)",
-                                        plan.set.holes.size(),
-                                        distances_in_number(plan.set),
-                                        plan.expected_rms_mm);
+  const std::string title =
+      fmt::format("{} holes, {}: {:.2f} mm expected at the tool (rms, one sigma)",
+                  plan.set.holes.size(),
+                  distances_in_number(plan.set),
+                  plan.expected_rms_mm);
   Svg svg(kSheetWide + 2.0 * kSheetLeft, high, "font-size=\"14\"", title);
   svg.fill();
   svg.text(kSheetLeft, 32.0, title, "start", " font-size=\"18\"");
@@ -92,17 +92,18 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
     const BedPoint from = plan.set.holes[distance.from].commanded;
     const BedPoint to =
         distance.edge ? on_edge(from, *distance.edge, bed) : plan.set.holes[distance.to].commanded;
-    svg.add("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                   "stroke=\"{}\" stroke-opacity=\"0.6\"><title>{}: about {:.0f} "
-                   "mm</title></line>\n",
-                   view.x(from.x_mm),
-                   view.y(from.y_mm),
-                   view.x(to.x_mm),
-                   view.y(to.y_mm),
-                   distance.edge ? fmt::format("{}\" stroke-width=\"4", report::kThirdColor)
-                                 : std::string(report::kAfterColor),
-                   words_of(plan.set, distance),
-                   distance.distance_mm);
+    svg.add(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+        "stroke=\"{}\" stroke-opacity=\"0.6\"><title>{}: about {:.0f} "
+        "mm</title></line>\n",
+        view.x(from.x_mm),
+        view.y(from.y_mm),
+        view.x(to.x_mm),
+        view.y(to.y_mm),
+        distance.edge ? fmt::format("{}\" stroke-width=\"4", report::kThirdColor)
+                      : std::string(report::kAfterColor),
+        words_of(plan.set, distance),
+        distance.distance_mm);
   }
   draw_holes(plan.set.holes, view, svg);
   svg.text(kSheetLeft, high - 28.0, "From the front; the origin is the middle of the bed.");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "grid/containers.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
@@ -25,21 +26,21 @@ InputFile open_input(const std::string& path) {
 void require_kind(const InputFile& file,
                   const std::vector<FileKind>& taken,
                   const std::string& also) {
-  if (std::find(taken.begin(), taken.end(), file.kind) != taken.end()) return;
+  if (grid::contains(taken, file.kind)) return;
   const bool is_json = files::is_json(file.text);
   // No accepted kind can be a table: report why it is not JSON.
   const auto is_table = [](FileKind kind) {
     return kind == FileKind::grid || kind == FileKind::holes;
   };
-  if (!is_json && std::none_of(taken.begin(), taken.end(), is_table))
-    (void)files::file_type_of(file.text, file.name);
-  const std::string what_takes =
-      is_json && file.kind != FileKind::belt_holes && also.empty()
-          ? files::what_takes(files::file_type_of(file.text, file.name))
-          : "";
+  if (!is_json && grid::none_of(taken, is_table)) (void)files::file_type_of(file.text, file.name);
+  const std::string what_takes = is_json && file.kind != FileKind::belt_holes && also.empty()
+                                     ? files::what_takes(files::file_type_of(file.text, file.name))
+                                     : "";
   throw files::InputError(
       {{file.name,
-        file.kind == FileKind::belt_holes ? "/machine" : is_json ? "/file_type" : "",
+        file.kind == FileKind::belt_holes ? "/machine"
+        : is_json                         ? "/file_type"
+                                          : "",
         files::found_kind(file.text, file.name),
         fmt::format(
             "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes),
@@ -110,8 +111,10 @@ model::BeltMachine load_belt_machine(const InputFile& file) {
   if (file.kind == FileKind::anchors) return files::machine_as_pasted(load_anchors(file).fit);
   model::BeltMachine machine = load_belts(file, "a machine").belts.machine;
   if (!machine.anchors_known) {
-    throw files::InputError(
-        {{file.name, "/machine/anchors", "", "x_mm and y_mm of all four anchors that are in force"}});
+    throw files::InputError({{file.name,
+                              "/machine/anchors",
+                              "",
+                              "x_mm and y_mm of all four anchors that are in force"}});
   }
   return machine;
 }

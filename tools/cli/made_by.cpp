@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -34,8 +35,7 @@ std::string in_words(Verb verb, const GivenOption& option) {
 grid::Provenance made_by(Verb verb) {
   grid::Provenance made_by{std::string(files::version()), verb.path(), {}, files::sources_read()};
   for (const GivenOption& option : verb.given_options()) {
-    const bool is_without_trace =
-        std::find(kWithoutTrace.begin(), kWithoutTrace.end(), option.name) != kWithoutTrace.end();
+    const bool is_without_trace = grid::contains(kWithoutTrace, option.name);
     if (is_without_trace || use_of(verb, option.name) == PlaceUse::output) continue;
     made_by.options.push_back(in_words(verb, option));
   }

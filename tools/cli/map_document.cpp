@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "tools/cli/map_words.hpp"
@@ -81,10 +82,11 @@ Section remarks_section(const grid::CompensationMap& map, std::optional<double> 
   if (wish_mm) say(wish_sentence(map, *wish_mm));
   if (not_to_cut_with(map).empty()) {
     say(worst_sentence(accuracy.expected_worst_at.x_mm,
-                            accuracy.expected_worst_at.y_mm,
-                            accuracy.expected_tool.maximum_mm));
+                       accuracy.expected_worst_at.y_mm,
+                       accuracy.expected_tool.maximum_mm));
   }
-  if (map.machine() != nullptr && !contents.distances && contents.noise.source != grid::NoiseSource::stated) {
+  if (map.machine() != nullptr && !contents.distances &&
+      contents.noise.source != grid::NoiseSource::stated) {
     say(fmt::format("Your readings scatter by about {:.2f} mm{}.",
                     grid::noise_at_tool_mm(map),
                     contents.noise.source == grid::NoiseSource::repeats
@@ -147,12 +149,9 @@ void add_tables(const grid::CompensationMap& map, std::vector<Section>& sections
 }  // namespace
 
 report::Tone tone_of(const MapContents& contents) {
-  const bool is_clean = std::none_of(contents.points.begin(),
-                                     contents.points.end(),
-                                     [](const MapPoint& point) { return point.bad; }) &&
-                        std::none_of(contents.settings.begin(),
-                                     contents.settings.end(),
-                                     [](const auto& setting) { return setting.off; });
+  const bool is_clean =
+      grid::none_of(contents.points, [](const MapPoint& point) { return point.bad; }) &&
+      grid::none_of(contents.settings, [](const auto& setting) { return setting.off; });
   return is_clean ? report::Tone::good : report::Tone::caution;
 }
 

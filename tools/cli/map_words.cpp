@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "model/calibration/setting.hpp"
@@ -49,7 +50,7 @@ std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
   for (const grid::SettingResult& result : map.contents().settings) {
     SettingRow row{result.setting, result.stated, {}, result.calibrated, result.sigma, result.off};
     const auto& of_machine = model::kMachineSettings;
-    if (std::find(of_machine.begin(), of_machine.end(), result.setting) != of_machine.end())
+    if (grid::contains(of_machine, result.setting))
       row.stated_sigma = stated_sigma(*map.machine(), result.setting);
     rows.push_back(row);
   }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "tools/cli/progress.hpp"
@@ -85,19 +86,19 @@ class PlaceCheck {
       }
     }
     const auto read = files::files_read();
-    inputs_.insert(inputs_.end(), read.begin(), read.end());
+    grid::append_all(inputs_, read);
   }
 
   void look_at(const std::string& path, const Place& place) {
     const std::string taken = place_of(path);
-    if (!taken.empty() && std::find(taken_.begin(), taken_.end(), taken) != taken_.end())
+    if (!taken.empty() && grid::contains(taken_, taken))
       return add(path,
                  "a name given twice",
                  "a file of its own for each output",
                  ProblemKind::output_repeated);
     taken_.push_back(taken);
     const auto identity = identity_of_output(path);
-    if (identity && std::find(inputs_.begin(), inputs_.end(), *identity) != inputs_.end())
+    if (identity && grid::contains(inputs_, *identity))
       return add(path,
                  "a file that is read here",
                  "another name: what is read is never replaced",
@@ -108,7 +109,7 @@ class PlaceCheck {
     const std::string old = beginning_of(path);
     if (old.empty()) return;
     const Origin origin = files::origin_of(old);
-    if (std::find(place.kinds.begin(), place.kinds.end(), origin) != place.kinds.end()) return;
+    if (grid::contains(place.kinds, origin)) return;
     add(path,
         origin == Origin::foreign   ? "a file that chaintrue did not make"
         : origin == Origin::changed ? "a file that somebody wrote or changed"
@@ -267,13 +268,12 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
-    throw files::InputError(
-        {{folder,
-          "",
-          error.message(),
-          "a folder that can be made or written to",
-          {},
-          ProblemKind::output_place}});
+    throw files::InputError({{folder,
+                              "",
+                              error.message(),
+                              "a folder that can be made or written to",
+                              {},
+                              ProblemKind::output_place}});
   try {
     check_folder(verb, folder, contents);
     std::vector<files::OutputFile> outputs;
@@ -310,7 +310,7 @@ void take_place(files::PendingFile& pending,
                 const std::string& path,
                 const std::vector<files::OutputFile>& others) {
   std::vector<files::OutputFile> all = {{path, ""}};
-  all.insert(all.end(), others.begin(), others.end());
+  grid::append_all(all, others);
   all = looked_at(all);
   std::vector<std::unique_ptr<files::PendingFile>> alongside;
   std::vector<files::PendingFile*> together = {&pending};

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -203,8 +204,8 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
   outputs.push_back({options.output, lines_of(found, sources)});
   write_outputs(outputs);
   fmt::print(stderr, "{}", follow_up_list(found));
-  const bool none_holds_readings = std::none_of(
-      sources.all.begin(), sources.all.end(), [](const Source& source) { return source.json; });
+  const bool none_holds_readings =
+      grid::none_of(sources.all, [](const Source& source) { return source.json; });
   if (none_holds_readings && proposes(found, MeasurementKind::reading)) {
     fmt::print(stderr,
                "A CSV cannot store readings: use a {} (JSON), which has a list for them.\n",

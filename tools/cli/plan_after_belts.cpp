@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -36,20 +37,19 @@ bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
   // Larger than the effect of any cause, including an omitted arm.
   constexpr double kSamePlaceMm = 400.0;
   if (!found.belts) return false;
-  return std::equal(
-      found.belts->places.begin(),
-      found.belts->places.end(),
-      belts.points.begin(),
-      belts.points.end(),
-      [&](const BeltPlacePicture& place, const grid::BeltPoint& point) {
-        if (place.order != point.order) return false;
-        const auto lengths = model::lengths_at(found.belts->machine, place.at);
-        return lengths &&
-               std::all_of(model::kBelts.begin(), model::kBelts.end(), [&](model::Belt belt) {
-                 return place.bad[belt] ||
-                        std::abs((*lengths)[belt] - point.lengths_mm[belt]) < kSamePlaceMm;
-               });
-      });
+  return std::equal(found.belts->places.begin(),
+                    found.belts->places.end(),
+                    belts.points.begin(),
+                    belts.points.end(),
+                    [&](const BeltPlacePicture& place, const grid::BeltPoint& point) {
+                      if (place.order != point.order) return false;
+                      const auto lengths = model::lengths_at(found.belts->machine, place.at);
+                      return lengths && grid::all_of(model::kBelts, [&](model::Belt belt) {
+                               return place.bad[belt] ||
+                                      std::abs((*lengths)[belt] - point.lengths_mm[belt]) <
+                                          kSamePlaceMm;
+                             });
+                    });
 }
 
 std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {

@@ -24,7 +24,7 @@ Window window_of(const std::vector<double>& values, double share, double least) 
 
 report::Chart residual_scatter_chart(const ResidualScatter& scatter) {
   std::vector<double> along, up = {0.0};
-  up.insert(up.end(), scatter.y_also_mm.begin(), scatter.y_also_mm.end());
+  grid::append_all(up, scatter.y_also_mm);
   for (const ResidualDot& dot : scatter.dots) {
     along.push_back(dot.x);
     if (!dot.is_bad) up.push_back(dot.y_mm);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/maslow4_session.hpp"
 #include "grid/files/number_text.hpp"
@@ -40,7 +41,8 @@ StatedBelts belts_of(const std::string& path) {
     grid::BeltsFit fit = load_anchors(file).fit;
     stated.machine = std::move(fit.machine);
     for (grid::CauseInAnchorFit& own : fit.causes)
-      stated.causes.push_back({std::move(own.effect), std::move(own.side), std::move(own.parameters)});
+      stated.causes.push_back(
+          {std::move(own.effect), std::move(own.side), std::move(own.parameters)});
   } else {
     stated.machine = load_belts(file, "a simulation").belts.machine;
   }
@@ -57,7 +59,7 @@ StatedBelts belts_of(const std::string& path) {
 /// Adds the causes of the file; those of --effect replace them.
 void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& spec) {
   for (model::AppliedEffect& own : causes) {
-    const bool is_given = std::any_of(spec.hidden.begin(), spec.hidden.end(), [&](const auto& hidden) {
+    const bool is_given = grid::any_of(spec.hidden, [&](const auto& hidden) {
       return hidden.effect == own.effect && hidden.side == own.side;
     });
     if (!is_given) spec.hidden.push_back(std::move(own));

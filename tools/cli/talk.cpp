@@ -6,9 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+
+#include "grid/containers.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -23,7 +24,7 @@ std::string between(std::string_view begin, std::string_view text) {
 }
 
 std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+  const bool plain = !word.empty() && grid::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("._/-+,=:@%").find(c) != std::string_view::npos;
   });
@@ -60,7 +61,7 @@ std::string in_bold(std::string_view text) { return between("\x1b[1m", text); }
 std::string in_red(std::string_view text) { return between("\x1b[31m", text); }
 
 void say_next(const std::vector<std::string>& words) {
-  if (std::find(words.begin(), words.end(), "-") != words.end()) return;
+  if (grid::contains(words, "-")) return;
   std::string line = called_as;
   for (const std::string& word : words) line += " " + quoted(word);
   std::fflush(stdout);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/map_file.hpp"
@@ -27,10 +28,8 @@ grid::CompensationMap with_settings_of(const std::string& settings,
                                        grid::Measured& measured) {
   const auto stated = grid::stated_machine(map);
   if (!stated) {
-    throw grid::files::InputError({{map_name,
-                                    "",
-                                    "a map without a machine",
-                                    "no --settings: its points are chain lengths"}});
+    throw grid::files::InputError(
+        {{map_name, "", "a map without a machine", "no --settings: its points are chain lengths"}});
   }
   const SettingsFile file = read_settings_file(settings);
   const model::Controller now = with_settings(*stated, file, nullptr).controller;
@@ -50,10 +49,8 @@ bool was_made_from(const std::string& made, const std::string& from) {
   const auto made_by = files::made_by_of(files::read_whole_file(made), made);
   files::Sha256 hash;
   hash.add(files::read_whole_file(from));
-  return made_by &&
-         std::any_of(made_by->inputs.begin(), made_by->inputs.end(), [&](const auto& input) {
-           return input.sha256 == hash.text();
-         });
+  return made_by && grid::any_of(made_by->inputs,
+                                 [&](const auto& input) { return input.sha256 == hash.text(); });
 }
 
 std::optional<model::ControllerSettings> settings_before(const std::string& map) {
@@ -61,7 +58,8 @@ std::optional<model::ControllerSettings> settings_before(const std::string& map)
   namespace files = grid::files;
   if (map == "-") return std::nullopt;
   const auto made_by = files::made_by_of(files::read_whole_file(map), map);
-  if (!made_by || made_by->verb != "export groundcontrol" || made_by->inputs.empty()) return std::nullopt;
+  if (!made_by || made_by->verb != "export groundcontrol" || made_by->inputs.empty())
+    return std::nullopt;
   const std::string from = (fs::path(map).parent_path() / made_by->inputs.front().name).string();
   if (!fs::is_regular_file(from) || !was_made_from(map, from)) return std::nullopt;
   const grid::CompensationMap exported = files::parse_map(files::read_whole_file(from), from);
@@ -78,7 +76,8 @@ std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
   const auto differ_from_map = [&](const model::ControllerSettings& settings) {
     model::Machine in_force = *map.machine();
     in_force.controller.settings = settings;
-    return files::changed_settings(files::settings_in_force(*map.machine()), files::settings_in_force(in_force));
+    return files::changed_settings(files::settings_in_force(*map.machine()),
+                                   files::settings_in_force(in_force));
   };
   if (before && differ_from_map(*before).empty()) before.reset();
   std::optional<model::ControllerSettings> others = before;
@@ -91,15 +90,16 @@ std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
   if (!changed) return std::nullopt;
   const std::string differ = files::in_words(differ_from_map(changed->in_force));
   const auto sentence = [&](std::string_view what, std::string_view with, std::string_view to_do) {
-    return fmt::format("{}: the new points fit {} ({}) within {:.2f} mm rms in a chain, the map's own "
-                       "within {:.2f} mm. {} {}",
-                       what,
-                       with,
-                       differ,
-                       changed->with_these_mm,
-                       changed->as_it_is_mm,
-                       to_do,
-                       changed->check.sentence);
+    return fmt::format(
+        "{}: the new points fit {} ({}) within {:.2f} mm rms in a chain, the map's own "
+        "within {:.2f} mm. {} {}",
+        what,
+        with,
+        differ,
+        changed->with_these_mm,
+        changed->as_it_is_mm,
+        to_do,
+        changed->check.sentence);
   };
   std::string& said = changed->check.sentence;
   if (!before && changed->all) {
