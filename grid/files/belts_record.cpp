@@ -31,15 +31,15 @@ Record<StatedAnchor> anchor_record() {
                 "x of the point where the belt leaves the frame, to the right of the bottom "
                 "left anchor. Given for all four anchors or for none.",
                 &StatedAnchor::x_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("y_mm",
                 "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
                 &StatedAnchor::y_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("z_mm",
                 "Its height above the bed; default: the firmware's.",
                 &StatedAnchor::z_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 const Record<PerBelt<StatedAnchor>>& anchors_record() {
@@ -88,7 +88,7 @@ Record<BeltMachine> belt_record() {
   return Record<BeltMachine>("a belt").optional("turn_mm",
                                                 "Belt length for one turn of the encoder.",
                                                 &BeltMachine::belt_turn_mm,
-                                                number_in("mm"));
+                                                kMillimetres);
 }
 
 constexpr Range kPull{"", 1e-3, 1e6};
@@ -338,27 +338,26 @@ const Record<BeltMachine>& belt_machine_record() {
         .optional("arm_mm",
                   "From the tool to the point where a belt's end is attached.",
                   &BeltMachine::arm_mm,
-                  number_in("mm"))
+                  kMillimetres)
         .optional("end_extension_mm",
                   "Length of the belt's end, from its last tooth to the arm.",
                   &BeltMachine::end_extension_mm,
-                  number_in("mm"))
+                  kMillimetres)
         .optional("surface_mm",
                   "Thickness of spoilboard and work together, added to the heights of the anchors.",
                   &BeltMachine::surface_mm,
-                  number_in("mm"))
+                  kMillimetres)
         .optional("orientation",
                   "How the frame stands, which decides which belts are pulled.",
                   &BeltMachine::orientation,
-                  choice<model::Orientation>({{"upright", model::Orientation::upright},
-                                              {"flat", model::Orientation::flat}}))
+                  by_name({model::Orientation::upright, model::Orientation::flat}))
         .optional("lengths",
                   "What a printed length means: the belt, the belt with extension and arm, or the "
                   "level span from anchor to tool.",
                   &BeltMachine::lengths,
-                  choice<model::BeltLengths>({{"belt", model::BeltLengths::belt},
-                                              {"belt_and_arm", model::BeltLengths::belt_and_arm},
-                                              {"span", model::BeltLengths::span}}))
+                  by_name({model::BeltLengths::belt,
+                           model::BeltLengths::belt_and_arm,
+                           model::BeltLengths::span}))
         .optional("scale_x",
                   "Factor of the controller on commands along x.",
                   &BeltMachine::scale_x,

@@ -31,7 +31,7 @@ const Record<model::PerBelt<V>>& per_belt_record(const Value<V>& value) {
 /// tl, tr, bl, br.
 [[nodiscard]] inline Value<model::Belt> belt_word() {
   using model::Belt;
-  return choice<Belt>({{"tl", Belt::tl}, {"tr", Belt::tr}, {"bl", Belt::bl}, {"br", Belt::br}});
+  return by_name({Belt::tl, Belt::tr, Belt::bl, Belt::br});
 }
 
 [[nodiscard]] const Record<BeltPrediction>& prediction_record();

@@ -299,9 +299,6 @@ const Record<Bound>& bound_record() {
 const Record<DeclaredAnswer>& declared_answer_record() {
   using Says = DeclaredAnswer::Says;
   static const auto record = [] {
-    std::vector<std::pair<std::string, Says>> words;
-    for (const Says one : {Says::confirmed, Says::denied, Says::open, Says::not_testable})
-      words.emplace_back(name(one), one);
     Record<DeclaredAnswer> answer("an answer");
     cause_keys(answer, kCause);
     answer
@@ -310,7 +307,7 @@ const Record<DeclaredAnswer>& declared_answer_record() {
             "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
             "at its declared size; open: neither; not_testable: these readings cannot show it.",
             &DeclaredAnswer::says,
-            choice<Says>(std::move(words)))
+            by_name({Says::confirmed, Says::denied, Says::open, Says::not_testable}))
         .required("probability", "Probability that it acts.", &DeclaredAnswer::probability, kShare);
     return answer;
   }();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <array>
-
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -23,13 +21,6 @@ using diagnosis::LawShape;
 using diagnosis::ParameterEstimate;
 using diagnosis::Unexplained;
 
-template <class Word, std::size_t kCount>
-Value<Word> words(const std::array<Word, kCount>& all) {
-  std::vector<std::pair<std::string, Word>> names;
-  for (const Word word : all) names.emplace_back(name(word), word);
-  return choice<Word>(std::move(names));
-}
-
 Record<BudgetLine> budget_line_record() {
   using What = BudgetLine::What;
   using ChangesWith = BudgetLine::ChangesWith;
@@ -38,8 +29,7 @@ Record<BudgetLine> budget_line_record() {
           "what",
           "The part.",
           &BudgetLine::what,
-          words(std::array{
-              What::settings, What::cause, What::unexplained, What::noise, What::inseparable}))
+          by_name({What::settings, What::cause, What::unexplained, What::noise, What::inseparable}))
       .optional("cause", "The cause.", &BudgetLine::cause, cause_id_record())
       .required(
           "mean_square_mm2", "Mean square at the tool.", &BudgetLine::mean_square_mm2, kAnyNumber)
@@ -55,10 +45,10 @@ Record<BudgetLine> budget_line_record() {
       .required("changes_with",
                 "What it depends on.",
                 &BudgetLine::changes_with,
-                words(std::array{ChangesWith::nothing,
-                                 ChangesWith::place,
-                                 ChangesWith::order,
-                                 ChangesWith::direction}));
+                by_name({ChangesWith::nothing,
+                         ChangesWith::place,
+                         ChangesWith::order,
+                         ChangesWith::direction}));
 }
 
 /// A value with its sigma under its parameter's name.
@@ -118,25 +108,25 @@ Record<Law> law_record() {
                 "chain, the number of the visit; for four belts, a coordinate of the anchors' "
                 "frame, the length of a belt or its angle against the horizontal.",
                 &Law::of,
-                words(std::array{Coordinate::x,
-                                 Coordinate::y,
-                                 Coordinate::across,
-                                 Coordinate::border,
-                                 Coordinate::length_left,
-                                 Coordinate::length_right,
-                                 Coordinate::angle_left,
-                                 Coordinate::angle_right,
-                                 Coordinate::tension_left,
-                                 Coordinate::tension_right,
-                                 Coordinate::visit,
-                                 Coordinate::length_tl,
-                                 Coordinate::length_tr,
-                                 Coordinate::length_bl,
-                                 Coordinate::length_br,
-                                 Coordinate::angle_tl,
-                                 Coordinate::angle_tr,
-                                 Coordinate::angle_bl,
-                                 Coordinate::angle_br}))
+                by_name({Coordinate::x,
+                         Coordinate::y,
+                         Coordinate::across,
+                         Coordinate::border,
+                         Coordinate::length_left,
+                         Coordinate::length_right,
+                         Coordinate::angle_left,
+                         Coordinate::angle_right,
+                         Coordinate::tension_left,
+                         Coordinate::tension_right,
+                         Coordinate::visit,
+                         Coordinate::length_tl,
+                         Coordinate::length_tr,
+                         Coordinate::length_bl,
+                         Coordinate::length_br,
+                         Coordinate::angle_tl,
+                         Coordinate::angle_tr,
+                         Coordinate::angle_bl,
+                         Coordinate::angle_br}))
       .required("shape",
                 "With the variable v: linear: size (v - middle) / span, square: size ((v - "
                 "place) / half the span)^2, step: size from place on, kink: size max(0, "
@@ -144,28 +134,28 @@ Record<Law> law_record() {
                 "scale), wave: size sin(w + phase) with w = 2 pi (v - middle) / period, "
                 "harmonics: size sin(w + phase) + second size sin(2 w + second phase).",
                 &Law::shape,
-                words(std::array{LawShape::linear,
-                                 LawShape::square,
-                                 LawShape::step,
-                                 LawShape::kink,
-                                 LawShape::exponential,
-                                 LawShape::wave,
-                                 LawShape::harmonics}))
+                by_name({LawShape::linear,
+                         LawShape::square,
+                         LawShape::step,
+                         LawShape::kink,
+                         LawShape::exponential,
+                         LawShape::wave,
+                         LawShape::harmonics}))
       .required("enters",
                 "Where it enters: a chain, both equally, the tool along x or y, the tool along the "
                 "law's own direction, the tool outwards over every border, one of four belts.",
                 &Law::enters,
-                words(std::array{Enters::left,
-                                 Enters::right,
-                                 Enters::equal,
-                                 Enters::x,
-                                 Enters::y,
-                                 Enters::along,
-                                 Enters::outwards,
-                                 Enters::tl,
-                                 Enters::tr,
-                                 Enters::bl,
-                                 Enters::br}))
+                by_name({Enters::left,
+                         Enters::right,
+                         Enters::equal,
+                         Enters::x,
+                         Enters::y,
+                         Enters::along,
+                         Enters::outwards,
+                         Enters::tl,
+                         Enters::tr,
+                         Enters::bl,
+                         Enters::br}))
       .required("probability",
                 "Probability of this variable and place of entry, for any shape.",
                 &Law::probability,
@@ -260,13 +250,13 @@ const Record<Unexplained>& unexplained_record() {
         .required("enters",
                   "Where it enters.",
                   &Unexplained::enters,
-                  words(std::array{Enters::left,
-                                   Enters::right,
-                                   Enters::equal,
-                                   Enters::opposite,
-                                   Enters::x,
-                                   Enters::y,
-                                   Enters::mixed}))
+                  by_name({Enters::left,
+                           Enters::right,
+                           Enters::equal,
+                           Enters::opposite,
+                           Enters::x,
+                           Enters::y,
+                           Enters::mixed}))
         .sparse("laws",
                 "Functions that it may be, most probable first; absent if no law is more likely "
                 "than none.",

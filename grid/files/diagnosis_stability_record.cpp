@@ -12,18 +12,14 @@ using diagnosis::Removal;
 using diagnosis::Stability;
 using diagnosis::Verdict;
 
-Value<diagnosis::Verdict> verdict_word() {
-  std::vector<std::pair<std::string, Verdict>> names;
-  for (const Verdict verdict : {Verdict::named,
-                                Verdict::named_set,
-                                Verdict::several_causes,
-                                Verdict::model_discrepancy,
-                                Verdict::noise_larger_than_stated,
-                                Verdict::outliers,
-                                Verdict::nothing_found}) {
-    names.emplace_back(diagnosis::name(verdict), verdict);
-  }
-  return choice<Verdict>(std::move(names));
+Value<Verdict> verdict_word() {
+  return by_name({Verdict::named,
+                  Verdict::named_set,
+                  Verdict::several_causes,
+                  Verdict::model_discrepancy,
+                  Verdict::noise_larger_than_stated,
+                  Verdict::outliers,
+                  Verdict::nothing_found});
 }
 
 namespace {

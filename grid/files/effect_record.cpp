@@ -97,16 +97,6 @@ void check_words(const Cursor&, Declaration& own) {
   if (own.source.empty()) own.source = "declared in a file";
 }
 
-Value<RemedyKind> remedy_word() {
-  std::vector<std::pair<std::string, RemedyKind>> names;
-  for (const RemedyKind kind : {RemedyKind::change_the_machine,
-                                RemedyKind::correct_the_data,
-                                RemedyKind::repair,
-                                RemedyKind::compensate_on_its_own})
-    names.emplace_back(std::string(name(kind)), kind);
-  return choice<RemedyKind>(std::move(names));
-}
-
 /// Added below the pointer; of a formula with the column in its text.
 void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found) {
   for (const DeclarationProblem& problem : found) {
@@ -130,19 +120,16 @@ const Record<Declaration>& declaration_record() {
                     "paper: where marks are written. chain: the length that is paid out. reading: "
                     "what is written down, by visits. visit: a single reading.",
                     &Declaration::acts_on,
-                    choice<ActsOn>({{"paper", ActsOn::paper},
-                                    {"chain", ActsOn::chain},
-                                    {"reading", ActsOn::reading},
-                                    {"visit", ActsOn::visit}}))
+                    by_name({ActsOn::paper, ActsOn::chain, ActsOn::reading, ActsOn::visit}))
           .sparse("sides",
                   "Where it may act, each side tested separately; both: one value for two. "
                   "Default: on both equally.",
                   &Declaration::sides,
-                  list(choice<EffectSide>({{"left", EffectSide::left},
-                                           {"right", EffectSide::right},
-                                           {"both", EffectSide::both},
-                                           {"x", EffectSide::x},
-                                           {"y", EffectSide::y}})))
+                  list(by_name({EffectSide::left,
+                                EffectSide::right,
+                                EffectSide::both,
+                                EffectSide::x,
+                                EffectSide::y})))
           .required("parameters",
                     "Its size, followed by the place where it sets in, if it has one.",
                     &Declaration::parameters,
@@ -161,7 +148,10 @@ const Record<Declaration>& declaration_record() {
           .optional("remedy_kind",
                     "Where the remedy is applied.",
                     &Declaration::remedy_kind,
-                    remedy_word())
+                    by_name({RemedyKind::change_the_machine,
+                             RemedyKind::correct_the_data,
+                             RemedyKind::repair,
+                             RemedyKind::compensate_on_its_own}))
           .required("remedy", "What to do about it.", &Declaration::remedy)
           .required("not_modelled", "What the formula omits.", &Declaration::not_modelled)
           .sparse("typical", "Its usual size, in words.", &Declaration::typical)

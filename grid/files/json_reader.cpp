@@ -11,53 +11,22 @@
 namespace chaintrue::grid::files {
 namespace {
 
-class PlainMember : public Member {
+class OptionalCodec : public Codec {
  public:
-  PlainMember(std::shared_ptr<const Codec> codec, IfEmpty empty)
-      : codec_(std::move(codec)), empty_(empty) {}
-  void read(const Cursor& at, void* member) const override { codec_->read(at, member); }
-  [[nodiscard]] std::optional<Json> write(const void* member) const override {
-    const bool empty = empty_.is_empty != nullptr && empty_.is_empty(member);
-    if (!empty) return codec_->write(member);
-    return empty_.as == IfEmpty::null ? std::optional<Json>(nullptr) : std::nullopt;
+  OptionalCodec(std::shared_ptr<const Codec> value, const OptionalAccess& access)
+      : Codec(value->expected()), value_(std::move(value)), access_(access) {}
+  bool read(const Cursor& at, void* member) const override {
+    const bool is_read = value_->read(at, access_.emplace(member));
+    if (!is_read) access_.reset(member);
+    return is_read;
+  }
+  [[nodiscard]] Json write(const void* member) const override {
+    return value_->write(access_.value(member));
   }
 
  private:
-  std::shared_ptr<const Codec> codec_;
-  IfEmpty empty_;
-};
-
-class OptionalMember : public Member {
- public:
-  OptionalMember(std::shared_ptr<const Codec> codec,
-                 const OptionalAccess& access,
-                 IfEmpty::As empty)
-      : codec_(std::move(codec)), access_(access), empty_(empty) {}
-  void read(const Cursor& at, void* member) const override {
-    if (!codec_->read(at, access_.emplace(member))) access_.reset(member);
-  }
-  [[nodiscard]] std::optional<Json> write(const void* member) const override {
-    const void* value = access_.value(member);
-    if (value != nullptr) return codec_->write(value);
-    return empty_ == IfEmpty::null ? std::optional<Json>(nullptr) : std::nullopt;
-  }
-
- private:
-  std::shared_ptr<const Codec> codec_;
+  std::shared_ptr<const Codec> value_;
   OptionalAccess access_;
-  IfEmpty::As empty_;
-};
-
-class ConstantMember : public Member {
- public:
-  explicit ConstantMember(std::string word) : word_(std::move(word)), value_(one_of({word_})) {}
-  [[nodiscard]] const Expected& expected() const { return value_.expected; }
-  void read(const Cursor& at, void*) const override { (void)value_.read(at); }
-  [[nodiscard]] std::optional<Json> write(const void*) const override { return word_; }
-
- private:
-  std::string word_;
-  Value<std::string> value_;
 };
 
 }  // namespace
@@ -78,6 +47,11 @@ class ObjectCodec : public Codec {
 
 std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*)) {
   return std::make_shared<ObjectCodec>(record, reset);
+}
+
+std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
+                                            const OptionalAccess& access) {
+  return std::make_shared<OptionalCodec>(std::move(value), access);
 }
 
 bool RecordTable::open(const Cursor& at, bool is_root) const {
@@ -108,36 +82,21 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
   return true;
 }
 
-void RecordTable::add_plain(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty) {
+void RecordTable::add(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty) {
   field.expected = codec->expected();
-  field.member = std::make_shared<PlainMember>(std::move(codec), empty);
-  add(std::move(field));
-}
-
-void RecordTable::add_optional(Field field,
-                               std::shared_ptr<const Codec> codec,
-                               const OptionalAccess& access,
-                               IfEmpty::As written) {
-  field.expected = codec->expected();
-  field.member = std::make_shared<OptionalMember>(std::move(codec), access, written);
-  add(std::move(field));
+  field.codec = std::move(codec);
+  field.empty = empty;
+  fields_.push_back(std::move(field));
 }
 
 void RecordTable::add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make) {
   const std::size_t offset = field.offset;
-  add_plain(std::move(field), codec);
+  add(std::move(field), codec);
   fields_.back().expected.schema = [offset, codec, make] {
     const std::shared_ptr<void> object = make();
     return with_default(codec->expected().schema(),
                         codec->write(static_cast<const std::byte*>(object.get()) + offset));
   };
-}
-
-void RecordTable::add_constant(Field field, const std::string& word) {
-  auto member = std::make_shared<ConstantMember>(word);
-  field.expected = member->expected();
-  field.member = std::move(member);
-  add(std::move(field));
 }
 
 Expected RecordTable::expected() const {
@@ -224,7 +183,7 @@ bool RecordTable::read_fields(const Cursor& at,
       if (field.is_required && !misspelt) child.missing(field.expected);
       continue;
     }
-    field.member->read(child, static_cast<std::byte*>(object) + field.offset);
+    field.codec->read(child, static_cast<std::byte*>(object) + field.offset);
   }
   for (const Check& check : checks_) check(at, object);
   return true;
@@ -234,7 +193,13 @@ Json RecordTable::write_fields(const void* object) const {
   Json json = format_ != nullptr ? headed(*format_) : Json::object();
   for (const Field& field : fields_) {
     const void* member = static_cast<const std::byte*>(object) + field.offset;
-    if (auto value = field.member->write(member)) json[field.key] = std::move(*value);
+    const IfEmpty& empty = field.empty;
+    if (empty.is_empty != nullptr && empty.is_empty(member)) {
+      if (empty.as == IfEmpty::null) json[field.key] = nullptr;
+      continue;
+    }
+    Json value = field.codec->write(member);
+    if (!value.is_discarded()) json[field.key] = std::move(value);
   }
   return json;
 }

@@ -71,30 +71,18 @@
 
 namespace chaintrue::grid::files {
 
-/// Reads and writes one field. A field finds its member by an offset from the object: a class for each
-/// member type dominated the compile time of grid/files.
-class Member {
- public:
-  virtual ~Member() = default;
-  /// A wrong value is reported.
-  virtual void read(const Cursor& at, void* member) const = 0;
-  /// Empty omits the key.
-  [[nodiscard]] virtual std::optional<Json> write(const void* member) const = 0;
-};
-
 /// Access to a std::optional whose value type the table does not know.
 struct OptionalAccess {
   void* (*emplace)(void* member);
   void (*reset)(void* member);
-  const void* (*value)(const void* member);  ///< null if it is empty
+  const void* (*value)(const void* member);
 };
 template <class V>
 inline constexpr OptionalAccess kOptionalAccess = {
     [](void* member) -> void* { return &static_cast<std::optional<V>*>(member)->emplace(); },
     [](void* member) { static_cast<std::optional<V>*>(member)->reset(); },
     [](const void* member) -> const void* {
-      const auto& own = *static_cast<const std::optional<V>*>(member);
-      return own ? &*own : nullptr;
+      return &**static_cast<const std::optional<V>*>(member);
     }};
 
 /// How an empty member is written. `is_empty` is null for a type that cannot be empty.
@@ -125,7 +113,8 @@ template <class T, class M, class V>
 }
 
 /// The part of a record that does not depend on the object's type: its keys and its fields. Objects
-/// are passed by address; Record has their type.
+/// are passed by address; Record has their type. A field finds its member by an offset from the
+/// object: a class for each member type dominated the compile time of grid/files.
 class RecordTable {
  public:
   RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
@@ -143,22 +132,17 @@ class RecordTable {
     bool is_required = false;
     std::size_t offset = 0;  ///< of the member in its object
     Expected expected = "";
-    std::shared_ptr<const Member> member{};
+    std::shared_ptr<const Codec> codec{};
+    IfEmpty empty{};
   };
   using Check = std::function<void(const Cursor&, void*)>;
   /// Makes a new default object.
   using Make = std::shared_ptr<void> (*)();
 
-  void add(Field field) { fields_.push_back(std::move(field)); }
-  /// These complete the field by what its codec expects.
-  void add_plain(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty = {});
-  void add_optional(Field field,
-                    std::shared_ptr<const Codec> codec,
-                    const OptionalAccess& access,
-                    IfEmpty::As written = IfEmpty::absent);
+  /// Completes the field by what its codec expects.
+  void add(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty = {});
   /// An optional field with a default, which becomes part of the schema.
   void add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make);
-  void add_constant(Field field, const std::string& word);
   void add_check(Check check) { checks_.push_back(std::move(check)); }
   void add_rule(Json rule) { rules_.push_back(std::move(rule)); }
 
@@ -185,6 +169,10 @@ class RecordTable {
   std::vector<Check> checks_;
   std::vector<Json> rules_;
 };
+
+/// Of a std::optional that holds a value.
+[[nodiscard]] std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
+                                                          const OptionalAccess& access);
 
 /// `reset` makes a new object of the old before it is read; null keeps it. The codec has the record's
 /// table for itself.
@@ -217,7 +205,7 @@ class Record : public RecordTable {
                    Text meaning,
                    MemberPath<T, V> member,
                    const ValueOf<V>& value = value_of_type<V>()) {
-    add_plain(field(key, meaning, true, member.offset), value.codec);
+    add(field(key, meaning, true, member.offset), value.codec);
     return *this;
   }
 
@@ -242,8 +230,7 @@ class Record : public RecordTable {
                    Text meaning,
                    std::optional<V> T::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
-    add_optional(field(key, meaning, false, path(member).offset), value.codec, kOptionalAccess<V>);
-    return *this;
+    return add_optional(key, meaning, member, value, IfEmpty::absent);
   }
 
   template <class V>
@@ -267,11 +254,7 @@ class Record : public RecordTable {
                    Text meaning,
                    std::optional<V> T::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
-    add_optional(field(key, meaning, false, path(member).offset),
-                 value.codec,
-                 kOptionalAccess<V>,
-                 IfEmpty::null);
-    return *this;
+    return add_optional(key, meaning, member, value, IfEmpty::null);
   }
 
   /// `write` returns nothing if the key is to be left out.
@@ -281,10 +264,8 @@ class Record : public RecordTable {
                  Expected expected,
                  std::function<void(const Cursor&, T&)> read,
                  std::function<std::optional<Json>(const T&)> write) {
-    Field own = field(key, meaning, is_required, 0);
-    own.expected = std::move(expected);
-    own.member = std::make_shared<CustomMember>(std::move(read), std::move(write));
-    add(std::move(own));
+    add(field(key, meaning, is_required, 0),
+        std::make_shared<CustomCodec>(std::move(expected), std::move(read), std::move(write)));
     return *this;
   }
 
@@ -309,14 +290,20 @@ class Record : public RecordTable {
 
   /// An object in the file whose fields are members of this object.
   Record& part(Text key, Text meaning, bool is_required, const Record& fields) {
-    add_plain(field(key, meaning, is_required, 0), object_codec(fields, nullptr));
+    add(field(key, meaning, is_required, 0), object_codec(fields, nullptr));
     return *this;
   }
 
   /// A key with a constant value, such as the kind in a variant.
   Record& constant(Text key, Text meaning, const std::string& word) {
-    add_constant(field(key, meaning, true, 0), word);
-    return *this;
+    const Value<std::string> value = one_of({word});
+    return custom(
+        key,
+        meaning,
+        true,
+        value.expected,
+        [value](const Cursor& at, T&) { (void)value.read(at); },
+        [word](const T&) { return std::optional<Json>(word); });
   }
 
   /// Runs after the fields, even if some were wrong; see Cursor::clean.
@@ -345,16 +332,19 @@ class Record : public RecordTable {
   operator Value<T>() const { return object(*this); }  // NOLINT: tables name the record alone
 
  private:
-  class CustomMember : public Member {
+  /// Of the whole object.
+  class CustomCodec : public Codec {
    public:
-    CustomMember(std::function<void(const Cursor&, T&)> read,
-                 std::function<std::optional<Json>(const T&)> write)
-        : read_(std::move(read)), write_(std::move(write)) {}
-    void read(const Cursor& at, void* object) const override {
+    CustomCodec(Expected expected,
+                std::function<void(const Cursor&, T&)> read,
+                std::function<std::optional<Json>(const T&)> write)
+        : Codec(std::move(expected)), read_(std::move(read)), write_(std::move(write)) {}
+    bool read(const Cursor& at, void* object) const override {
       read_(at, *static_cast<T*>(object));
+      return true;
     }
-    [[nodiscard]] std::optional<Json> write(const void* object) const override {
-      return write_(*static_cast<const T*>(object));
+    [[nodiscard]] Json write(const void* object) const override {
+      return write_(*static_cast<const T*>(object)).value_or(Json::value_t::discarded);
     }
 
    private:
@@ -368,8 +358,19 @@ class Record : public RecordTable {
   template <class V>
   Record& add_if_empty(
       Text key, Text meaning, V T::*member, const ValueOf<V>& value, IfEmpty::As written) {
-    add_plain(
-        field(key, meaning, false, path(member).offset), value.codec, {&is_empty<V>, written});
+    add(field(key, meaning, false, path(member).offset), value.codec, {&is_empty<V>, written});
+    return *this;
+  }
+  template <class V>
+  Record& add_optional(Text key,
+                       Text meaning,
+                       std::optional<V> T::*member,
+                       const Value<V>& value,
+                       IfEmpty::As written) {
+    add(field(key, meaning, false, path(member).offset),
+        optional_codec(value.codec, kOptionalAccess<V>),
+        {[](const void* own) { return !static_cast<const std::optional<V>*>(own)->has_value(); },
+         written});
     return *this;
   }
   template <class V>

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -92,6 +93,7 @@ class Codec {
   [[nodiscard]] const Expected& expected() const { return expected_; }
   /// False, and reported, if the value is wrong; the memory is then unchanged.
   virtual bool read(const Cursor& at, void* value) const = 0;
+  /// A discarded value omits a field's key.
   [[nodiscard]] virtual Json write(const void* value) const = 0;
 
  private:
@@ -185,6 +187,14 @@ template <class E>
   for (const auto& [name, value] : names)
     std::memcpy(all.emplace_back(NamedBytes{name}).value.data(), &value, sizeof(E));
   return Value<E>(choice_codec(std::move(all), sizeof(E)));
+}
+
+/// The same where `name` of a value is its name.
+template <class E>
+[[nodiscard]] Value<E> by_name(std::initializer_list<E> values) {
+  std::vector<std::pair<std::string, E>> names;
+  for (const E value : values) names.emplace_back(name(value), value);
+  return choice<E>(names);
 }
 
 /// Access to a std::vector whose element type the codec does not know.

@@ -36,15 +36,13 @@ using model::Uncertainty;
 
 Record<Bed> bed_record() {
   return Record<Bed>("a bed")
-      .required("width_mm",
-                "Width of the sheet that the machine can cut.",
-                &Bed::width_mm,
-                number_in("mm"))
+      .required(
+          "width_mm", "Width of the sheet that the machine can cut.", &Bed::width_mm, kMillimetres)
       .required("height_mm",
                 "Height of that sheet. The origin of all coordinates is "
                 "its middle, x to the right, y up.",
                 &Bed::height_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 Record<MotorPosition> motor_record() {
@@ -52,11 +50,11 @@ Record<MotorPosition> motor_record() {
       .required("x_mm",
                 "x of the motor's axis, from the middle of the bed to the right.",
                 &MotorPosition::x_mm,
-                number_in("mm"))
+                kMillimetres)
       .required("y_mm",
                 "y of the motor's axis, up from the middle of the bed.",
                 &MotorPosition::y_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 Record<PerSide<MotorPosition>> motors_record() {
@@ -69,11 +67,11 @@ Record<PerSide<MotorPosition>> motors_record() {
 Record<Sprocket> sprocket_record() {
   return Record<Sprocket>("a sprocket")
       .required("teeth", "Number of teeth of a sprocket.", &Sprocket::teeth, integer(1, 1000))
-      .required("pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, number_in("mm"))
+      .required("pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, kMillimetres)
       .optional("radius_mm",
                 "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
                 &Sprocket::radius_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 const Record<Ring>& ring_record() {
@@ -84,7 +82,7 @@ const Record<Ring>& ring_record() {
                     "From the bit to a chain's end; 0 if the chains end at the bit, otherwise at "
                     "least 20 mm.",
                     &Ring::radius_mm,
-                    number_in("mm"));
+                    kMillimetres);
   return record;
 }
 
@@ -95,15 +93,15 @@ const Record<Brackets>& brackets_record() {
           .required("spacing_mm",
                     "Distance between the ends of the two chains.",
                     &Brackets::spacing_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .required("height_mm",
                     "Height of the chains' ends above the bit.",
                     &Brackets::height_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .required("cg_below_bit_mm",
                     "Distance of the sled's centre of gravity below the bit.",
                     &Brackets::cg_below_bit_mm,
-                    number_in("mm"));
+                    kMillimetres);
   return record;
 }
 
@@ -139,11 +137,11 @@ Record<ChainLengths> chain_zero_record() {
       .optional("left_mm",
                 "Added to every reading of the left chain.",
                 &ChainLengths::left_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("right_mm",
                 "Added to every reading of the right chain.",
                 &ChainLengths::right_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 Record<Sled> sled_record() {
@@ -163,15 +161,15 @@ Record<Uncertainty> uncertainty_record() {
       .optional("motor_position_mm",
                 "Uncertainty of each coordinate of a motor, 1 sigma.",
                 &Uncertainty::motor_position_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("chain_zero_mm",
                 "Uncertainty of each chain's zero, 1 sigma.",
                 &Uncertainty::chain_zero_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("ring_radius_mm",
                 "Uncertainty of the ring's radius, 1 sigma.",
                 &Uncertainty::ring_radius_mm,
-                number_in("mm"))
+                kMillimetres)
       .check([](const Cursor& at, Uncertainty&) {
         for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
           const Cursor value = at.child(key);
@@ -289,34 +287,33 @@ const Record<ControllerSettings>& controller_settings_record() {
   using Settings = ControllerSettings;
   static const auto record =
       Record<Settings>("the controller's settings, named as GroundControl names them,")
+          .optional("bedwidth", "GroundControl's bedwidth.", &Settings::bed_width_mm, kMillimetres)
           .optional(
-              "bedwidth", "GroundControl's bedwidth.", &Settings::bed_width_mm, number_in("mm"))
-          .optional(
-              "bedheight", "GroundControl's bedheight.", &Settings::bed_height_mm, number_in("mm"))
+              "bedheight", "GroundControl's bedheight.", &Settings::bed_height_mm, kMillimetres)
           .optional("motorspacingx",
                     "Distance between the motors' axes.",
                     &Settings::motor_spacing_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .optional("motoroffsety",
                     "Height of the motors above the bed's upper edge.",
                     &Settings::motor_offset_y_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .optional("rotationradius",
                     "Distance from the bit to a chain's end.",
                     &Settings::rotation_radius_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .optional("sledwidth",
                     "Of a sled on brackets: distance between the brackets.",
                     &Settings::sled_width_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .optional("sledheight",
                     "Of a sled on brackets: height of the brackets above the bit.",
                     &Settings::sled_height_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .optional("sledcg",
                     "Of a sled on brackets: distance of its centre of gravity below the bit.",
                     &Settings::sled_cg_mm,
-                    number_in("mm"))
+                    kMillimetres)
           .optional("chainsagcorrection",
                     "Factor of the firmware's parabola for the chain's sag.",
                     &Settings::chain_sag_correction,
@@ -333,7 +330,7 @@ const Record<ControllerSettings>& controller_settings_record() {
                     "Tilt of the beam.",
                     &Settings::top_beam_tilt_deg,
                     number_in("degrees"))
-          .optional("chainpitch", "Length of a link.", &Settings::chain_pitch_mm, number_in("mm"))
+          .optional("chainpitch", "Length of a link.", &Settings::chain_pitch_mm, kMillimetres)
           .optional("gearteeth",
                     "Number of teeth of a sprocket.",
                     &Settings::gear_teeth,

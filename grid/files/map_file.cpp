@@ -49,15 +49,6 @@ Record<OutsideRule> outside_record() {
                 kFadeWidthMm);
 }
 
-Value<NoiseSource> noise_source() {
-  std::vector<std::pair<std::string, NoiseSource>> names;
-  for (const NoiseSource source :
-       {NoiseSource::stated, NoiseSource::repeats, NoiseSource::fit, NoiseSource::assumed}) {
-    names.emplace_back(name(source), source);
-  }
-  return choice<NoiseSource>(std::move(names));
-}
-
 Record<MapNoise> map_noise_record() {
   return Record<MapNoise>("the noise that the fit went by")
       .required(
@@ -66,7 +57,12 @@ Record<MapNoise> map_noise_record() {
                 "Noise of a position, 1 sigma on each axis.",
                 &MapNoise::position_mm,
                 kNotNegative)
-      .required("source", "Where it comes from.", &MapNoise::source, noise_source())
+      .required(
+          "source",
+          "Where it comes from.",
+          &MapNoise::source,
+          by_name(
+              {NoiseSource::stated, NoiseSource::repeats, NoiseSource::fit, NoiseSource::assumed}))
       .required("factor_found",
                 "Scatter of the points relative to this noise.",
                 &MapNoise::factor_found,

@@ -21,29 +21,29 @@ Record<Gondola> gondola_record() {
       .optional("spacing_mm",
                 "Between the two points where the cords hold it; 0: both cords end at the pen.",
                 &Gondola::spacing_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("pen_below_mm",
                 "Distance of the pen below the middle between those points, hanging level.",
                 &Gondola::pen_below_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("pen_right_mm",
                 "Distance of the pen to the right of that middle.",
                 &Gondola::pen_right_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("mass_below_mm",
                 "Distance of the centre of mass below that middle.",
                 &Gondola::mass_below_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("mass_right_mm",
                 "Distance of the centre of mass to the right of that middle.",
                 &Gondola::mass_right_mm,
-                number_in("mm"))
+                kMillimetres)
       .required("mass_kg", "Mass of everything that hangs.", &Gondola::mass_kg, number_in("kg"))
       .optional("standoff_mm",
                 "Extra distance from the wall of the cords' ends at the gondola, relative to "
                 "those at the wall.",
                 &Gondola::standoff_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 Record<Cord> cord_record() {
@@ -57,18 +57,18 @@ Record<Cord> cord_record() {
       .optional("tooth_mm",
                 "Length lost when a motor slips: a tooth of the belt, or a full step of a spool.",
                 &Cord::tooth_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 Record<DrawingArea> area_record() {
   return Record<DrawingArea>("a drawing area")
-      .required("left_mm", "Left limit of the pen.", &DrawingArea::left_mm, number_in("mm"))
-      .required("right_mm", "Right limit of the pen.", &DrawingArea::right_mm, number_in("mm"))
+      .required("left_mm", "Left limit of the pen.", &DrawingArea::left_mm, kMillimetres)
+      .required("right_mm", "Right limit of the pen.", &DrawingArea::right_mm, kMillimetres)
       .required("top_mm",
                 "Upper limit of the pen; the pins are at 0.",
                 &DrawingArea::top_mm,
-                number_in("mm"))
-      .required("bottom_mm", "Lower limit of the pen.", &DrawingArea::bottom_mm, number_in("mm"));
+                kMillimetres)
+      .required("bottom_mm", "Lower limit of the pen.", &DrawingArea::bottom_mm, kMillimetres);
 }
 
 Record<ChainLengths> cord_zero_record() {
@@ -76,11 +76,11 @@ Record<ChainLengths> cord_zero_record() {
       .optional("left_mm",
                 "Excess of the controller's length of the left cord.",
                 &ChainLengths::left_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("right_mm",
                 "Excess of the controller's length of the right cord.",
                 &ChainLengths::right_mm,
-                number_in("mm"));
+                kMillimetres);
 }
 
 Record<ChainLengths> cord_scale_record() {
@@ -101,13 +101,13 @@ Record<PlotterUncertainty> uncertainty_of_plotter_record() {
       .optional("pin_spacing_mm",
                 "Uncertainty of the distance between the pins, 1 sigma.",
                 &Sigmas::pin_spacing_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("pin_rise_mm",
                 "Uncertainty of the right pin's height above the left, 1 sigma.",
                 &Sigmas::pin_rise_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional(
-          "zero_mm", "Uncertainty of each cord's zero, 1 sigma.", &Sigmas::zero_mm, number_in("mm"))
+          "zero_mm", "Uncertainty of each cord's zero, 1 sigma.", &Sigmas::zero_mm, kMillimetres)
       .optional("scale_mm_per_m",
                 "Uncertainty of the length per motor turn, 1 sigma.",
                 &Sigmas::scale_mm_per_m,
@@ -128,15 +128,15 @@ Record<PlotterMachine> plotter_machine_record() {
                 "Distance between the two points on the wall from which the cords come: pins, "
                 "or axles of the pulleys.",
                 &Plotter::pin_spacing_mm,
-                number_in("mm"))
+                kMillimetres)
       .optional("pin_rise_mm",
                 "Height of the right point above the left.",
                 &Plotter::pin_rise_mm,
-                number_in("mm"))
+                kMillimetres)
       .required("motors",
                 "Location of the motors with the pulleys or spools that count.",
                 &Plotter::motors,
-                choice<MotorPlace>({{"wall", MotorPlace::wall}, {"gondola", MotorPlace::gondola}}))
+                by_name({MotorPlace::wall, MotorPlace::gondola}))
       .optional("feed",
                 "Side of its pulley over which a cord leaves.",
                 &Plotter::feed,
@@ -144,7 +144,7 @@ Record<PlotterMachine> plotter_machine_record() {
       .optional("pulley_radius_mm",
                 "Radius of the cord on its pulley; 0: straight to the pin.",
                 &Plotter::pulley_radius_mm,
-                number_in("mm"))
+                kMillimetres)
       .required("gondola", "What hangs on the cords.", &Plotter::gondola, gondola_record())
       .optional("cord", "The cords, or belts.", &Plotter::cord, cord_record())
       .optional("zero",
@@ -207,10 +207,10 @@ const Record<SetPlotter>& set_plotter_record() {
                     "The firmware, whose kinematics converts a command into cord lengths; a "
                     "Makelangelo is a marlin.",
                     &SetPlotter::firmware,
-                    choice<PlotterFirmware>({{"fluidnc", PlotterFirmware::fluidnc},
-                                             {"marlin", PlotterFirmware::marlin},
-                                             {"polargraph", PlotterFirmware::polargraph},
-                                             {"mural", PlotterFirmware::mural}}))
+                    by_name({PlotterFirmware::fluidnc,
+                             PlotterFirmware::marlin,
+                             PlotterFirmware::polargraph,
+                             PlotterFirmware::mural}))
           .required("machine",
                     "The machine with the controller's settings.",
                     &SetPlotter::machine,

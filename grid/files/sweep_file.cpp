@@ -142,10 +142,10 @@ MemberPath<StatedSweep, V> of_spec(V SweepSpec::*member) {
 Record<StatedSweep> make_record() {
   const auto spacing =
       choice<DesignKind>({{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
-  const auto surface = choice<SurfaceLevel>({{"residual", SurfaceLevel::residual},
-                                             {"direct", SurfaceLevel::direct},
-                                             {"direct_parabolic", SurfaceLevel::direct_parabolic},
-                                             {"direct_natural", SurfaceLevel::direct_natural}});
+  const auto surface = by_name({SurfaceLevel::residual,
+                                SurfaceLevel::direct,
+                                SurfaceLevel::direct_parabolic,
+                                SurfaceLevel::direct_natural});
   return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
       .required("name", "Name of the sweep.", of_spec(&SweepSpec::name))
       .optional(
