@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include "grid/belts/belt_holes.hpp"
+#include "grid/containers.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
+
+using model::SheetPlacement;
 
 constexpr Range kPositiveMm{"mm", 1e-9, 1e6};
 constexpr Range kFactor{"", 1e-3, 1e3};
@@ -66,88 +69,55 @@ struct StatedDisplacement {
 /// x, y, and the tool's offset in x and y.
 constexpr std::size_t kNumbersOfAPlace = 4;
 
-const Record<StatedDisplacement>& displacement_record() {
-  static const auto record =
-      Record<StatedDisplacement>("a displacement of the tool")
-          .required("size_mm",
-                    "Its prior sigma, on each axis.",
-                    &StatedDisplacement::size_mm,
-                    kPositiveMm)
-          .required("reach_mm",
-                    "Length over which it changes.",
-                    &StatedDisplacement::reach_mm,
-                    kPositiveMm)
-          .required("places",
-                    "For each place x, y, and the displacement of the tool in x and y from the "
-                    "position given by its upper two belts; mm.",
-                    &StatedDisplacement::places,
-                    list(list(kMillimetres, kNumbersOfAPlace), 1))
-          .check([](const Cursor& at, StatedDisplacement& stated) {
-            for (const auto& place : stated.places) {
-              if (place.size() != kNumbersOfAPlace && at.clean())
-                at.child("places").expect("four numbers of each place");
-            }
-          });
-  return record;
+Record<StatedDisplacement> displacement_record() {
+  return Record<StatedDisplacement>("a displacement of the tool")
+      .required(
+          "size_mm", "Its prior sigma, on each axis.", &StatedDisplacement::size_mm, kPositiveMm)
+      .required(
+          "reach_mm", "Length over which it changes.", &StatedDisplacement::reach_mm, kPositiveMm)
+      .required("places",
+                "For each place x, y, and the displacement of the tool in x and y from the "
+                "position given by its upper two belts; mm.",
+                &StatedDisplacement::places,
+                list(list(kMillimetres, kNumbersOfAPlace), 1))
+      .check([](const Cursor& at, StatedDisplacement& stated) {
+        for (const auto& place : stated.places) {
+          if (place.size() != kNumbersOfAPlace && at.clean())
+            at.child("places").expect("four numbers of each place");
+        }
+      });
 }
 
-std::optional<DisplacementParts> read_displacement(const Cursor& at) {
-  const auto stated = displacement_record().read(at);
-  if (!stated || !at.clean()) return std::nullopt;
-  DisplacementParts parts{stated->size_mm, stated->reach_mm, {}, {}};
-  parts.at_mm.resize(2 * static_cast<Eigen::Index>(stated->places.size()));
-  for (const auto& place : stated->places) {
-    const auto row = 2 * static_cast<Eigen::Index>(parts.places.size());
+DisplacementParts displacement_of(const StatedDisplacement& stated) {
+  DisplacementParts parts{stated.size_mm, stated.reach_mm, {}, {}};
+  parts.at_mm.resize(2 * as_index(stated.places.size()));
+  for (const auto& place : stated.places) {
+    const auto row = 2 * as_index(parts.places.size());
     parts.places.push_back({place[0], place[1]});
     parts.at_mm.segment<2>(row) << place[2], place[3];
   }
   return parts;
 }
 
-Json written_displacement(const DisplacementParts& parts) {
+StatedDisplacement stated_of(const DisplacementParts& parts) {
   StatedDisplacement stated{parts.size_mm, parts.reach_mm, {}};
   for (std::size_t i = 0; i < parts.places.size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = 2 * as_index(i);
     stated.places.push_back(
         {parts.places[i].x_mm, parts.places[i].y_mm, parts.at_mm[row], parts.at_mm[row + 1]});
   }
-  return displacement_record().write(stated);
+  return stated;
 }
 
-struct StatedSheet {
-  double x_mm = 0.0;
-  double y_mm = 0.0;
-  double rotation_rad = 0.0;
-};
-
-Record<StatedSheet> stated_sheet_record() {
-  return Record<StatedSheet>("where the sheet lies")
+Record<SheetPlacement> stated_sheet_record() {
+  return Record<SheetPlacement>("where the sheet lies")
       .required("x_mm",
                 "x of the sheet, to the right of the origin of commands.",
-                &StatedSheet::x_mm,
+                &SheetPlacement::x_mm,
                 kMillimetres)
-      .required("y_mm", "y of the sheet, up from there.", &StatedSheet::y_mm, kMillimetres)
-      .required("rotation_rad", "Rotation, counter-clockwise.", &StatedSheet::rotation_rad, kAngle);
-}
-
-void read_holes_covariance(const Cursor& at, HolesWithBelts& holes) {
-  const auto rows = list(list(number(kAnyNumber))).read(at);
-  if (!rows || !at.clean()) return;
-  const auto size = static_cast<Eigen::Index>(rows->size());
-  holes.covariance.resize(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const auto& row = (*rows)[static_cast<std::size_t>(i)];
-    if (static_cast<Eigen::Index>(row.size()) != size) return at.expect("as many numbers as rows");
-    for (Eigen::Index k = 0; k < size; ++k)
-      holes.covariance(i, k) = row[static_cast<std::size_t>(k)];
-  }
-}
-
-std::optional<Json> written_holes_covariance(const HolesWithBelts& holes) {
-  Json rows = Json::array();
-  for (const auto& row : holes.covariance.rowwise())
-    rows.push_back(std::vector<double>(row.begin(), row.end()));
-  return rows;
+      .required("y_mm", "y of the sheet, up from there.", &SheetPlacement::y_mm, kMillimetres)
+      .required(
+          "rotation_rad", "Rotation, counter-clockwise.", &SheetPlacement::rotation_rad, kAngle);
 }
 
 void check_together(const Cursor& at, const HolesWithBelts& holes) {
@@ -157,10 +127,12 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
   if (!holes.machine.anchors_known)
     at.child("machine").expect("the anchors in force when the holes were cut");
   const Eigen::Index moved = holes.displacement ? holes.displacement->at_mm.size() : 0;
-  if (holes.covariance.rows() != belts::kFrameUnknowns + moved) {
+  const Eigen::Index size = belts::kFrameUnknowns + moved;
+  if (holes.covariance.rows() != size || holes.covariance.cols() != size) {
     at.child("covariance")
-        .expect(fmt::format("{} rows: six, and two for each place of the displacement",
-                            belts::kFrameUnknowns + moved));
+        .expect(fmt::format("{} rows of as many numbers: six, and two for each place of the "
+                            "displacement",
+                            size));
   }
 }
 
@@ -190,41 +162,31 @@ const Record<HolesWithBelts>& holes_with_belts_record() {
               "Rms of the distances left out one at a time, without those that were rejected.",
               &HolesWithBelts::left_out_rms_mm,
               kSigmaMm)
-          .custom(
+          .optional(
               "displacement",
               "Displacement of the tool from the position given by its upper two belts; absent: "
-              "the "
-              "holes show none.",
-              false,
-              displacement_record().expected(),
-              [](const Cursor& at, HolesWithBelts& holes) {
-                holes.displacement = read_displacement(at);
-              },
-              [](const HolesWithBelts& holes) {
-                return holes.displacement
-                           ? std::optional<Json>(written_displacement(*holes.displacement))
-                           : std::nullopt;
-              })
-          .computed(
-              "sheet",
-              "By its measured edges; absent: the holes, as a whole, lie where they were "
-              "commanded.",
-              false,
-              object(stated_sheet_record()),
-              [](HolesWithBelts& holes, const StatedSheet& sheet) {
-                holes.sheet = {sheet.x_mm, sheet.y_mm, sheet.rotation_rad};
-              },
-              [](const HolesWithBelts& holes) -> std::optional<StatedSheet> {
-                if (!holes.sheet) return std::nullopt;
-                return StatedSheet{holes.sheet->x(), holes.sheet->y(), holes.sheet->z()};
-              })
-          .custom("covariance",
-                  "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
-                  "displacement at each of its places.",
-                  true,
-                  {"rows of numbers", list(list(number(kAnyNumber))).expected.schema},
-                  read_holes_covariance,
-                  written_holes_covariance)
+              "the holes show none.",
+              &HolesWithBelts::displacement,
+              converted<DisplacementParts>(
+                  object(displacement_record()), displacement_of, stated_of))
+          .optional("sheet",
+                    "By its measured edges; absent: the holes, as a whole, lie where they were "
+                    "commanded.",
+                    &HolesWithBelts::sheet,
+                    converted<Eigen::Vector3d>(
+                        object(stated_sheet_record()),
+                        [](const SheetPlacement& own) {
+                          return Eigen::Vector3d(own.x_mm, own.y_mm, own.rotation_rad);
+                        },
+                        [](const Eigen::Vector3d& own) {
+                          return SheetPlacement{own.x(), own.y(), own.z()};
+                        }))
+          .required(
+              "covariance",
+              "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
+              "displacement at each of its places.",
+              &HolesWithBelts::covariance,
+              matrix_of_numbers(kAnyNumber, 0))
           .check([](const Cursor& at, HolesWithBelts& holes) { check_together(at, holes); });
   return record;
 }

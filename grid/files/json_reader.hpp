@@ -269,7 +269,7 @@ class Record : public RecordTable {
     return *this;
   }
 
-  /// A value that is not a member: `set(object, value)` takes it, `get(object)` returns it, or
+  /// A value that is not a member: `set(object, value)` takes a sound one, `get(object)` returns it, or
   /// nothing if the key is to be left out.
   template <class V, class Set, class Get>
   Record& computed(
@@ -280,7 +280,7 @@ class Record : public RecordTable {
         is_required,
         value.expected,
         [value, set](const Cursor& at, T& object) {
-          if (auto read = value.read(at)) set(object, *std::move(read));
+          if (auto read = value.read(at); read && at.clean()) set(object, *std::move(read));
         },
         [value, get](const T& object) {
           const std::optional<V> own = get(object);

@@ -152,6 +152,19 @@ struct Value {
   Expected expected;
 };
 
+/// A value that is kept as another type: `to` makes it of what was read without a problem, `back`
+/// is its inverse.
+template <class V, class From, class To, class Back>
+[[nodiscard]] Value<V> converted(const Value<From>& value, To to, Back back) {
+  return {[value, to](const Cursor& at) -> std::optional<V> {
+            const std::optional<From> read = value.read(at);
+            if (!read || !at.clean()) return std::nullopt;
+            return to(*read);
+          },
+          [value, back](const V& own) { return value.write(back(own)); },
+          value.expected};
+}
+
 /// What the type says already: a text, true or false.
 template <class V>
 [[nodiscard]] Value<V> value_of_type() {

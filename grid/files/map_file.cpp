@@ -211,40 +211,36 @@ void check_map(const Cursor& at, MapContents& map) {
   }
 }
 
-/// One of the two kinds of surface: `Surface` in memory, `Part` in the file.
-template <class Surface, class Part>
-void add_surface(Record<MapContents>& record,
-                 const char* key,
-                 const char* meaning,
-                 const Record<Part>& part) {
-  record.custom(
-      key,
-      meaning,
-      false,
-      part.expected(),
-      [&part](const Cursor& at, MapContents& map) {
-        const auto read = part.read(at);
-        if (read && at.clean()) map.surface = surface_of(*read);
-      },
-      [&part](const MapContents& map) -> std::optional<Json> {
-        const auto* surface = std::get_if<Surface>(&map.surface);
-        if (surface == nullptr) return std::nullopt;
-        return part.write(part_of(*surface));
-      });
+/// Null for a map with the other kind of surface.
+template <class Surface>
+const Surface* surface_in(const MapContents& map) {
+  return std::get_if<Surface>(&map.surface);
 }
 
 Record<MapContents> make_map_record() {
   Record<MapContents> record("a chaintrue_map file", kMapFormat);
   record.optional("name", "Name of the grid.", &MapContents::name);
-  add_surface<ModelSurface>(record,
-                            "on_machine",
-                            "A calibrated machine with residual surfaces; or direct.",
-                            model_part_record());
-  add_surface<DirectSurface>(record,
-                             "direct",
-                             "Splines through the lengths, without a machine; or on_machine.",
-                             direct_part_record());
   record
+      .computed(
+          "on_machine",
+          "A calibrated machine with residual surfaces; or direct.",
+          false,
+          object(model_part_record()),
+          [](MapContents& map, const ModelPart& part) { map.surface = surface_of(part); },
+          [](const MapContents& map) {
+            const auto* own = surface_in<ModelSurface>(map);
+            return own != nullptr ? std::optional(part_of(*own)) : std::nullopt;
+          })
+      .computed(
+          "direct",
+          "Splines through the lengths, without a machine; or on_machine.",
+          false,
+          object(direct_surface_record()),
+          [](MapContents& map, const DirectSurface& surface) { map.surface = surface; },
+          [](const MapContents& map) {
+            const auto* own = surface_in<DirectSurface>(map);
+            return own != nullptr ? std::optional(*own) : std::nullopt;
+          })
       .required(
           "domain_mm", "Where the map can be evaluated.", &MapContents::domain, rectangle_record())
       .required("hull",

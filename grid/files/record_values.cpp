@@ -6,16 +6,15 @@
 #include <string>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::files {
 
 Value<std::size_t> index_number(int least, int most) {
-  const Value<int> whole = integer(least, most);
-  return {[whole](const Cursor& at) -> std::optional<std::size_t> {
-            const auto value = whole.read(at);
-            return value ? std::optional(static_cast<std::size_t>(*value)) : std::nullopt;
-          },
-          [](const std::size_t& value) { return Json(value); },
-          whole.expected};
+  return converted<std::size_t>(
+      integer(least, most),
+      [](int value) { return as_size(value); },
+      [](std::size_t value) { return static_cast<int>(value); });
 }
 
 Value<std::uint64_t> seed_number() {
@@ -51,6 +50,37 @@ Value<Eigen::Vector2d> pair_of_numbers(const Range& range) {
              schema["maxItems"] = 2;
              return schema;
            }}};
+}
+
+Value<Eigen::VectorXd> vector_of_numbers() {
+  using Numbers = std::vector<double>;
+  return converted<Eigen::VectorXd>(
+      list(kAnyNumber),
+      [](const Numbers& values) -> Eigen::VectorXd {
+        return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
+      },
+      [](const Eigen::VectorXd& values) { return Numbers(values.begin(), values.end()); });
+}
+
+Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest) {
+  using Rows = std::vector<std::vector<double>>;
+  return converted<Eigen::MatrixXd>(
+      list(list(range, fewest), fewest),
+      [](const Rows& rows) {
+        const std::size_t wide = rows.empty() ? 0 : rows.front().size();
+        if (!all_of(rows, [&](const auto& row) { return row.size() == wide; }))
+          return Eigen::MatrixXd();
+        Eigen::MatrixXd matrix(as_index(rows.size()), as_index(wide));
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          matrix.row(as_index(i)) =
+              Eigen::Map<const Eigen::RowVectorXd>(rows[i].data(), matrix.cols());
+        return matrix;
+      },
+      [](const Eigen::MatrixXd& matrix) {
+        Rows rows;
+        for (const auto& row : matrix.rowwise()) rows.emplace_back(row.begin(), row.end());
+        return rows;
+      });
 }
 
 void report_impossible(const Cursor& at, const std::vector<model::MachineProblem>& found) {

@@ -35,6 +35,10 @@ inline constexpr int kMostNumbered = 1000000;
 /// A vector in the plane, or a number for each chain, as a pair of numbers.
 [[nodiscard]] Value<Eigen::Vector2d> pair_of_numbers(const Range& range);
 
+/// A list of numbers; rows of numbers, of which those that differ in length make no matrix: 0 x 0.
+[[nodiscard]] Value<Eigen::VectorXd> vector_of_numbers();
+[[nodiscard]] Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest);
+
 /// A dimension of a machine: its range is checked by model::problems_of, for files and programs in
 /// one place.
 [[nodiscard]] inline Value<double> number_in(std::string_view unit) {
