@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
@@ -17,55 +18,20 @@ namespace {
 
 constexpr std::string_view kTypeKey = "file_type";
 
-/// Stops the parser at the value of "file_type" of the outermost object.
-class TypeFinder : public nlohmann::json_sax<Json> {
- public:
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(number_integer_t) override { return value(); }
-  bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
-  bool string(string_t& text) override {
-    if (is_type_) {
-      found = true;
-      type = text;
-      return false;
-    }
-    return value();
-  }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return open(); }
-  bool start_array(std::size_t) override { return open(); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool key(string_t& name) override {
-    is_type_ = depth_ == 1 && name == kTypeKey;
-    return true;
-  }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
-    return false;
-  }
-
-  bool found = false;
-  std::string type;
-
- private:
-  bool value() {
-    is_type_ = false;
-    return true;
-  }
-  bool open() {
-    ++depth_;
-    return value();
-  }
-  bool close() {
-    --depth_;
-    return true;
-  }
-
-  int depth_ = 0;
-  bool is_type_ = false;
-};
+/// Of the outermost object, also where the text behind it is not JSON.
+std::optional<std::string> type_in_head(const std::string& text) {
+  using Event = Json::parse_event_t;
+  std::optional<std::string> type;
+  bool is_type = false;
+  const auto look = [&](int depth, Event event, const Json& parsed) {
+    if (is_type && !type && event == Event::value && parsed.is_string())
+      type = parsed.get<std::string>();
+    is_type = event == Event::key && depth == 1 && parsed == kTypeKey;
+    return depth == 0;  // nothing is kept
+  };
+  [[maybe_unused]] const Json nothing = Json::parse(text, look, false);
+  return type;
+}
 
 FileKind kind_of_csv(std::string_view text) {
   const std::vector<std::string> header = csv_header(text);
@@ -103,9 +69,7 @@ bool is_json(std::string_view text) {
 }
 
 std::string file_type_of(const std::string& text, const std::string& file) {
-  TypeFinder finder;
-  (void)Json::sax_parse(text, &finder);
-  if (finder.found) return finder.type;
+  if (const auto type = type_in_head(text)) return *type;
   // If no type precedes the first syntax error: the whole text, read as leniently as files are.
   Problems problems(file);
   const Json json = parse_json(text, problems);
