@@ -14,12 +14,6 @@ namespace {
 
 using observation::DrawnMeasure;
 
-struct CrossInFile {
-  std::string name;
-  double x_mm = 0.0;
-  double y_mm = 0.0;
-};
-
 /// Crosses by their names.
 struct MeasureInFile {
   DrawnMeasure::Kind kind = DrawnMeasure::Kind::length;
@@ -30,23 +24,20 @@ struct MeasureInFile {
   double sigma_mm = kRulerSigmaMm;
 };
 
-struct DrawingInFile {
-  std::string name;
-  SetPlotter set;
-  std::vector<CrossInFile> crosses;
-  std::vector<MeasureInFile> measures;
+struct DrawingInFile : TestDrawing {
+  std::vector<MeasureInFile> lines;
 };
 
-Record<CrossInFile> cross_record() {
-  return Record<CrossInFile>("a drawn cross")
-      .required("name", "Its name on the sheet.", &CrossInFile::name)
+Record<DrawnCross> cross_record() {
+  return Record<DrawnCross>("a drawn cross")
+      .required("name", "Its name on the sheet.", &DrawnCross::name)
       .required("x_mm",
                 "Commanded x, to the right of the middle between the pins.",
-                &CrossInFile::x_mm,
+                path(&DrawnCross::commanded, &model::BedPoint::x_mm),
                 kPlaceMm)
       .required("y_mm",
                 "Commanded y, up from the pins, so negative below them.",
-                &CrossInFile::y_mm,
+                path(&DrawnCross::commanded, &model::BedPoint::y_mm),
                 kPlaceMm);
 }
 
@@ -84,23 +75,23 @@ Record<MeasureInFile> measure_record() {
 }
 
 bool has_cross(const DrawingInFile& drawing, const std::string& name) {
-  return any_of(drawing.crosses, [&](const CrossInFile& cross) { return cross.name == name; });
+  return any_of(drawing.crosses, [&](const DrawnCross& cross) { return cross.name == name; });
 }
 
 void check_drawing(const Cursor& at, DrawingInFile& drawing) {
   if (!at.clean()) return;
   for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
-    const auto same = [&](const CrossInFile& cross) {
+    const auto same = [&](const DrawnCross& cross) {
       return cross.name == drawing.crosses[i].name;
     };
     const auto own = drawing.crosses.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(drawing.crosses.begin(), own, same))
       at.child("crosses").element(i).child("name").expect("a name that no other cross has");
   }
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (std::size_t i = 0; i < drawing.lines.size(); ++i) {
     const Cursor place = at.child("measures");
     const Cursor measure = place.element(i);
-    const MeasureInFile& own = drawing.measures[i];
+    const MeasureInFile& own = drawing.lines[i];
     for (const auto& [key, name] : {std::pair{"from", own.from}, std::pair{"to", own.to}}) {
       if (!has_cross(drawing, name)) measure.child(key).expect("the name of one of the crosses");
     }
@@ -116,32 +107,31 @@ const Record<DrawingInFile>& drawing_record() {
   static const auto record =
       Record<Drawing>("a test drawing", kDrawingFormat)
           .sparse("name", "Name of the drawing.", &Drawing::name)
-          .required("set",
-                    "The plotter with the settings in force when the page was drawn.",
-                    &Drawing::set,
-                    set_plotter_record())
+          .computed(
+              "set",
+              "The plotter with the settings in force when the page was drawn.",
+              true,
+              object(set_plotter_record()),
+              [](Drawing& drawing, const SetPlotter& set) {
+                static_cast<SetPlotter&>(drawing) = set;
+              },
+              [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
           .required(
               "crosses", "The crosses of the page.", &Drawing::crosses, list(cross_record(), 3))
-          .required("measures",
-                    "Readings of ruler and string.",
-                    &Drawing::measures,
-                    list(measure_record()))
+          .required(
+              "measures", "Readings of ruler and string.", &Drawing::lines, list(measure_record()))
           .check(check_drawing);
   return record;
 }
 
 DrawingInFile in_file(const TestDrawing& drawing, bool is_blank) {
-  DrawingInFile file;
-  file.name = drawing.name;
-  file.set = drawing;
-  for (const DrawnCross& cross : drawing.crosses)
-    file.crosses.push_back({cross.name, cross.commanded.x_mm, cross.commanded.y_mm});
+  DrawingInFile file{drawing, {}};
   const auto name = [&](std::size_t cross) { return drawing.crosses.at(cross).name; };
   for (const DrawnMeasure& own : drawing.measures) {
     MeasureInFile measure{own.kind, name(own.from), name(own.to), {}, own.value_mm, own.sigma_mm};
     if (own.kind == DrawnMeasure::Kind::bow) measure.middle = name(own.middle);
     if (is_blank) measure.value_mm.reset();
-    file.measures.push_back(std::move(measure));
+    file.lines.push_back(std::move(measure));
   }
   return file;
 }
@@ -150,18 +140,14 @@ DrawingInFile in_file(const TestDrawing& drawing, bool is_blank) {
 
 TestDrawing parse_drawing(const std::string& text, const std::string& file) {
   const DrawingInFile read = read_document(drawing_record(), text, file);
-  TestDrawing drawing;
-  static_cast<SetPlotter&>(drawing) = read.set;
-  drawing.name = read.name;
-  for (const CrossInFile& cross : read.crosses)
-    drawing.crosses.push_back({cross.name, {cross.x_mm, cross.y_mm}});
+  TestDrawing drawing = read;
   const auto index = [&](const std::string& name) {
     const auto found = std::find_if(read.crosses.begin(),
                                     read.crosses.end(),
-                                    [&](const CrossInFile& cross) { return cross.name == name; });
+                                    [&](const DrawnCross& cross) { return cross.name == name; });
     return static_cast<std::size_t>(std::distance(read.crosses.begin(), found));
   };
-  for (const MeasureInFile& own : read.measures) {
+  for (const MeasureInFile& own : read.lines) {
     if (!own.value_mm) continue;
     const std::size_t middle = own.middle.empty() ? 0 : index(own.middle);
     drawing.measures.push_back(

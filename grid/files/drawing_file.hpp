@@ -10,7 +10,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "grid/plotter/test_drawing.hpp"
