@@ -3,10 +3,7 @@
 /// Input checks of lengths of four belts, independent of the file format. Private to grid/files.
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <string>
-#include <string_view>
 
 #include "grid/belts/measured_belts.hpp"
 #include "grid/files/belts_file.hpp"

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <string_view>
 
 #include "grid/containers.hpp"

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The results from belts in a chaintrue_diagnosis file.
-#include <algorithm>
-
-#include <fmt/format.h>
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"

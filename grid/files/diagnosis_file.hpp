@@ -40,7 +40,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/input_error.hpp"
@@ -51,7 +50,8 @@ namespace chaintrue::grid::files {
 /// "-" reads standard input. \throws InputError with every problem of the file.
 [[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path);
 /// Parses text; `file` is the name used in messages.
-[[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text, const std::string& file);
+[[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
+                                                   const std::string& file);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis,
                                           const std::optional<Provenance>& made_by = std::nullopt);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Places on the bed in a chaintrue_diagnosis file: the points as the pictures show them, and what
 // to measure next.
-#include <fmt/format.h>
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_keys.hpp"

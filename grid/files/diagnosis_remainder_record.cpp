@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
 

@@ -6,7 +6,6 @@
 #include "grid/files/formats.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/map/controller_error.hpp"
-#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

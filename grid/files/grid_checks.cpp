@@ -8,7 +8,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "grid/containers.hpp"
 #include "grid/input_checks/number_checks.hpp"
@@ -304,7 +303,6 @@ void check_points_together(const MeasuredGrid& grid,
                            std::size_t fewest_points,
                            const PointPlaces& places,
                            Problems& problems) {
-  constexpr std::size_t kSpanFrom = 8;
   const std::size_t count = grid.points.size();
   if (count < fewest_points) {
     problems.explain(places.all,
@@ -326,8 +324,8 @@ void check_points_together(const MeasuredGrid& grid,
                  ProblemKind::missing);
   }
   if (count == 0 || check_entries(grid, places, problems)) return;
-  const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
-  if (fewest_points < kSpanFrom || count < fewest_points) return;
+  const bool is_tiny = count >= kFewestPoints && warn_of_a_tiny_area(grid, places, problems);
+  if (fewest_points < kFewestPoints || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistanceMm) {
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),

@@ -4,10 +4,8 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grid/files/measured_entries.hpp"
@@ -18,6 +16,8 @@ namespace chaintrue::grid::files {
 
 /// Points this near count as repeats, so a set that is no wider than this has one row only.
 inline constexpr double kRepeatDistanceMm = 25.0;
+/// A map needs so many, spread over an area.
+inline constexpr std::size_t kFewestPoints = 8;
 
 /// A point as a file states it, before it is checked for completeness.
 struct StatedPoint {

@@ -30,14 +30,9 @@ constexpr Range kLength{"mm", 1.0, 20000.0};
 constexpr int kLargestOrder = 1'000'000'000;
 
 /// The content of the file, before the machine is read and the points are checked together.
-struct StatedGrid {
-  std::string name;
-  std::optional<Machine> machine;
+struct StatedGrid : MeasuredGrid {
   std::string machine_file;
-  std::optional<StatedNoise> noise;
-  std::optional<SheetUncertainty> sheet;
-  std::vector<ExtraReading> readings;
-  std::vector<StatedPoint> points;
+  std::vector<StatedPoint> lines;
 };
 
 Record<StatedNoise> noise_record() {
@@ -134,7 +129,7 @@ void read_points(const Cursor& at, StatedGrid& grid) {
       point = point_record().read(at.element(i)).value_or(StatedPoint{});
     }
     point.is_spoilt = at.problems().list().size() > problems_before;
-    grid.points.push_back(point);
+    grid.lines.push_back(point);
   }
 }
 
@@ -168,7 +163,7 @@ const Record<StatedGrid>& grid_record() {
                   {"a list of points", points_schema},
                   read_points,
                   [value = list(object(point_record()))](const StatedGrid& grid) {
-                    return std::optional<Json>(value.write(grid.points));
+                    return std::optional<Json>(value.write(grid.lines));
                   })
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedGrid& grid) {
@@ -180,41 +175,34 @@ const Record<StatedGrid>& grid_record() {
 }
 
 /// The common part of JSON and CSV, once the fields are read.
-ReadGrid finish(StatedGrid stated,
+ReadGrid finish(StatedGrid grid,
                 PointPlaces places,
-                const GridOptions& options,
+                const MeasuredOptions& options,
                 Problems& problems) {
   std::vector<std::string> blanks;
-  for (const StatedPoint& point : stated.points) {
+  for (const StatedPoint& point : grid.lines) {
     const int number = point.order.value_or(static_cast<int>(blanks.size()) + 1);
     blanks.push_back(point.is_blank ? fmt::format("{}", number) : "");
   }
   constexpr EntryWords kWords{"points", "the readings, written into the empty columns"};
-  keep_only(filled_in(blanks, kWords, places.all, problems), stated.points, places.of);
-  count_copies_once(stated.points, places, problems);
-  fetch_machine(stated.machine, stated.machine_file, options.machine, options.otherwise, problems);
-  ReadGrid read;
-  MeasuredGrid& grid = read.grid;
-  grid.name = std::move(stated.name);
-  grid.machine = std::move(stated.machine);
-  grid.noise = options.noise ? options.noise : stated.noise;
-  grid.sheet = stated.sheet;
-  grid.readings = std::move(stated.readings);
+  keep_only(filled_in(blanks, kWords, places.all, problems), grid.lines, places.of);
+  count_copies_once(grid.lines, places, problems);
+  fetch_machine(grid.machine, grid.machine_file, options, problems);
   const bool points_are_whole =
-      none_of(stated.points, [](const StatedPoint& point) { return point.is_spoilt; });
+      none_of(grid.lines, [](const StatedPoint& point) { return point.is_spoilt; });
   const std::size_t problems_before = problems.list().size();
-  grid.points = measured_points(stated.points, places, problems);
-  if (points_are_whole && problems.list().size() == problems_before) {
-    check_points_together(grid, options.fewest_points, places, problems);
-  }
+  grid.points = measured_points(grid.lines, places, problems);
+  if (points_are_whole && problems.list().size() == problems_before)
+    check_points_together(grid, options.few ? 1 : kFewestPoints, places, problems);
   problems.throw_if_any();
   warn_of_copies(grid, places, problems);
   warn_of_repeats_that_disagree(grid, places, problems);
-  read.warnings = problems.warnings();
-  return read;
+  return {std::move(grid), problems.warnings()};
 }
 
-ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Problems& problems) {
+ReadGrid parse_json_grid(const std::string& text,
+                         const MeasuredOptions& options,
+                         Problems& problems) {
   const Json json = parse_json(text, problems);
   auto stated = grid_record().read(Cursor(json, problems), true);
   const bool has_points = json.is_object() && json.contains("points") && json["points"].is_array();
@@ -242,7 +230,9 @@ void take_blanks(
                ProblemKind::left_blank);
 }
 
-ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Problems& problems) {
+ReadGrid parse_csv_grid(const std::string& text,
+                        const MeasuredOptions& options,
+                        Problems& problems) {
   constexpr std::size_t kOrder = 4;
   // Lengths are required unless the header has commands in their place.
   const std::vector<std::string> header = csv_header(text);
@@ -278,7 +268,7 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
         problems.add(cell.place(), cell.text, "a whole number (order)", ProblemKind::not_a_number);
       }
     }
-    stated.points.push_back(point);
+    stated.lines.push_back(point);
   }
   if (table.rows.empty()) {
     if (!problems.any())
@@ -301,20 +291,22 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
 
 }  // namespace
 
-ReadGrid parse_grid(const std::string& text, const std::string& file, const GridOptions& options) {
+ReadGrid parse_grid(const std::string& text,
+                    const std::string& file,
+                    const MeasuredOptions& options) {
   Problems problems(file);
   return is_json(text) ? parse_json_grid(text, options, problems)
                        : parse_csv_grid(text, options, problems);
 }
 
-ReadGrid read_grid(const fs::path& path, const GridOptions& options) {
+ReadGrid read_grid(const fs::path& path, const MeasuredOptions& options) {
   return parse_grid(read_whole_file(path), name_in_messages(path), options);
 }
 
 namespace {
 
 StatedGrid stated_grid(const MeasuredGrid& grid) {
-  StatedGrid stated{grid.name, grid.machine, {}, grid.noise, grid.sheet, grid.readings, {}};
+  StatedGrid stated{grid, {}, {}};
   for (const MeasuredPoint& point : grid.points) {
     StatedPoint to{point.mark.x_mm, point.mark.y_mm, {}, {}, {}, {}, point.order};
     if (point.lengths) {
@@ -325,7 +317,7 @@ StatedGrid stated_grid(const MeasuredGrid& grid) {
       to.commanded_x_mm = point.commanded->x_mm;
       to.commanded_y_mm = point.commanded->y_mm;
     }
-    stated.points.push_back(to);
+    stated.lines.push_back(to);
   }
   return stated;
 }

@@ -19,30 +19,15 @@
 /// \endcode
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "grid/files/measured_options.hpp"
 #include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
-
-/// Values that a CSV does not contain, or that override the file's own.
-struct GridOptions {
-  std::optional<model::Machine> machine;  ///< --machine
-  std::optional<StatedNoise> noise;       ///< --noise-length-mm, --noise-position-mm, --noise-dof
-  /// From this number on, the points must also span an area. A few points that only check a map
-  /// pass 1.
-  std::size_t fewest_points = 8;
-  /// Used for a file that names no machine: the machine of the map to be checked.
-  std::optional<model::Machine> otherwise = std::nullopt;
-  /// What was measured is in inches, in a CSV whose header says mm: marks and lengths, but not the
-  /// commands. JSON is as its keys say.
-  bool inches = false;
-};
 
 struct ReadGrid {
   MeasuredGrid grid;
@@ -55,11 +40,11 @@ struct ReadGrid {
 /// commas). The path of a "machine_file" is relative to the grid's folder. \throws InputError with
 /// every problem of the file.
 [[nodiscard]] ReadGrid read_grid(const std::filesystem::path& path,
-                                 const GridOptions& options = {});
+                                 const MeasuredOptions& options = {});
 /// `file` is the name used in messages; a "machine_file" is looked for in its folder.
 [[nodiscard]] ReadGrid parse_grid(const std::string& text,
                                   const std::string& file,
-                                  const GridOptions& options = {});
+                                  const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_grid(const MeasuredGrid& grid);
 /// A sheet to fill in, in the same format: null for both coordinates of a point that has a command,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "grid/containers.hpp"
 #include "grid/files/grid_checks.hpp"

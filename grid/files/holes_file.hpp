@@ -38,25 +38,11 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "grid/files/measured_options.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::grid::files {
-
-/// Values that a CSV does not contain, or that override the file's own.
-struct HolesOptions {
-  std::optional<model::Machine> machine;
-  std::optional<double> tape_sigma_mm;
-  std::optional<double> tape_zero_offset_mm;
-  std::optional<double> tape_zero_offset_sigma_mm;
-  std::optional<double> hole_sigma_mm;
-  /// A few distances that only check a map pass 1.
-  std::size_t fewest_distances = kFewestHoleDistances;
-  /// Used for a file that names no machine.
-  std::optional<model::Machine> otherwise = std::nullopt;
-  /// The distances are in inches, in a CSV whose header says mm. JSON is as its keys say.
-  bool inches = false;
-};
 
 struct ReadHoles {
   MeasuredHoles holes;
@@ -68,11 +54,11 @@ struct ReadHoles {
 /// "-" reads standard input. Messages name recognised mistakes (inches, a triangle that cannot
 /// close, a tape zero offset that was forgotten). \throws InputError with every problem.
 [[nodiscard]] ReadHoles read_holes(const std::filesystem::path& path,
-                                   const HolesOptions& options = {});
+                                   const MeasuredOptions& options = {});
 /// `file` is the name used in messages; a "machine_file" is looked for in its folder.
 [[nodiscard]] ReadHoles parse_holes(const std::string& text,
                                     const std::string& file,
-                                    const HolesOptions& options = {});
+                                    const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_holes(
     const MeasuredHoles& holes, const std::optional<model::BeltMachine>& belts = std::nullopt);

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "grid/files/belts_record.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
@@ -162,7 +160,7 @@ const Record<StatedHoles>& holes_record() {
           .required("holes", "The holes as commanded.", &StatedHoles::holes, list(hole_record()))
           .required("distances",
                     "The distances between them, and to edges.",
-                    &StatedHoles::distances,
+                    &StatedHoles::lines,
                     list(distance_record()))
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedHoles& stated) {

@@ -19,20 +19,12 @@ namespace chaintrue::grid::files {
 inline constexpr Range kHoleCoordinate{"mm", -20000.0, 20000.0};
 inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
 
-struct StatedHoles {
-  std::string name;
-  std::optional<model::Machine> machine;
-  std::optional<model::BeltMachine> belt_machine;  ///< instead of it
+struct StatedHoles : MeasuredHoles {
+  std::optional<model::BeltMachine> belt_machine;  ///< instead of the other
   std::string machine_file;
-  Tape tape;
   /// The tape's zero offset is stated, even as 0.
   bool tape_zero_is_stated = false;
-  double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
-  double noise_dof = MeasuredHoles{}.noise_dof;
-  SheetSize sheet;
-  std::vector<ExtraReading> readings;
-  std::vector<Hole> holes;
-  std::vector<StatedDistance> distances;
+  std::vector<StatedDistance> lines;
 };
 
 [[nodiscard]] const Record<StatedHoles>& holes_record();

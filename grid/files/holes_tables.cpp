@@ -92,7 +92,7 @@ void read_distance_row(const CsvRow& row,
         checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigmaMm, problems);
   }
   distance.is_spoilt = problems.list().size() > before;
-  stated.distances.push_back(distance);
+  stated.lines.push_back(distance);
 }
 
 /// The hole at these two cells; one that is there already has its name.

@@ -92,7 +92,7 @@ struct IfEmpty {
   As as = absent;
 };
 
-/// A member of T, or of one of its members.
+/// A member of T, of a base, or of one of its members.
 template <class T, class V>
 struct MemberPath {
   [[nodiscard]] V& of(T& object) const {
@@ -101,15 +101,20 @@ struct MemberPath {
   [[nodiscard]] const V& of(const T& object) const { return of(const_cast<T&>(object)); }
   std::size_t offset = 0;
 };
-template <class T, class V>
-[[nodiscard]] MemberPath<T, V> path(V T::*member) {
+/// T itself has the member, or a base of it.
+template <class T, class B, class V>
+[[nodiscard]] MemberPath<T, V> path_in(V B::*member) {
   static const T object{};
   return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
                                    reinterpret_cast<const std::byte*>(&object))};
 }
+template <class T, class V>
+[[nodiscard]] MemberPath<T, V> path(V T::*member) {
+  return path_in<T>(member);
+}
 template <class T, class M, class V>
 [[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {
-  return {path(outer).offset + path(inner).offset};
+  return {path_in<T>(outer).offset + path_in<M>(inner).offset};
 }
 
 /// The part of a record that does not depend on the object's type: its keys and its fields. Objects
@@ -193,12 +198,12 @@ class Record : public RecordTable {
   /// The format must outlive the record.
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
-  template <class V>
+  template <class V, class B>
   Record& required(Text key,
                    Text meaning,
-                   V T::*member,
+                   V B::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
-    return required(key, meaning, path(member), value);
+    return required(key, meaning, path_in<T>(member), value);
   }
   template <class V>
   Record& required(Text key,
@@ -209,12 +214,12 @@ class Record : public RecordTable {
     return *this;
   }
 
-  template <class V>
+  template <class V, class B>
   Record& optional(Text key,
                    Text meaning,
-                   V T::*member,
+                   V B::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
-    return optional(key, meaning, path(member), value);
+    return optional(key, meaning, path_in<T>(member), value);
   }
   template <class V>
   Record& optional(Text key,
@@ -225,34 +230,34 @@ class Record : public RecordTable {
     return *this;
   }
 
-  template <class V>
+  template <class V, class B>
   Record& optional(Text key,
                    Text meaning,
-                   std::optional<V> T::*member,
+                   std::optional<V> B::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
     return add_optional(key, meaning, member, value, IfEmpty::absent);
   }
 
-  template <class V>
+  template <class V, class B>
   Record& sparse(Text key,
                  Text meaning,
-                 V T::*member,
+                 V B::*member,
                  const ValueOf<V>& value = value_of_type<V>()) {
     return add_if_empty(key, meaning, member, value, IfEmpty::absent);
   }
 
-  template <class V>
+  template <class V, class B>
   Record& nullable(Text key,
                    Text meaning,
-                   V T::*member,
+                   V B::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
     return add_if_empty(key, meaning, member, value, IfEmpty::null);
   }
 
-  template <class V>
+  template <class V, class B>
   Record& nullable(Text key,
                    Text meaning,
-                   std::optional<V> T::*member,
+                   std::optional<V> B::*member,
                    const ValueOf<V>& value = value_of_type<V>()) {
     return add_optional(key, meaning, member, value, IfEmpty::null);
   }
@@ -355,19 +360,21 @@ class Record : public RecordTable {
   static Field field(Text key, Text meaning, bool is_required, std::size_t offset) {
     return {std::string(key), std::string(meaning), is_required, offset};
   }
-  template <class V>
+  template <class V, class B>
   Record& add_if_empty(
-      Text key, Text meaning, V T::*member, const ValueOf<V>& value, IfEmpty::As written) {
-    add(field(key, meaning, false, path(member).offset), value.codec, {&is_empty<V>, written});
+      Text key, Text meaning, V B::*member, const ValueOf<V>& value, IfEmpty::As written) {
+    add(field(key, meaning, false, path_in<T>(member).offset),
+        value.codec,
+        {&is_empty<V>, written});
     return *this;
   }
-  template <class V>
+  template <class V, class B>
   Record& add_optional(Text key,
                        Text meaning,
-                       std::optional<V> T::*member,
+                       std::optional<V> B::*member,
                        const Value<V>& value,
                        IfEmpty::As written) {
-    add(field(key, meaning, false, path(member).offset),
+    add(field(key, meaning, false, path_in<T>(member).offset),
         optional_codec(value.codec, kOptionalAccess<V>),
         {[](const void* own) { return !static_cast<const std::optional<V>*>(own)->has_value(); },
          written});

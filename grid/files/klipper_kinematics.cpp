@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/klipper_kinematics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,14 +13,16 @@ namespace {
 using model::BedPoint;
 
 /// Where straight lines of these lengths from the anchors meet, below them.
-std::optional<BedPoint> straight_place(const StraightChains& straight, model::ChainLengths lengths) {
+std::optional<BedPoint> straight_place(const StraightChains& straight,
+                                       model::ChainLengths lengths) {
   const model::PerSide<BedPoint>& anchors = straight.anchors;
   for (const model::Side side : model::kSides) lengths[side] += straight.longer_mm[side];
   const double dx = anchors.right.x_mm - anchors.left.x_mm;
   const double dy = anchors.right.y_mm - anchors.left.y_mm;
   const double apart = std::hypot(dx, dy);
   const double along =
-      (lengths.left_mm * lengths.left_mm - lengths.right_mm * lengths.right_mm + apart * apart) / (2.0 * apart);
+      (lengths.left_mm * lengths.left_mm - lengths.right_mm * lengths.right_mm + apart * apart) /
+      (2.0 * apart);
   const double square = (lengths.left_mm - along) * (lengths.left_mm + along);
   if (!(square > 0.0)) return std::nullopt;
   const double below = std::sqrt(square);
@@ -31,8 +31,7 @@ std::optional<BedPoint> straight_place(const StraightChains& straight, model::Ch
 }
 
 /// The largest second derivative of the straight place by x or y, in 1/mm, from the table's nodes.
-std::optional<double> largest_bend(const LengthTable& table,
-                                   const StraightChains& straight) {
+std::optional<double> largest_bend(const LengthTable& table, const StraightChains& straight) {
   const auto place = [&](int row, int column) {
     return straight_place(straight, {table.node(row, column, 0), table.node(row, column, 1)});
   };
@@ -41,20 +40,19 @@ std::optional<double> largest_bend(const LengthTable& table,
     for (int column = 0; column < table.columns; ++column) {
       const auto here = place(row, column);
       if (!here) return std::nullopt;
-      const auto bend = [&](const std::optional<BedPoint>& a,
-                            const std::optional<BedPoint>& b,
-                            double step_mm) {
-        if (!a || !b) return 0.0;
-        return std::hypot(a->x_mm - 2.0 * here->x_mm + b->x_mm,
-                          a->y_mm - 2.0 * here->y_mm + b->y_mm) /
-               (step_mm * step_mm);
-      };
+      const auto bend =
+          [&](const std::optional<BedPoint>& a, const std::optional<BedPoint>& b, double step_mm) {
+            if (!a || !b) return 0.0;
+            return std::hypot(a->x_mm - 2.0 * here->x_mm + b->x_mm,
+                              a->y_mm - 2.0 * here->y_mm + b->y_mm) /
+                   (step_mm * step_mm);
+          };
       if (column > 0 && column + 1 < table.columns)
-        largest = std::max(
-            largest, bend(place(row, column - 1), place(row, column + 1), table.step_x()));
+        largest =
+            std::max(largest, bend(place(row, column - 1), place(row, column + 1), table.step_x()));
       if (row > 0 && row + 1 < table.rows)
-        largest = std::max(
-            largest, bend(place(row - 1, column), place(row + 1, column), table.step_y()));
+        largest =
+            std::max(largest, bend(place(row - 1, column), place(row + 1, column), table.step_y()));
     }
   }
   return largest;
@@ -69,10 +67,9 @@ double piece_for(double bend_per_mm) {
 
 }  // namespace
 
-tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(
-    const LengthMap& map,
-    const StraightChains& straight,
-    const std::string& name) {
+tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(const LengthMap& map,
+                                                               const StraightChains& straight,
+                                                               const std::string& name) {
   const auto table = length_table(map);
   if (!table) return tl::unexpected(table.error());
   const auto bend = largest_bend(*table, straight);

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/map_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "grid/files/content_hash.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/map_surface_record.hpp"
@@ -13,7 +9,6 @@
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
-#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

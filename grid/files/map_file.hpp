@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "grid/map/compensation_map.hpp"

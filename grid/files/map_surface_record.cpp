@@ -7,9 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/machine_record.hpp"
-#include "grid/files/parse_double.hpp"
 #include "grid/files/record_values.hpp"
-#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -168,12 +166,7 @@ Record<LatticeResidual> lattice_record() {
       });
 }
 
-double seven_digits(double value) {
-  const std::string digits = fmt::format("{:.7g}", value);
-  double rounded = 0.0;
-  parse_double(digits.data(), digits.data() + digits.size(), rounded);
-  return rounded;
-}
+double seven_digits(double value) { return number_of(fmt::format("{:.7g}", value)).value(); }
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/maslow4_text.hpp"
@@ -24,7 +23,7 @@ bool same(const ScannedReading& a, const ScannedReading& b) {
 
 /// `list` begins with `points`, or the other way round.
 bool begins_equally(const std::vector<ScannedReading>& points,
-                  const std::vector<ScannedReading>& list) {
+                    const std::vector<ScannedReading>& list) {
   const auto shared = static_cast<std::ptrdiff_t>(std::min(points.size(), list.size()));
   return std::equal(points.begin(), points.begin() + shared, list.begin(), same);
 }
@@ -225,7 +224,8 @@ class Scanner {
     }
     const std::string_view text = unquoted(line);
     const bool is_comment = text.starts_with('#') || text.starts_with("//");
-    if (!is_reading && !text.empty() && !is_comment && !first_passed_over_) first_passed_over_ = line_;
+    if (!is_reading && !text.empty() && !is_comment && !first_passed_over_)
+      first_passed_over_ = line_;
   }
 
   /// Single readings that were discarded are printed before the measurement of their waypoint.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -47,9 +46,10 @@ void add_scale(const BeltMachine& machine,
                std::string_view why_unknown,
                Maslow4Settings& settings) {
   if (!found) {
-    settings.remarks.push_back(fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: {}, "
-                                           "so the scale is unknown.",
-                                           why_unknown));
+    settings.remarks.push_back(
+        fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: {}, "
+                    "so the scale is unknown.",
+                    why_unknown));
     return;
   }
   const double scale = scale_of(*found);
@@ -79,12 +79,15 @@ Maslow4Settings anchors_of(const BeltMachine& machine) {
 void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& settings) {
   const auto belt = model::belt_of(name(cause.cause.side));
   if (cause.cause.effect->id == "anchor_height" && belt && !cause.parameters.empty()) {
-    add_line(settings, machine, *belt, 'Z', machine.anchors[*belt].z_mm + cause.parameters.front().value);
+    add_line(settings,
+             machine,
+             *belt,
+             'Z',
+             machine.anchors[*belt].z_mm + cause.parameters.front().value);
     return;
   }
-  settings.remarks.push_back(fmt::format("No setting corrects this: {}. {}.",
-                                         cause.cause.effect->cause,
-                                         cause.cause.effect->remedy));
+  settings.remarks.push_back(fmt::format(
+      "No setting corrects this: {}. {}.", cause.cause.effect->cause, cause.cause.effect->remedy));
 }
 
 }  // namespace
@@ -113,8 +116,11 @@ Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
         "Several causes are possible; the anchors are those with the likeliest. Decide first "
         "which one acts: the diagnosis proposes measurements.");
   }
-  add_scale(machine, found.belts->scale, "no distance was taped, or none fits with the "
-                                         "causes", settings);
+  add_scale(machine,
+            found.belts->scale,
+            "no distance was taped, or none fits with the "
+            "causes",
+            settings);
   return settings;
 }
 

@@ -19,11 +19,10 @@ PlaceOf place_in_json(std::string list) {
 
 void fetch_machine(std::optional<model::Machine>& machine,
                    const std::string& machine_file,
-                   const std::optional<model::Machine>& instead,
-                   const std::optional<model::Machine>& otherwise,
+                   const MeasuredOptions& options,
                    Problems& problems) {
-  if (instead) {
-    machine = instead;
+  if (options.machine) {
+    machine = options.machine;
   } else if (!machine_file.empty() && !machine) {
     const auto folder = std::filesystem::path(problems.file()).parent_path();
     try {
@@ -34,7 +33,7 @@ void fetch_machine(std::optional<model::Machine>& machine,
       problems.add_all(error);
     }
   } else if (!machine) {
-    machine = otherwise;
+    machine = options.otherwise;
   }
 }
 

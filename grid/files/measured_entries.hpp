@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/files/measured_options.hpp"
 #include "grid/files/problems.hpp"
 #include "model/machine.hpp"
 
@@ -22,12 +23,11 @@ using PlaceOf = std::function<std::string(std::size_t index, std::string_view fi
 /// Of a list in JSON: "/points", "/points/3", "/points/3/x_mm".
 [[nodiscard]] PlaceOf place_in_json(std::string list);
 
-/// Fills in the machine: `instead` of any that the file states; otherwise its own, that of the file that
-/// it names, or `otherwise`. Problems and warnings of that file are added.
+/// Fills in the machine: that of the options instead of any that the file states; otherwise its own, that of
+/// the file that it names, or the options' other one. Problems and warnings of that file are added.
 void fetch_machine(std::optional<model::Machine>& machine,
                    const std::string& machine_file,
-                   const std::optional<model::Machine>& instead,
-                   const std::optional<model::Machine>& otherwise,
+                   const MeasuredOptions& options,
                    Problems& problems);
 
 /// The other entries are dropped; places are then those of what is kept.

@@ -157,7 +157,6 @@ ReadOptical parse_optical(const std::string& text,
   const PointPlaces places{"the visited squares",
                            [&lines](std::size_t index, std::string_view) { return lines[index]; }};
   read.grid.points = measured_points(stated, places, problems);
-  constexpr std::size_t kFewestPoints = 8;
   check_points_together(read.grid, kFewestPoints, places, problems);
   problems.throw_if_any();
   return read;

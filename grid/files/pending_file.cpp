@@ -82,7 +82,9 @@ fs::path end_of_links(const fs::path& path) {
   for (int links = 0; fs::is_symlink(target, error); ++links) {
     const fs::path next = fs::read_symlink(target, error);
     if (error || links == kMostLinks) {
-      refuse_file(path.string(), system_words(error ? error.value() : ELOOP), "a link that leads to a file",
+      refuse_file(path.string(),
+                  system_words(error ? error.value() : ELOOP),
+                  "a link that leads to a file",
                   ProblemKind::output_place);
     }
     target = next.is_absolute() ? next : target.parent_path() / next;
@@ -94,8 +96,7 @@ fs::path end_of_links(const fs::path& path) {
 /// are written to directly.
 fs::path file_behind(const fs::path& path) {
   if (path.empty())
-    refuse_file("output file", "an empty name", "the name of a file",
-                ProblemKind::output_place);
+    refuse_file("output file", "an empty name", "the name of a file", ProblemKind::output_place);
   if (descriptor_behind(path)) return {};
   std::error_code error;
   if (fs::is_directory(path, error))
@@ -105,8 +106,8 @@ fs::path file_behind(const fs::path& path) {
   if (::stat(target.c_str(), &status) != 0) {
     // An invalid name would be detected only at the rename, after other files were renamed.
     if (errno != ENOENT)
-      refuse_file(path.string(), system_words(errno), "the name of a file",
-                  ProblemKind::output_place);
+      refuse_file(
+          path.string(), system_words(errno), "the name of a file", ProblemKind::output_place);
     return target;
   }
   if (!S_ISREG(status.st_mode)) return {};
@@ -194,9 +195,10 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_b
   const int error_number = errno;
   temporary_.clear();
   free_slot(slot_);
-  refuse_file(
-      path_.string(), system_words(error_number), "a directory that exists and can be written to",
-      ProblemKind::output_place);
+  refuse_file(path_.string(),
+              system_words(error_number),
+              "a directory that exists and can be written to",
+              ProblemKind::output_place);
 }
 
 PendingFile::~PendingFile() { discard(); }
@@ -210,7 +212,9 @@ void PendingFile::discard() {
 
 void PendingFile::refuse(int error_number) {
   discard();
-  refuse_file(path_.string(), system_words(error_number), "room and the right to write the file",
+  refuse_file(path_.string(),
+              system_words(error_number),
+              "room and the right to write the file",
               ProblemKind::output_place);
 }
 
@@ -259,9 +263,9 @@ void PendingFile::put_out() const {
   const int descriptor =
       open_already ? open_already.value() : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
   const bool is_written =
-      stream != nullptr
-          ? std::fwrite(held_.data(), 1, held_.size(), stream) == held_.size() && std::fflush(stream) == 0
-          : descriptor >= 0 && write_all(descriptor, held_);
+      stream != nullptr ? std::fwrite(held_.data(), 1, held_.size(), stream) == held_.size() &&
+                              std::fflush(stream) == 0
+                        : descriptor >= 0 && write_all(descriptor, held_);
   const int error_number = errno;
   if (!open_already && descriptor >= 0) ::close(descriptor);
   if (is_written) return;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "grid/files/json_reader.hpp"
 #include "grid/provenance.hpp"

@@ -17,7 +17,6 @@
 /// Every list but `machines` may be left out; paths are relative to the file.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

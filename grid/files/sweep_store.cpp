@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -24,7 +23,8 @@ using sweep::CellStatus;
 /// The first line of a part.
 std::string header_of(const ReadSweep& read) {
   return fmt::format(
-      "cell,status,chain_rms_mm,chain_max_mm,tool_rms_mm,tool_max_mm,expected_tool_rms_mm,check of sweep {}\n",
+      "cell,status,chain_rms_mm,chain_max_mm,tool_rms_mm,tool_max_mm,expected_tool_rms_mm,check of "
+      "sweep {}\n",
       read.hash);
 }
 
@@ -50,7 +50,8 @@ std::string line_of(std::uint64_t cell, const CellResult& r) {
 /// Takes a line into the cells, unless it is torn or damaged.
 void take_line(std::string_view line, FinishedCells& cells) {
   const std::size_t check = line.rfind(',');
-  if (check == std::string_view::npos || line.substr(check + 1) != check_of(line.substr(0, check))) return;
+  if (check == std::string_view::npos || line.substr(check + 1) != check_of(line.substr(0, check)))
+    return;
   const auto next_word = [&line] {
     const std::string_view word = line.substr(0, line.find(','));
     line.remove_prefix(word.size() + 1);
@@ -72,7 +73,9 @@ void take_line(std::string_view line, FinishedCells& cells) {
   if (cell < cells.size()) cells[cell] = result;
 }
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& value, const std::string& expected) {
+[[noreturn]] void refuse(const fs::path& path,
+                         const std::string& value,
+                         const std::string& expected) {
   throw InputError({{path.string(), "", value, expected}});
 }
 
@@ -86,7 +89,8 @@ class Part {
     const bool has_header = before && before.tellg() >= static_cast<std::streamoff>(header.size());
     if (has_header) before.seekg(-1, std::ios::end);
     const bool is_torn = has_header && before.get() != '\n';
-    file_.open(path_, has_header ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
+    file_.open(path_,
+               has_header ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
     if (!file_) refuse(path_, "", "a folder that can be written to");
     if (!has_header) write(header);
     if (is_torn) write("\n");
@@ -137,7 +141,9 @@ sweep::CellStore cells_kept_in(const fs::path& directory,
                                const ReadSweep& read,
                                const sweep::Share& share) {
   const auto before = std::make_shared<const FinishedCells>(finished_cells(directory, read));
-  return {[before](std::uint64_t cell) { return (*before)[static_cast<std::size_t>(cell)].has_value(); },
+  return {[before](std::uint64_t cell) {
+            return (*before)[static_cast<std::size_t>(cell)].has_value();
+          },
           [path = parts_of(directory) / part_name(share), header = header_of(read)] {
             const auto part = std::make_shared<Part>(path, header);
             return [part](std::uint64_t cell, const CellResult& result) {

@@ -10,7 +10,6 @@
 /// defaultwebcontrol.json.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "grid/files/machine_file.hpp"

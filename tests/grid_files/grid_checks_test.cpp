@@ -59,7 +59,7 @@ MeasuredGrid some_grid(const model::Machine& machine, testing_support::Random& r
 }
 
 /// The names of the problems; of warnings if there is no problem, and the place of one without a name.
-std::vector<std::string> said_of(const MeasuredGrid& grid, const GridOptions& options = {}) {
+std::vector<std::string> said_of(const MeasuredGrid& grid, const MeasuredOptions& options = {}) {
   std::vector<std::string> names;
   try {
     for (const Warning& warning : parse_grid(write_grid(grid), "grid.json", options).warnings)
@@ -141,7 +141,7 @@ TEST_P(GridOfAnyMachine, WithAMiscountedLinkInARepeatIsNamed) {
 }
 
 TEST_P(GridOfAnyMachine, AHandfulIsEnoughForACheckAndStillKnowsItsSides) {
-  const GridOptions few{machine_, {}, 1};
+  const MeasuredOptions few{.machine = machine_, .few = true};
   grid_.points.resize(2);
   EXPECT_THAT(said_of(grid_, few), IsEmpty());
   EXPECT_THAT(said_of(grid_), ElementsAre("too_few"));

@@ -24,13 +24,12 @@ class HolesCommands : public testing_support::CommandFixture {
 
 TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   const Outcome plan =
-      run("plan --machine " + classic_ +
-          " --holes 9 --edges --tape-sigma-mm 0.5 -o list.csv");
+      run("plan --machine " + classic_ + " --holes 9 --edges --tape-sigma-mm 0.5 -o list.csv");
   ASSERT_EQ(plan.code, 0) << plan.err;
   // The owner cuts the holes of the list on a sheet that lies 6 mm to the right, and writes the
   // tape's readings into the third column.
   const std::string list = content_of(folder_ / "list.csv");
-  grid::files::HolesOptions with_machine;
+  grid::files::MeasuredOptions with_machine;
   with_machine.machine = grid::files::read_machine(classic_);
   const auto with_readings = [&list](const std::function<std::string(const std::string&)>& read) {
     std::istringstream lines(list);

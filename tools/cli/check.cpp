@@ -33,7 +33,7 @@ namespace {
 struct CheckCommand {
   std::string map;
   GridInput input;
-  TapeInput tape;
+  grid::files::TapeOptions tape;
   /// The controller's settings when the new points were commanded.
   std::string settings;
   /// Further files of new points.
@@ -134,8 +134,7 @@ void write_check(const grid::Check& check, const CheckCommand& command, bool of_
     text = of_belts ? grid::files::write_anchors_check(check) : grid::files::write_map_check(check);
   }
   std::vector<grid::files::OutputFile> outputs = {{command.output, text}};
-  if (!command.report.empty())
-    outputs.push_back({command.report, report::render_html(document)});
+  if (!command.report.empty()) outputs.push_back({command.report, report::render_html(document)});
   write_outputs(outputs);
 }
 
@@ -198,8 +197,7 @@ void add_check(Verb app) {
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
       .shows_default();
-  add_output(
-      verb, "--report", command->report, {Origin::page}, "The answer as a web page (HTML)");
+  add_output(verb, "--report", command->report, {Origin::page}, "The answer as a web page (HTML)");
   verb.footer(
       "Three to five points far apart are enough, or holes and the distances between them;\n"
       "chaintrue plan --check picks the most informative points.\n"

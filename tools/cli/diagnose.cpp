@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,10 +33,6 @@ namespace {
 
 namespace files = grid::files;
 using grid::diagnosis::Diagnosis;
-
-std::string page_alongside(const std::string& path) {
-  return std::filesystem::path(path).replace_extension(".html").string();
-}
 
 /// The page if there is none; what to measure next if that helps; else a map.
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
@@ -150,7 +145,7 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              command.extended_machine,
              {Origin::machine},
              "The machine with calibrated settings and the causes that were named")
-      .acts_on(facts::grid | facts::holes,
+      .acts_on(facts::chains,
                "to be left out: belts and drawings are diagnosed by themselves, on the machine in "
                "their own file");
   add_output(verb,
@@ -167,7 +162,7 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              {Origin::list},
              "The most probable law of what no cause explains (90 % or more), as a file for "
              "--effects")
-      .acts_on(facts::grid | facts::holes, "to be left out: a cause of your own acts on chains");
+      .acts_on(facts::chains, "to be left out: a cause of your own acts on chains");
   verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
 
@@ -183,7 +178,7 @@ void add_diagnose(Verb app) {
   add_effects_option(verb, command->input);
   add_input(
       verb, "--with", command->with, "More grids and holes of the same machine, used together")
-      .acts_on(facts::grid | facts::holes,
+      .acts_on(facts::chains,
                "to be left out: belts and drawings are diagnosed by themselves, on the machine in "
                "their own file");
   add_diagnose_outputs(verb, *command);
@@ -204,14 +199,12 @@ void add_diagnose(Verb app) {
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links, without "
                 "a measurement of them")
-      .acts_on(facts::grid | facts::holes,
-               "to be left out: it is of a chain or a tape that is long");
+      .acts_on(facts::chains, "to be left out: it is of a chain or a tape that is long");
   verb.add_flag("--no-gain",
                 command->without_gain,
                 "Do not compute how much naming the causes improves the map, which takes most of "
                 "the time")
-      .acts_on(facts::grid | facts::holes,
-               "to be left out of belts and drawings: what is gained is of a map");
+      .acts_on(facts::chains, "to be left out of belts and drawings: what is gained is of a map");
   add_number(verb,
              "--seed",
              command->seed,

@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 
 struct DiagnoseCommand {
   GridInput input;
-  TapeInput tape;
+  grid::files::TapeOptions tape;
   std::vector<std::string> with;
   std::string output;
   std::string report;

@@ -3,8 +3,6 @@
 /// Sections specific to a diagnosis of a test drawing. Precondition of all: it is one of a drawing.
 #pragma once
 
-#include <vector>
-
 #include "grid/diagnosis/diagnosis.hpp"
 #include "tools/report/document.hpp"
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "grid/containers.hpp"
@@ -108,9 +107,11 @@ std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagn
   std::erase_if(left_out, [&](const grid::diagnosis::Cause& cause) {
     // Effects stated in the machine file have no probability.
     const auto is_it = [&](const model::AppliedEffect& one) {
-      return one.probability && one.effect == cause.cause.effect->id && one.side == name(cause.cause.side);
+      return one.probability && one.effect == cause.cause.effect->id &&
+             one.side == name(cause.cause.side);
     };
-    return grid::any_of(found.extended_machine.effects, is_it) || grid::any_of(found.data_corrections, is_it);
+    return grid::any_of(found.extended_machine.effects, is_it) ||
+           grid::any_of(found.data_corrections, is_it);
   });
   return left_out;
 }
@@ -176,9 +177,8 @@ bool is_surprising(const grid::diagnosis::LeftOver& left_over) {
 
 std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   if (!is_surprising(left_over)) {
-    return fmt::format(
-        "The residual looks like noise: noise alone gives as much in {} of cases.",
-        share_percent(left_over.p_value));
+    return fmt::format("The residual looks like noise: noise alone gives as much in {} of cases.",
+                       share_percent(left_over.p_value));
   }
   std::string text = fmt::format(
       "The residual exceeds noise: it is {:.1f} times the noise, and noise alone gives as much in "

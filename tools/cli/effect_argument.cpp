@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "grid/containers.hpp"
-#include "grid/files/parse_double.hpp"
+#include "grid/files/number_text.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::cli {
@@ -38,15 +37,15 @@ std::optional<model::AppliedEffect> parse_form(const std::string& argument,
   while (!rest.empty()) {
     std::string_view value = take_until(rest, ',');
     const std::string key(take_until(value, '='));
-    double number = 0.0;
-    if (!parse_number(value, number)) {
+    const auto number = grid::files::number_of(value);
+    if (!number) {
       problems.add("--effect",
                    argument,
                    fmt::format("a number after {}=, as in {}", key, kForm),
                    grid::ProblemKind::not_a_number);
       return std::nullopt;
     }
-    if (!effect.parameters.emplace(key, number).second) {
+    if (!effect.parameters.emplace(key, *number).second) {
       problems.add(
           "--effect", argument, fmt::format("{} once", key), grid::ProblemKind::repeated_key);
       return std::nullopt;
@@ -126,11 +125,12 @@ std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& 
   return effects;
 }
 
-bool parse_number(std::string_view text, double& value) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
-  const auto [end, error] =
-      grid::files::parse_double(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+std::optional<NamedNumber> named_number(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return std::nullopt;
+  const auto value = grid::files::number_of(text.substr(equals + 1));
+  if (!value) return std::nullopt;
+  return NamedNumber{std::string(text.substr(0, equals)), *value};
 }
 
 }  // namespace chaintrue::cli

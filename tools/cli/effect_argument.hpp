@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +43,11 @@ class OptionProblems {
     const model::Machine& machine,
     OptionProblems& problems);
 
-/// A number, independent of the locale; empty for any other text.
-[[nodiscard]] bool parse_number(std::string_view text, double& value);
+struct NamedNumber {
+  std::string name;
+  double value = 0.0;
+};
+/// `name=number`; empty for any other text.
+[[nodiscard]] std::optional<NamedNumber> named_number(std::string_view text);
 
 }  // namespace chaintrue::cli

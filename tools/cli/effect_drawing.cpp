@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/report/bed_chart.hpp"
+#include "grid/containers.hpp"
+#include "tools/cli/svg.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -16,9 +17,14 @@ using grid::synthetic::ShiftedMark;
 using grid::synthetic::ShiftedSquare;
 
 // The sheet of paper, in its own units (pixels at 100 %).
-constexpr double kWidth = 960.0;
-constexpr double kMargin = 30.0;
-constexpr double kCaption = 26.0;
+constexpr double kWidth = 960.0, kMargin = 30.0, kCaption = 26.0;
+constexpr double kSquareSize = 300.0;
+
+constexpr std::string_view kFrame = "fill=\"none\" stroke=\"#999999\"";
+
+std::string stroke_of(std::string_view colour) {
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"", colour);
+}
 
 // Exaggeration that turns the largest shift into about `wanted` units.
 double exaggeration(double largest, double wanted) {
@@ -26,142 +32,104 @@ double exaggeration(double largest, double wanted) {
   return largest > kNothing ? report::round_down_125(wanted / largest) : 1.0;
 }
 
-std::string text_at(double x, double y, const std::string& words) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y, words);
-}
-
-std::string arrow(double x, double y, double dx, double dy, const char* css_class) {
+void add_arrow(Svg& svg, double x, double y, double dx, double dy, std::string_view colour) {
+  const std::string look = stroke_of(colour);
+  svg.circle(x, y, 1.6, look);
   const double length = std::hypot(dx, dy);
-  std::string svg = fmt::format(
-      "<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.6\"/>\n", css_class, x, y);
   constexpr double kShortest = 1.0;
-  if (length < kShortest) return svg;
-  const double ux = dx / length;
-  const double uy = dy / length;
-  const double head = std::min(6.0, 0.5 * length);
-  svg += fmt::format(
-      "<path class=\"{}\" d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} "
-      "{:.2f}\"/>\n",
-      css_class,
-      x,
-      y,
-      x + dx,
-      y + dy,
-      x + dx - head * (ux + 0.5 * uy),
-      y + dy - head * (uy - 0.5 * ux),
-      x + dx,
-      y + dy,
-      x + dx - head * (ux - 0.5 * uy),
-      y + dy - head * (uy + 0.5 * ux));
-  return svg;
+  if (length < kShortest) return;
+  const double head = std::min(6.0, 0.5 * length) / length;
+  svg.path(fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}",
+                       x,
+                       y,
+                       x + dx,
+                       y + dy,
+                       x + dx - head * (dx + 0.5 * dy),
+                       y + dy - head * (dy - 0.5 * dx),
+                       x + dx,
+                       y + dy,
+                       x + dx - head * (dx - 0.5 * dy),
+                       y + dy - head * (dy + 0.5 * dx)),
+           look);
 }
 
-std::string draw_bed(const model::Machine& machine,
-                     const EffectPicture& picture,
-                     double top,
-                     double& bottom) {
-  const double scale = (kWidth - 2.0 * kMargin) / machine.bed.width_mm;
-  const double height = machine.bed.height_mm * scale;
-  const double cx = 0.5 * kWidth;
-  const double cy = top + kCaption + 0.5 * height;
+void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const model::Bed& bed) {
   double largest = 0.0;
-  for (const ShiftedMark& mark : picture.marks) {
+  for (const ShiftedMark& mark : picture.marks)
     largest = std::max({largest, mark.as_stated_mm.norm(), mark.calibrated_mm.norm()});
-  }
-  const double spacing = machine.bed.width_mm / (picture.columns - 1) * scale;
+  const double spacing = view.scale() * bed.width_mm / (picture.columns - 1);
   const double by = exaggeration(largest, 0.6 * spacing);
-  std::string svg = text_at(
+  const double top = view.y(0.5 * bed.height_mm);
+  svg.text(
       kMargin,
-      top + 16.0,
+      top - 10.0,
       fmt::format(
           "The bed: 1 mm at the tool drawn as {} units; largest {} mm", by, short_number(largest)));
-  svg += fmt::format(
-      "<rect class=\"bed\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
-      kMargin,
-      top + kCaption,
-      machine.bed.width_mm * scale,
-      height);
+  svg.rectangle(kMargin, top, view.scale() * bed.width_mm, view.high(), kFrame);
   for (const ShiftedMark& mark : picture.marks) {
-    const double x = cx + mark.mark.x_mm * scale;
-    const double y = cy - mark.mark.y_mm * scale;
-    svg += arrow(x, y, by * mark.as_stated_mm.x(), -by * mark.as_stated_mm.y(), "stated");
-    svg += arrow(x, y, by * mark.calibrated_mm.x(), -by * mark.calibrated_mm.y(), "calibrated");
+    const auto add = [&](const Eigen::Vector2d& shift_mm, std::string_view colour) {
+      add_arrow(svg,
+                view.x(mark.mark.x_mm),
+                view.y(mark.mark.y_mm),
+                by * shift_mm.x(),
+                -by * shift_mm.y(),
+                colour);
+    };
+    add(mark.as_stated_mm, report::kBeforeColor);
+    add(mark.calibrated_mm, report::kAfterColor);
   }
-  bottom = top + kCaption + height;
-  return svg;
 }
 
-std::string draw_shifted_square(const ShiftedSquare& square, double left, double top, double size) {
+void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) {
   double largest = 0.0;
   for (const Eigen::Vector2d& shift : square.corner_shift_mm)
     largest = std::max(largest, shift.norm());
-  const double scale = size / square.size_mm;
-  const double by = exaggeration(largest, 0.25 * size);
-  const double half = 0.5 * square.size_mm;
-  const double cx = left + 0.5 * size;
-  const double cy = top + kCaption + 0.5 * size;
-  const double corner_x[] = {-half, half, half, -half};
-  const double corner_y[] = {-half, -half, half, half};
+  const double by = exaggeration(largest, 0.25 * kSquareSize);
+  const double half = 0.5 * kSquareSize;
+  constexpr double kCorners[][2] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
   std::string outline;
   for (std::size_t i = 0; i < square.corner_shift_mm.size(); ++i) {
+    const Eigen::Vector2d& shift = square.corner_shift_mm[i];
     outline += fmt::format("{}{:.2f} {:.2f}",
                            i == 0 ? "M" : "L",
-                           cx + corner_x[i] * scale + by * square.corner_shift_mm[i].x(),
-                           cy - corner_y[i] * scale - by * square.corner_shift_mm[i].y());
+                           left + half * (1.0 + kCorners[i][0]) + by * shift.x(),
+                           top + half * (1.0 - kCorners[i][1]) - by * shift.y());
   }
-  std::string svg = text_at(left,
-                            top + 16.0,
-                            fmt::format("{:.0f} mm square at ({:.0f}, {:.0f}) mm, errors times {}",
-                                        square.size_mm,
-                                        square.centre.x_mm,
-                                        square.centre.y_mm,
-                                        short_number(by / scale)));
-  svg += fmt::format(
-      "<rect class=\"bed\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
-      left,
-      top + kCaption,
-      size,
-      size);
-  svg += fmt::format("<path class=\"stated\" d=\"{}Z\"/>\n", outline);
-  return svg;
+  svg.text(left,
+           top - 10.0,
+           fmt::format("{:.0f} mm square at ({:.0f}, {:.0f}) mm, errors times {}",
+                       square.size_mm,
+                       square.centre.x_mm,
+                       square.centre.y_mm,
+                       short_number(by * square.size_mm / kSquareSize)));
+  svg.rectangle(left, top, kSquareSize, kSquareSize, kFrame);
+  svg.path(outline + "Z", stroke_of(report::kBeforeColor));
 }
 
 }  // namespace
 
 std::string draw_effect(const model::Machine& machine, const EffectPicture& picture) {
-  constexpr double kSquareSize = 300.0;
-  double bottom = 0.0;
-  const double top = 2.0 * kCaption;
-  std::string body = draw_bed(machine, picture, top, bottom);
-  const double squares_top = bottom + 2.0 * kCaption;
-  for (std::size_t i = 0; i < picture.squares.size(); ++i) {
-    const double left = 90.0 + static_cast<double>(i) * (kSquareSize + 180.0);
-    body += draw_shifted_square(picture.squares[i], left, squares_top, kSquareSize);
-  }
-  const double height = squares_top + kCaption + kSquareSize + 3.0 * kCaption;
+  const model::Bed& bed = machine.bed;
+  const BedView view(
+      bed.width_mm, bed.height_mm, {kMargin, 3.0 * kCaption}, kWidth - 2.0 * kMargin);
+  const double squares_top = view.y(-0.5 * bed.height_mm) + 3.0 * kCaption;
   std::string title = picture.applied.effect;
   if (!picture.applied.side.empty()) title += " " + picture.applied.side;
   for (const auto& [key, value] : picture.applied.parameters)
     title += fmt::format(", {} {}", key, short_number(value));
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
-             "role=\"img\">\n"
-             "<title>{}</title>\n"
-             "<style>text{{font:14px "
-             "sans-serif}}.bed{{fill:none;stroke:#999}}path{{fill:none;stroke-width:1.6}}"
-             ".stated{{stroke:{};fill:none}}.calibrated{{stroke:{};fill:none}}</style>\n"
-             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-             kWidth,
-             height,
-             title,
-             report::kBeforeColor,
-             report::kAfterColor) +
-         text_at(kMargin, 22.0, title) +
-         text_at(kMargin,
-                 42.0,
-                 "The tool's error: with the machine file as it is (orange), and after "
-                 "calibrating motors and zeros (blue)") +
-         body + "</svg>\n";
+  Svg svg(kWidth, squares_top + kSquareSize + 3.0 * kCaption, "font-size=\"14\"", title);
+  svg.fill();
+  svg.text(kMargin, 22.0, title);
+  svg.text(
+      kMargin,
+      42.0,
+      "The tool's error: with the machine file as it is (orange), and after calibrating motors "
+      "and zeros (blue)");
+  add_bed(svg, view, picture, bed);
+  for (std::size_t i = 0; i < picture.squares.size(); ++i)
+    add_square(
+        svg, picture.squares[i], 90.0 + grid::as_double(i) * (kSquareSize + 180.0), squares_top);
+  return svg.finished();
 }
 
 std::string short_number(double value) { return fmt::format("{:.3g}", value); }

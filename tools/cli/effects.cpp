@@ -15,7 +15,6 @@
 #include "grid/files/catalogue_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/synthetic/effect_picture.hpp"
 #include "model/reading_model.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -202,14 +201,12 @@ std::map<std::string, double> parse_values(const EffectsOptions& options,
                                            OptionProblems& problems) {
   std::map<std::string, double> values;
   for (const std::string& argument : options.values) {
-    const std::size_t equals = argument.find('=');
-    double value = 0.0;
-    if (equals == std::string::npos ||
-        !parse_number(std::string_view(argument).substr(equals + 1), value)) {
+    const auto named = named_number(argument);
+    if (named) {
+      values[named->name] = named->value;
+    } else {
       problems.add("--set", argument, "parameter=number", grid::ProblemKind::bad_syntax);
-      continue;
     }
-    values[argument.substr(0, equals)] = value;
   }
   return values;
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,7 +56,7 @@ struct Exported {
 };
 
 std::vector<std::string> settings_page(const std::string& path) {
-  return {"report", path, "-o", std::filesystem::path(path).replace_extension(".html").string()};
+  return {"report", path, "-o", page_alongside(path)};
 }
 
 /// The controller in force or, if it has no settings, one with the machine's dimensions.

@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "grid/files/plotter_file.hpp"
 #include "grid/plotter/settings_to_paste.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -40,7 +39,7 @@ namespace {
 
 struct FitCommand {
   GridInput input;
-  TapeInput tape;
+  grid::files::TapeOptions tape;
   /// Further files of the same machine.
   std::vector<std::string> with;
   std::string output;
@@ -142,10 +141,7 @@ int finish(Verb verb,
   if (typed) {
     say_next({"export", "groundcontrol", command.output});
   } else {
-    say_next({"report",
-              command.output,
-              "-o",
-              std::filesystem::path(command.output).replace_extension(".html").string()});
+    say_next({"report", command.output, "-o", page_alongside(command.output)});
   }
   return kDone;
 }
@@ -282,7 +278,7 @@ void add_fit(Verb app) {
                   "through the lengths, without a machine")
       .one_of({"residual", "direct"})
       .shows_default()
-      .acts_on(facts::grid | facts::holes,
+      .acts_on(facts::chains,
                "to be left out: belts and drawings have settings for an answer, and no surface",
                "residual")
       .acts_on(
@@ -295,23 +291,21 @@ void add_fit(Verb app) {
       .acts_on(facts::direct, "to be left out without --surface direct, whose splines it ends");
   add_outside_options(verb, command->outside, "continued by default");
   verb.option("--outside")
-      .acts_on(facts::grid | facts::holes,
-               "to be left out: belts and drawings have no surface that could end")
+      .acts_on(facts::chains, "to be left out: belts and drawings have no surface that could end")
       .acts_on(facts::residual,
                "to be left out of a direct surface, which ends where its points do");
   verb.add_flag("--plain",
                 command->plain,
                 "Do not look for causes. By default, fit looks for causes as diagnose does and "
                 "uses those that improve the map at points left out")
-      .acts_on(facts::grid | facts::holes,
+      .acts_on(facts::chains,
                "to be left out: only maps rest on causes; chaintrue diagnose weighs those of belts "
                "and drawings")
       .acts_on(facts::residual, kNoMachine);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links")
-      .acts_on(facts::grid | facts::holes,
-               "to be left out: it is of a chain or a tape that is long")
+      .acts_on(facts::chains, "to be left out: it is of a chain or a tape that is long")
       .acts_on(facts::residual, kNoMachine)
       .acts_on(facts::causes, "to be left out with --plain: it says which of two causes acts");
   add_number(verb,

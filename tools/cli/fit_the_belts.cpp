@@ -50,11 +50,11 @@ void read_belts_file(const InputFile& file,
   all.indices = files::indices_without(all.belts->points.size(), without);
 }
 
-void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& all) {
+void read_holes_file(const InputFile& file, const grid::files::TapeOptions& tape, BeltFiles& all) {
   require_kind(file,
                {FileKind::belts, FileKind::holes, FileKind::belt_holes},
                "only one file of belts is measured on one machine");
-  files::ReadHoles read = files::parse_holes(file.text, file.name, holes_options(tape));
+  files::ReadHoles read = files::parse_holes(file.text, file.name, {.tape = tape});
   print_warnings(read.warnings);
   if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)
     read.belt_machine = all.belts->machine;
@@ -90,9 +90,10 @@ tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles
   belts.machine = all.holes.front().machine;
   belts.name = all.holes.front().set.name;
   if (all.belts) belts = *all.belts;
-  return grid::diagnosis::fit_with_causes_and_holes(belts, all.holes).map([&](grid::BeltsAndHolesFit fit) {
-    return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
-  });
+  return grid::diagnosis::fit_with_causes_and_holes(belts, all.holes)
+      .map([&](grid::BeltsAndHolesFit fit) {
+        return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
+      });
 }
 
 /// Bad points with their numbers in the file of the belts, where others were left out.
@@ -121,13 +122,13 @@ int fit_the_belts(const BeltsFitCommand& command) {
   const grid::MeasuredBelts belts = all.belts.value_or(grid::MeasuredBelts{});
   const grid::HolesWithBelts* holes = found->holes ? &*found->holes : nullptr;
   const auto error = grid::error_of_belts(found->fit, holes);
-  report::Document document = anchors_document(
-      {found->fit, holes, &belts, all.indices}, found->name, command.output);
+  report::Document document =
+      anchors_document({found->fit, holes, &belts, all.indices}, found->name, command.output);
   if (command.wish_mm) {
     auto& remarks = document.remarks.blocks;
-    remarks.insert(remarks.begin(),
-                   report::Paragraph{belts_wish_sentence(
-                       belts, all.holes, *found, error, *command.wish_mm)});
+    remarks.insert(
+        remarks.begin(),
+        report::Paragraph{belts_wish_sentence(belts, all.holes, *found, error, *command.wish_mm)});
   }
   fmt::print(stderr,
              "{}",

@@ -4,17 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <system_error>
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/input_error.hpp"
-#include "grid/files/parse_double.hpp"
-#include "grid/map/map_for_settings.hpp"
+#include "grid/files/number_text.hpp"
 #include "grid/map/map_in_frame.hpp"
-#include "grid/plotter/plotter_map.hpp"
 #include "model/belts/belt_controller.hpp"
 #include "model/plotter/plotter_commands.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -40,12 +36,6 @@ constexpr KindName kKinds[] = {
 
 constexpr std::string_view kFourBeltsName = "maslow4";
 constexpr std::string_view kMarlinName = "marlin";
-
-bool number(std::string_view text, double& value) {
-  const auto [end, error] =
-      grid::files::parse_double(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-}
 
 }  // namespace
 
@@ -73,13 +63,12 @@ gcode::Dialect GcodeOptions::dialect() const {
 model::BedPoint GcodeOptions::home_mm() const {
   const std::string_view text = home;
   const std::size_t comma = text.find(',');
-  model::BedPoint point;
-  if (comma == std::string_view::npos || !number(text.substr(0, comma), point.x_mm) ||
-      !number(text.substr(comma + 1), point.y_mm)) {
-    throw InputError(
-        {{"--home", "", home, "two numbers in mm with a comma between, such as 120,-40"}});
-  }
-  return point;
+  const auto x = grid::files::number_of(text.substr(0, comma));
+  const auto y = comma == std::string_view::npos ? std::nullopt
+                                                 : grid::files::number_of(text.substr(comma + 1));
+  if (x && y) return {*x, *y};
+  throw InputError(
+      {{"--home", "", home, "two numbers in mm with a comma between, such as 120,-40"}});
 }
 
 const gcode::Firmware* stated_firmware(std::string_view name) {

@@ -12,7 +12,6 @@
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/gcode/emitter.hpp"
 #include "tools/gcode/firmware.hpp"

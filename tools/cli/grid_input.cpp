@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "grid/containers.hpp"
 #include "grid/files/belts_file.hpp"
@@ -32,7 +31,7 @@ void add_grid_options(Verb verb, GridInput& input) {
             input.machine,
             "A chaintrue_machine file that replaces the grid's own "
             "machine")
-      .acts_on(facts::grid | facts::holes | facts::map,
+      .acts_on(facts::chains | facts::map,
                "to be left out: belts and drawings bring their own machine");
   add_number(verb,
              "--noise-length-mm",
@@ -69,7 +68,7 @@ void add_effects_option(Verb verb, GridInput& input) {
             "--effects",
             input.effects,
             "chaintrue_effect files: causes of your own, tested along with the catalogue's")
-      .acts_on(facts::grid | facts::holes, "to be left out: declared effects are of two chains");
+      .acts_on(facts::chains, "to be left out: declared effects are of two chains");
 }
 
 namespace {
@@ -91,7 +90,7 @@ void declare(const GridInput& input,
 
 grid::MeasuredGrid grid_of(const InputFile& file,
                            const GridInput& input,
-                           const files::GridOptions& options) {
+                           const files::MeasuredOptions& options) {
   files::ReadGrid read = files::parse_grid(file.text, file.name, options);
   print_warnings(read.warnings);
   declare(input, file.name, read.grid.machine);
@@ -105,15 +104,6 @@ grid::MeasuredGrid grid_of(const InputFile& file,
 }
 
 }  // namespace
-
-files::HolesOptions holes_options(const TapeInput& tape) {
-  files::HolesOptions options;
-  options.tape_sigma_mm = tape.sigma_mm;
-  options.tape_zero_offset_mm = tape.tape_zero_offset_mm;
-  options.tape_zero_offset_sigma_mm = tape.tape_zero_offset_sigma_mm;
-  options.hole_sigma_mm = tape.hole_sigma_mm;
-  return options;
-}
 
 Facts facts_of_tables(const std::vector<InputFile>& files) {
   const bool any =
@@ -130,69 +120,55 @@ std::optional<model::Machine> machine_of(const GridInput& input) {
 
 }  // namespace
 
-void add_tape_options(Verb verb, TapeInput& input) {
+void add_tape_options(Verb verb, grid::files::TapeOptions& input) {
   add_number(verb,
              "--tape-sigma-mm",
              input.sigma_mm,
              grid::files::kTapeSigmaMm,
              "Holes: standard deviation (1 sigma) of a tape reading")
-      .acts_on(facts::holes | facts::belt_holes,
-               "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hook-offset-mm",
-             input.tape_zero_offset_mm,
+             input.zero_offset_mm,
              grid::files::kTapeZeroOffsetMm,
              "Holes: the tape's zero error; every reading is longer than the distance by this much")
-      .acts_on(facts::holes | facts::belt_holes,
-               "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hook-sigma-mm",
-             input.tape_zero_offset_sigma_mm,
+             input.zero_offset_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
              "known exactly")
-      .acts_on(facts::holes | facts::belt_holes,
-               "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hole-sigma-mm",
              input.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill "
              "wanders")
-      .acts_on(facts::holes | facts::belt_holes,
-               "to be left out: it is of holes, which were not given");
+      .acts_on(facts::taped, "to be left out: it is of holes, which were not given");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
   const InputFile file = open_input(input.grid);
   require_kind(file, {FileKind::grid});
-  files::GridOptions options;
-  options.machine = machine_of(input);
-  options.inches = input.inches;
-  return grid_of(file, input, options);
+  return grid_of(file, input, {.machine = machine_of(input), .inches = input.inches});
 }
 
 grid::MeasuredFile load_measured(const InputFile& file,
                                  const GridInput& input,
-                                 const TapeInput& tape,
+                                 const grid::files::TapeOptions& tape,
                                  MeasuredUse use,
                                  const model::Machine* otherwise) {
   require_kind(file,
                {FileKind::grid, FileKind::holes},
                file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
-  if (file.kind == FileKind::grid) {
-    files::GridOptions options;
-    options.machine = machine_of(input);
-    options.inches = input.inches;
-    if (otherwise != nullptr) options.otherwise = *otherwise;
-    if (use == MeasuredUse::check) options.fewest_points = 1;
-    return {file.name, grid_of(file, input, options)};
-  }
-  files::HolesOptions options = holes_options(tape);
-  options.machine = machine_of(input);
-  options.inches = input.inches;
+  files::MeasuredOptions options{.machine = machine_of(input),
+                                 .few = use == MeasuredUse::check,
+                                 .inches = input.inches,
+                                 .tape = tape};
   if (otherwise != nullptr) options.otherwise = *otherwise;
-  if (use == MeasuredUse::check) options.fewest_distances = 1;
+  if (file.kind == FileKind::grid) return {file.name, grid_of(file, input, options)};
   files::ReadHoles read = files::parse_holes(file.text, file.name, options);
   print_warnings(read.warnings);
   declare(input, file.name, read.holes.machine);
@@ -207,7 +183,7 @@ std::vector<InputFile> open_inputs(const std::string& path, const std::vector<st
 
 grid::Measured load_measured(const std::vector<InputFile>& files,
                              const GridInput& input,
-                             const TapeInput& tape,
+                             const grid::files::TapeOptions& tape,
                              MeasuredUse use) {
   grid::Measured measured;
   measured.add(load_measured(files.front(), input, tape, use));

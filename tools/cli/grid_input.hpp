@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/holes_file.hpp"
+#include "grid/files/measured_options.hpp"
 #include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/input_file.hpp"
@@ -26,14 +26,6 @@ struct GridInput {
   std::vector<std::string> effects;
 };
 
-/// Values that a file of holes may omit.
-struct TapeInput {
-  std::optional<double> sigma_mm;
-  std::optional<double> tape_zero_offset_mm;
-  std::optional<double> tape_zero_offset_sigma_mm;
-  std::optional<double> hole_sigma_mm;
-};
-
 /// Adds GRID, --machine and the --noise options to a verb.
 void add_grid_options(Verb verb, GridInput& input);
 
@@ -47,10 +39,7 @@ void add_effects_option(Verb verb, GridInput& input);
 [[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
-void add_tape_options(Verb verb, TapeInput& input);
-
-/// The options for reading holes. \throws files::InputError.
-[[nodiscard]] grid::files::HolesOptions holes_options(const TapeInput& tape);
+void add_tape_options(Verb verb, grid::files::TapeOptions& input);
 
 /// Adds --without to a verb that takes belts.
 void add_without_option(Verb verb, std::string& without);
@@ -68,7 +57,7 @@ enum class MeasuredUse { fit, check };
 /// if available. \throws files::InputError.
 [[nodiscard]] grid::MeasuredFile load_measured(const InputFile& file,
                                                const GridInput& input,
-                                               const TapeInput& tape,
+                                               const grid::files::TapeOptions& tape,
                                                MeasuredUse use,
                                                const model::Machine* otherwise = nullptr);
 
@@ -76,7 +65,7 @@ enum class MeasuredUse { fit, check };
 /// settings. \throws files::InputError.
 [[nodiscard]] grid::Measured load_measured(const std::vector<InputFile>& files,
                                            const GridInput& input,
-                                           const TapeInput& tape,
+                                           const grid::files::TapeOptions& tape,
                                            MeasuredUse use);
 
 /// The file, and those of --with.

@@ -8,8 +8,6 @@
 #include <iterator>
 #include <vector>
 
-#include "grid/planning/detectable_effects.hpp"
-
 namespace chaintrue::cli {
 namespace {
 

@@ -12,7 +12,6 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/optical_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"

@@ -12,9 +12,7 @@
 #include <exception>
 #include <functional>
 #include <stdexcept>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "tools/cli/map_document.hpp"
-#include "grid/containers.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -36,12 +35,10 @@ report::Outline mapped_sheet(const grid::CompensationMap& map) {
                  half_height_mm = machine->bed.height_mm / 2;
     return {-half_width_mm, half_width_mm, -half_height_mm, half_height_mm};
   }
-  const auto [left, right] = grid::minmax_element(map.contents().hull, [](const auto& a, const auto& b) {
-        return a.x_mm < b.x_mm;
-      });
-  const auto [low, high] = grid::minmax_element(map.contents().hull, [](const auto& a, const auto& b) {
-        return a.y_mm < b.y_mm;
-      });
+  const auto [left, right] = grid::minmax_element(
+      map.contents().hull, [](const auto& a, const auto& b) { return a.x_mm < b.x_mm; });
+  const auto [low, high] = grid::minmax_element(
+      map.contents().hull, [](const auto& a, const auto& b) { return a.y_mm < b.y_mm; });
   return {left->x_mm, right->x_mm, low->y_mm, high->y_mm};
 }
 

@@ -3,8 +3,6 @@
 #include "grid/files/ranges.hpp"
 #include "tools/cli/numbers.hpp"
 
-#include <fmt/format.h>
-
 #include <map>
 
 namespace chaintrue::cli {

@@ -298,6 +298,10 @@ void check_places() {
   check.throw_if_any();
 }
 
+std::string page_alongside(const std::string& path) {
+  return fs::path(path).replace_extension(".html").string();
+}
+
 void write_output(const std::string& path, const std::string& text) {
   write_outputs({{path, text}});
 }

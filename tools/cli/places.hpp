@@ -70,6 +70,9 @@ void check_places();
 /// Before another command line in this process.
 void forget_places();
 
+/// The page next to a file: map.json, map.html.
+[[nodiscard]] std::string page_alongside(const std::string& path);
+
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);
 void write_outputs(const std::vector<grid::files::OutputFile>& outputs);

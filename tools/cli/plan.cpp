@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,7 +34,8 @@ struct PlanOptions {
   std::string machine;
   PlanAfterOptions follow_up;
   grid::PlanRequest request;
-  HolesPlanOptions holes;
+  /// 0 holes: points are planned instead.
+  grid::HolesPlanRequest holes{.holes = 0, .progress = {}};
   CheckPlanOptions check;
   std::optional<int> points;
   int second_visits = 0;
@@ -136,12 +135,12 @@ int run_check_plan(Verb verb, PlanOptions options) {
 int run_plan(Verb verb, PlanOptions options) {
   if (!options.follow_up.after.empty()) return run_follow_up(verb, std::move(options));
   if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
-  const bool of_tape = options.holes.request.holes != 0;
+  const bool of_tape = options.holes.holes != 0;
   const model::Machine machine = read_machine_input(options.machine);
   verb.refuse_what_does_nothing(with_program(
       options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
   if (of_tape) {
-    options.holes.request.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
+    options.holes.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
     const int code = plan_the_holes(options.holes, machine, outputs_of(options));
     if (code == kDone) say_next_of_sheet(outputs_of(options), options.machine);
     return code;
@@ -191,7 +190,7 @@ void add_plan(Verb app) {
             options->machine,
             "chaintrue_machine file; - is standard input. With --after only where the grid "
             "names none, with --check not at all")
-      .acts_on(facts::lattice | facts::tape | facts::grid | facts::holes,
+      .acts_on(facts::lattice | facts::tape | facts::chains,
                "to be left out: a map that is checked, and belts, name their own machine");
   const Option grid =
       add_input(verb,
@@ -210,7 +209,7 @@ void add_plan(Verb app) {
             options->follow_up.with,
             "With --after: the other files of the same diagnosis, as given to diagnose --with")
       .needs(after)
-      .acts_on(facts::grid | facts::holes, "to be left out: belts are diagnosed by themselves");
+      .acts_on(facts::chains, "to be left out: belts are diagnosed by themselves");
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
   const Option points =
@@ -227,7 +226,7 @@ void add_plan(Verb app) {
               grid::kFewestCheckPoints,
               grid::kMostCheckPoints,
               usual_check.points))
-          .acts_on(facts::lattice | facts::check,
+          .acts_on(facts::planned_marks,
                    "to be left out with --after: the diagnosis says how many");
   add_number(verb,
              "--second-visits",
@@ -250,8 +249,7 @@ void add_plan(Verb app) {
       fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
                   "small bed a fifth of its shorter side. Nearer to the edge, a sled tips over it",
                   kReachableMm))
-      .acts_on(facts::lattice | facts::tape | facts::check,
-               "to be left out with --after: the diagnosis says where");
+      .acts_on(facts::planned, "to be left out with --after: the diagnosis says where");
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
@@ -264,15 +262,14 @@ void add_plan(Verb app) {
              options->length_noise_mm,
              {"mm", 0.001, 50.0},
              noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm))
-      .acts_on(facts::lattice | facts::check,
+      .acts_on(facts::planned_marks,
                "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-noise-mm",
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
              noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm))
-      .acts_on(facts::lattice | facts::check,
-               "to be left out: it is of places that are measured at marks");
+      .acts_on(facts::planned_marks, "to be left out: it is of places that are measured at marks");
   add_measure_option(verb, options->measure);
   add_output(verb,
              "-o,--output",
@@ -281,19 +278,19 @@ void add_plan(Verb app) {
              "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
              "standard output")
       .shows_default();
-  verb.add_flag("--json",
-                options->json,
-                "Print the list as JSON, including the machine; where the list goes into a file, the "
-                "places and what is expected")
-      .acts_on(facts::lattice | facts::tape | facts::check,
+  verb.add_flag(
+          "--json",
+          options->json,
+          "Print the list as JSON, including the machine; where the list goes into a file, the "
+          "places and what is expected")
+      .acts_on(facts::planned,
                "to be left out with --after: the lines are as the file they go into");
   add_output(verb,
              "--page",
              options->page,
              {Origin::page},
              "Write a page to print: the bed, the instructions, and lines to fill in")
-      .acts_on(facts::lattice | facts::tape | facts::check,
-               "to be left out with --after, which makes lines for a file");
+      .acts_on(facts::planned, "to be left out with --after, which makes lines for a file");
   add_drill_options(verb, options->gcode, options->drill);
   add_output(verb,
              "--svg",

@@ -57,15 +57,10 @@ void read(const InputFile& file,
                          files::is_json(file.text),
                          of_holes,
                          of_holes ? sources.sets.size() : sources.grids.size()});
+  const files::MeasuredOptions options{.machine = machine, .few = few};
   if (of_holes) {
-    files::HolesOptions options;
-    options.machine = machine;
-    if (few) options.fewest_distances = 1;
     sources.sets.push_back(files::parse_holes(file.text, file.name, options).holes);
   } else {
-    files::GridOptions options;
-    options.machine = machine;
-    if (few) options.fewest_points = 1;
     sources.grids.push_back(files::parse_grid(file.text, file.name, options).grid);
   }
 }

@@ -3,8 +3,6 @@
 /// chaintrue plan BELTS --after: what a four-belt router should measure next.
 #pragma once
 
-#include <string>
-
 #include "tools/cli/plan_after.hpp"
 
 namespace chaintrue::cli {

@@ -103,10 +103,11 @@ void draw_walk(Svg& svg, const BedView& view, const std::vector<MarkPoint>& mark
   std::vector<std::string> corners;
   for (const MarkPoint& mark : marks)
     corners.push_back(fmt::format("{:.2f},{:.2f}", view.x(mark.x_mm), view.y(mark.y_mm)));
-  svg.add("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1\" stroke-opacity=\"0.6\" "
-          "points=\"{}\"/>\n",
-          report::kAfterColor,
-          fmt::join(corners, " "));
+  svg.add(
+      "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1\" stroke-opacity=\"0.6\" "
+      "points=\"{}\"/>\n",
+      report::kAfterColor,
+      fmt::join(corners, " "));
   for (std::size_t i = 0; i < marks.size(); ++i) {
     svg.circle(view.x(marks[i].x_mm), view.y(marks[i].y_mm), 4.0, filled(report::kAfterColor));
     label(svg, view, marks[i], 7.0, {15.0, -6.0}, fmt::format("{}", i + 1));

@@ -25,9 +25,8 @@ namespace {
 
 namespace files = grid::files;
 
-void check(const HolesPlanOptions& options, const model::Bed& bed) {
+void check(const grid::HolesPlanRequest& request, const model::Bed& bed) {
   OptionProblems problems;
-  const grid::HolesPlanRequest& request = options.request;
   require_sound(problems, request);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
   problems.require(
@@ -45,19 +44,7 @@ void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& reque
                    grid::most_distances(request.holes, request.edges));
 }
 
-void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points) {
-  grid::HolesPlanRequest& request = options.request;
-  add_number(verb,
-             "--holes",
-             request.holes,
-             {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
-             fmt::format("Plan this number of holes, {} to {}, and tape distances between them",
-                         grid::kFewestPlannedHoles,
-                         grid::kMostPlannedHoles))
-      .shows_default("")
-      .excludes(points)
-      .acts_on(facts::lattice | facts::tape,
-               "to be left out with --after and --check, which plan something else");
+void add_tape_options(Verb verb, grid::HolesPlanRequest& request) {
   add_number(verb,
              "--distances",
              request.distances,
@@ -83,6 +70,21 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
              grid::files::kHoleSigmaMm,
              "With --holes: standard deviation (1 sigma) of a hole's position on each axis")
       .acts_on(facts::tape, "to be left out without --holes");
+}
+
+void add_plan_holes_options(Verb verb, grid::HolesPlanRequest& request, Option points) {
+  add_number(verb,
+             "--holes",
+             request.holes,
+             {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
+             fmt::format("Plan this number of holes, {} to {}, and tape distances between them",
+                         grid::kFewestPlannedHoles,
+                         grid::kMostPlannedHoles))
+      .shows_default("")
+      .excludes(points)
+      .acts_on(facts::lattice | facts::tape,
+               "to be left out with --after and --check, which plan something else");
+  add_tape_options(verb, request);
   add_number(verb,
              "--tape-length-mm",
              request.longest_mm,
@@ -91,11 +93,10 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
       .acts_on(facts::tape, "to be left out without --holes");
 }
 
-int plan_the_holes(const HolesPlanOptions& options,
+int plan_the_holes(grid::HolesPlanRequest request,
                    const model::Machine& machine,
                    const PlanOutputs& wanted) {
-  check(options, machine.bed);
-  grid::HolesPlanRequest request = options.request;
+  check(request, machine.bed);
   request.progress = shown_progress();
   const auto plan = grid::plan_holes(machine, request);
   if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
@@ -115,13 +116,10 @@ int plan_the_holes(const HolesPlanOptions& options,
   std::vector<model::MarkPoint> holes;
   for (const grid::Hole& hole : plan->set.holes)
     holes.push_back(model::identity_placement(hole.commanded));
-  add_answer(holes,
-             {},
-             fmt::format("\"expected_rms_mm\": {}", plan->expected_rms_mm),
-             wanted,
-             outputs);
+  add_answer(
+      holes, {}, fmt::format("\"expected_rms_mm\": {}", plan->expected_rms_mm), wanted, outputs);
   write_outputs(outputs);
-  fmt::print(stderr, "{}", plan_in_words(*plan, options.request));
+  fmt::print(stderr, "{}", plan_in_words(*plan, request));
   return kDone;
 }
 

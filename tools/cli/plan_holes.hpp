@@ -3,8 +3,6 @@
 /// The part of chaintrue plan that chooses holes and tape distances.
 #pragma once
 
-#include <string>
-
 #include "grid/planning/holes_plan.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -12,19 +10,17 @@
 
 namespace chaintrue::cli {
 
-struct HolesPlanOptions {
-  /// 0 holes: points are planned instead.
-  grid::HolesPlanRequest request{.holes = 0, .progress = {}};
-};
-
 /// The numbers of holes and distances and their sigmas, shared by all verbs that plan holes.
 void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request);
 
-void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points);
+/// Adds --distances, --edges, --tape-sigma-mm and --hole-sigma-mm, for --holes.
+void add_tape_options(Verb verb, grid::HolesPlanRequest& request);
+
+void add_plan_holes_options(Verb verb, grid::HolesPlanRequest& request, Option points);
 
 /// Writes the list, the drawing and the program; returns the exit code. \throws files::InputError
 /// for values out of range.
-[[nodiscard]] int plan_the_holes(const HolesPlanOptions& options,
+[[nodiscard]] int plan_the_holes(grid::HolesPlanRequest request,
                                  const model::Machine& machine,
                                  const PlanOutputs& wanted);
 

@@ -5,7 +5,6 @@
 #include <mpi.h>
 
 #include <cstdlib>
-#include <initializer_list>
 #endif
 
 namespace chaintrue::cli {

@@ -3,9 +3,7 @@
 /// chaintrue query: chain lengths for points, and the point for chain lengths.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -13,7 +11,6 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/points_file.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/map/map_in_frame.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
@@ -111,10 +108,7 @@ int answer_alone(const AskedMap& asked, const QueryCommand& command) {
 int answer(const AskedMap& asked, const QueryCommand& command) {
   const int code = answer_alone(asked, command);
   if (code == kDone) {
-    say_next({"report",
-              command.map,
-              "-o",
-              std::filesystem::path(command.map).replace_extension(".html").string()});
+    say_next({"report", command.map, "-o", page_alongside(command.map)});
   }
   return code;
 }

@@ -18,7 +18,6 @@ namespace chaintrue::cli {
 /// A setting's value in that unit: rotations in mrad.
 [[nodiscard]] double in_unit(model::Setting setting, double value);
 
-
 /// In the setting's own unit.
 struct SettingRow {
   model::Setting setting;

@@ -62,7 +62,7 @@ void add_measure_option(Verb verb, std::string& word) {
           "the tool stands. lengths: you bring the tool to each mark and read both chains. By "
           "default places if the machine names its controller, lengths otherwise")
       .one_of({"places", "lengths"})
-      .acts_on(facts::lattice | facts::check, "to be left out: it is of what is read at marks");
+      .acts_on(facts::planned_marks, "to be left out: it is of what is read at marks");
 }
 
 std::string sheet_csv(const Sheet& sheet) {
@@ -103,8 +103,7 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
              {Origin::program},
              "Write a program that drills the marks in order, or stops above each one if lengths "
              "are to be read")
-      .acts_on(facts::lattice | facts::tape | facts::check,
-               "to be left out with --after, which makes lines for a file");
+      .acts_on(facts::planned, "to be left out with --after, which makes lines for a file");
   add_number(verb,
              "--depth-mm",
              options.depth_mm,

@@ -5,7 +5,6 @@
 /// bytes.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +46,7 @@ inline constexpr double kBesideMm = 15.0;
 struct SheetVisit {
   std::size_t number = 0;  ///< of the visit, from 1
   model::MarkPoint mark;
-  std::size_t again = 0;  ///< the number of the mark's first visit; 0: this is the first
+  std::size_t again = 0;   ///< the number of the mark's first visit; 0: this is the first
   bool is_beside = false;  ///< of a second visit: kBesideMm from there
   /// "29 (next to mark 8)", or "29 (mark 8 again)" if nothing is drilled
   [[nodiscard]] std::string name() const;

@@ -14,12 +14,12 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/plan_holes.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/simulate_belts.hpp"
 #include "tools/cli/simulate_options.hpp"
@@ -155,28 +155,24 @@ void add_design_options(Verb verb, SimulateOptions& o) {
                   "Part of the bed with marks: whole, left, right, top or "
                   "bottom")
       .shows_default()
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of marks on the bed");
+      .acts_on(facts::session, "to be left out: it is of marks on the bed");
   verb.add_option("--order",
                   o.order,
                   "Order of visits: rows, columns, serpentine_rows, serpentine_columns or random")
       .shows_default()
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of visits of marks");
+      .acts_on(facts::session, "to be left out: it is of visits of marks");
   add_number(verb,
              "--repeats",
              o.repeats,
              {"", 0.0, 1e6},
              "Number of second visits to measured marks, spread over the session")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of visits of marks");
+      .acts_on(facts::session, "to be left out: it is of visits of marks");
   add_number(verb,
              "--jitter-mm",
              o.jitter_mm,
              {"mm", 0.0, 1000.0},
              "Largest distance of the sled from a mark")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of a sled put down at marks");
+      .acts_on(facts::session, "to be left out: it is of a sled put down at marks");
 }
 
 void add_noise_options(Verb verb, SimulateOptions& o) {
@@ -185,94 +181,64 @@ void add_noise_options(Verb verb, SimulateOptions& o) {
              o.noise.length_mm,
              grid::files::kNoiseMm,
              "Standard deviation (1 sigma) of a chain reading")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::belts,
+      .acts_on(facts::session | facts::belts,
                "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-noise-mm",
              o.noise.position_mm,
              grid::files::kNoiseMm,
              "Standard deviation (1 sigma) of each coordinate")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of marks that are measured");
+      .acts_on(facts::session, "to be left out: it is of marks that are measured");
   verb.add_flag("--heavy-tails",
                 o.noise.heavy_tails,
                 "Draw noise from Student's t (4 degrees of freedom) "
                 "with the same standard deviation")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::belts,
+      .acts_on(facts::session | facts::belts,
                "to be left out: it is of the noise of lengths and marks");
   add_number(verb,
              "--length-rounding-mm",
              o.noise.length_rounding_mm,
              grid::files::kNoiseMm,
              "Round readings to whole multiples")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::belts,
+      .acts_on(facts::session | facts::belts,
                "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-rounding-mm",
              o.noise.position_rounding_mm,
              grid::files::kNoiseMm,
              "Round marks to whole multiples, such as 0.5 for a tape")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of marks that are measured");
+      .acts_on(facts::session, "to be left out: it is of marks that are measured");
   add_number(verb,
              "--stated-length-noise-mm",
              o.stated_length_mm,
              grid::files::kNoiseMm,
              "The value that the file holds, by default the true one")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of what a grid states");
+      .acts_on(facts::session, "to be left out: it is of what a grid states");
   add_number(verb,
              "--stated-position-noise-mm",
              o.stated_position_mm,
              grid::files::kNoiseMm,
              "The value that the file holds, by default the true one")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of what a grid states");
+      .acts_on(facts::session, "to be left out: it is of what a grid states");
   add_number(verb,
              "--stated-dof",
              o.stated_dof,
              grid::files::kNoiseDof,
              "Degrees of freedom of the noise in the file")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of what a grid states");
+      .acts_on(facts::session, "to be left out: it is of what a grid states");
   add_number(verb,
              "--bad-points",
              o.bad.count,
              {"", 0.0, 1e6},
              "Number of marks written down "
              "wrong")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::tape | facts::belts,
-               "to be left out: readings at given places have no slips");
+      .acts_on(facts::drawn, "to be left out: readings at given places have no slips");
   add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "Error of those marks")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::tape | facts::belts,
-               "to be left out: readings at given places have no slips");
+      .acts_on(facts::drawn, "to be left out: readings at given places have no slips");
 }
 
 void add_holes_options(Verb verb, HolesOptions& o) {
-  add_number(verb,
-             "--distances",
-             o.plan.distances,
-             {"", 1.0, 10000.0},
-             "With --holes: number of distances measured")
-      .shows_default("")
-      .acts_on(facts::tape, "to be left out without --holes");
-  verb.add_flag("--edges",
-                o.plan.edges,
-                "With --holes: measure some distances to the sheet's "
-                "edges")
-      .acts_on(facts::tape, "to be left out without --holes");
-  add_number(verb,
-             "--tape-sigma-mm",
-             o.plan.tape_sigma_mm,
-             grid::files::kTapeSigmaMm,
-             "With --holes: standard deviation (1 sigma) of a reading")
-      .acts_on(facts::tape, "to be left out without --holes");
-  add_number(verb,
-             "--hole-sigma-mm",
-             o.plan.hole_sigma_mm,
-             grid::files::kHoleSigmaMm,
-             "With --holes: standard deviation (1 sigma) of a hole's position on each axis")
-      .acts_on(facts::tape, "to be left out without --holes");
+  add_tape_options(verb, o.plan);
   add_number(verb,
              "--hook-offset-mm",
              o.tape_zero_offset_mm,
@@ -299,41 +265,37 @@ void add_truth_options(Verb verb, SimulateOptions& o) {
       o.declared,
       "chaintrue_effect files: effects of your own that --effect may name; the grid's machine "
       "keeps them")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::places | facts::tape,
+      .acts_on(facts::session | facts::places | facts::tape,
                "to be left out: declared effects are of two chains, and four belts have their own");
   verb.add_option("--offset",
                   o.offsets,
                   "Hidden offset of a setting, true minus assumed, such as motor_left_x_mm=1.5")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::tape | facts::belts,
+      .acts_on(facts::drawn,
                "to be left out: readings at given places are of the machine as its file states it");
   verb.add_flag("--draw-settings",
                 o.draw_settings,
                 "Draw motors and zeros from the machine's uncertainty")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::tape,
+      .acts_on(facts::session | facts::tape,
                "to be left out: nothing is drawn of belts, nor at given places");
   add_number(verb,
              "--sheet-shift-mm",
              o.sheet_shift_mm,
              {"mm", 0.0, 1000.0},
              "Standard deviation (1 sigma) of the sheet's placement")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of the sheet that marks stand on");
+      .acts_on(facts::session, "to be left out: it is of the sheet that marks stand on");
   add_number(verb,
              "--sheet-rotation-mrad",
              o.sheet_rotation_mrad,
              {"mrad", 0.0, 500.0},
              "Standard deviation (1 sigma) of the sheet's placement")
-      .acts_on(facts::lattice | facts::scattered | facts::marks,
-               "to be left out: it is of the sheet that marks stand on");
+      .acts_on(facts::session, "to be left out: it is of the sheet that marks stand on");
   verb.add_option("--model",
                   o.model,
                   "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
       .shows_default()
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::places,
-               "to be left out: it is of chain lengths at places");
+      .acts_on(facts::session | facts::places, "to be left out: it is of chain lengths at places");
   add_number(verb, "--seed", o.seed, {"", 0.0, 9e15}, "Same seed, same bytes")
-      .acts_on(facts::lattice | facts::scattered | facts::marks | facts::tape | facts::belts,
-               "to be left out: nothing is drawn at given places");
+      .acts_on(facts::drawn, "to be left out: nothing is drawn at given places");
 }
 
 }  // namespace
@@ -369,7 +331,7 @@ void add_simulate(Verb app) {
   add_output(
       verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file")
       .acts_on(
-          facts::lattice | facts::scattered | facts::marks | facts::tape,
+          facts::session | facts::tape,
           "to be left out: at given places nothing is hidden, and what belts hide has no file");
   verb.footer(
       "Examples:\n"

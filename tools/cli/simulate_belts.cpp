@@ -80,15 +80,14 @@ void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProble
 
 /// `tl_x_mm=5`: truth less stated.
 void take_offset(const std::string& text, model::BeltMachine& truth, OptionProblems& problems) {
-  const std::size_t equals = text.find('=');
-  const std::string what = text.substr(0, equals);
-  double value = 0.0;
+  const auto offset = named_number(text);
+  const std::string what = offset ? offset->name : "";
   const auto belt = model::belt_of(what.substr(0, 2));
   const bool is_x = what.size() > 2 && what.substr(2) == "_x_mm";
   const bool is_y = what.size() > 2 && what.substr(2) == "_y_mm";
   const bool is_free =
       belt && *belt != model::Belt::bl && (is_x || (is_y && model::is_upper(*belt)));
-  if (!is_free || equals == std::string::npos || !parse_number(text.substr(equals + 1), value)) {
+  if (!is_free) {
     problems.add("--offset",
                  text,
                  "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less what the file says, as "
@@ -96,7 +95,7 @@ void take_offset(const std::string& text, model::BeltMachine& truth, OptionProbl
                  grid::ProblemKind::bad_syntax);
     return;
   }
-  (is_x ? truth.anchors[*belt].x_mm : truth.anchors[*belt].y_mm) += value;
+  (is_x ? truth.anchors[*belt].x_mm : truth.anchors[*belt].y_mm) += offset->value;
 }
 
 /// "1,1.6".

@@ -11,7 +11,6 @@
 
 #include "grid/files/answer_file.hpp"
 #include "grid/files/holes_file.hpp"
-#include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_holes.hpp"
@@ -29,7 +28,10 @@ void check_values(const SimulateOptions& options,
   require_sound(problems, options.holes.plan);
   if (options.margin_mm) {
     const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
-    problems.require("--margin-mm", *options.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
+    problems.require("--margin-mm",
+                     *options.margin_mm,
+                     0.0,
+                     std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
   }
 }
 

@@ -131,18 +131,16 @@ std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::strin
                                                     OptionProblems& problems) {
   std::vector<synthetic::SettingOffset> offsets;
   for (const std::string& argument : arguments) {
-    const std::size_t equals = argument.find('=');
-    const auto setting = model::setting_from_name(argument.substr(0, equals));
-    double offset = 0.0;
-    if (!setting || equals == std::string::npos ||
-        !parse_number(argument.substr(equals + 1), offset)) {
+    const auto named = named_number(argument);
+    const auto setting = named ? model::setting_from_name(named->name) : std::nullopt;
+    if (!setting) {
       problems.add("--offset",
                    argument,
                    "setting=number, as in motor_left_x_mm=1.5",
                    grid::ProblemKind::bad_syntax);
       continue;
     }
-    offsets.push_back({*setting, offset});
+    offsets.push_back({*setting, named->value});
   }
   return offsets;
 }

@@ -4,7 +4,6 @@
 /// a controller with settings that differ from the machine; and the program that cuts it.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>

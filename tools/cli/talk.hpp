@@ -4,7 +4,6 @@
 /// a pipe, or where NO_COLOR is set (no-color.org).
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/report/glossary.hpp"
 
-#include <string>
 #include <utility>
 
 namespace chaintrue::report {
@@ -18,8 +17,9 @@ constexpr Term kTerms[] = {
      "one reading, or one block of the bed at a time, that the fit did not use: the error of "
      "predicting it tests the fit"},
     {"residual", "the reading minus what was expected"},
-    {"chain zero", "how much too long or short a chain reads everywhere, because its zero is "
-                   "wrong"},
+    {"chain zero",
+     "how much too long or short a chain reads everywhere, because its zero is "
+     "wrong"},
     {"noise", "the differences of repeated readings"},
     {"pitch", "the length of one link, 6.35 mm when it is new"},
     {"catenary", "the curve in which a chain hangs"},

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "tools/report/typeset.hpp"
 
@@ -17,8 +16,9 @@ constexpr int kIndent = 2;
 /// Number of characters: every byte of UTF-8 except continuation bytes, which begin with the bits
 /// 10.
 int width_of(std::string_view text) {
-  return static_cast<int>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
 }
 
 std::string blanks(int count) {
@@ -142,7 +142,7 @@ class TextWriter {
         const bool is_title = table.is_headed && i == 0;
         if (i == 0 && !is_title) head += blanks(kIndent);
         const int width = i == 0 && table.head_width > 0 ? table.head_width
-                                                          : widths[i] + (is_title ? kIndent : 0);
+                                                         : widths[i] + (is_title ? kIndent : 0);
         head += padded(column.heading, column, width);
       }
       head.erase(head.find_last_not_of(' ') + 1);

@@ -13,7 +13,6 @@
 #include <pybind11/stl.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "grid/files/holes_file.hpp"

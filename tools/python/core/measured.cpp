@@ -23,28 +23,6 @@ namespace files = grid::files;
 
 namespace {
 
-using OptionalMachine = std::optional<model::Machine>;
-
-files::ReadGrid read_as_grid(const std::string& text,
-                             const std::string& file,
-                             const OptionalMachine& machine,
-                             bool few) {
-  files::GridOptions options;
-  options.machine = machine;
-  if (few) options.fewest_points = 1;
-  return files::parse_grid(text, file, options);
-}
-
-files::ReadHoles read_as_holes(const std::string& text,
-                               const std::string& file,
-                               const OptionalMachine& machine,
-                               bool few) {
-  files::HolesOptions options;
-  options.machine = machine;
-  if (few) options.fewest_distances = 1;
-  return files::parse_holes(text, file, options);
-}
-
 /// The text as this program writes it, and its warnings. `machine` is the text of a machine that
 /// replaces the file's, or empty.
 py::tuple parse(const std::string& kind,
@@ -57,14 +35,14 @@ py::tuple parse(const std::string& kind,
     for (const files::Warning& warning : warnings) sentences.push_back(warning.message());
     return py::make_tuple(written, sentences);
   };
-  OptionalMachine stated;
-  if (!machine.empty()) stated = files::parse_machine(machine, "");
+  files::MeasuredOptions options{.few = few};
+  if (!machine.empty()) options.machine = files::parse_machine(machine, "");
   if (kind == "grid") {
-    const files::ReadGrid read = read_as_grid(text, file, stated, few);
+    const files::ReadGrid read = files::parse_grid(text, file, options);
     return answer(files::write_grid(read.grid), read.warnings);
   }
   if (kind == "holes") {
-    const files::ReadHoles read = read_as_holes(text, file, stated, few);
+    const files::ReadHoles read = files::parse_holes(text, file, options);
     return answer(files::write_holes(read.holes, read.belt_machine), read.warnings);
   }
   if (kind == "belts") {
@@ -111,11 +89,11 @@ Pairs new_rows(std::size_t count, std::size_t columns) {
 }
 
 grid::MeasuredGrid grid_of(const std::string& text) {
-  return read_as_grid(text, "", std::nullopt, true).grid;
+  return files::parse_grid(text, "", {.few = true}).grid;
 }
 
 files::ReadHoles holes_of(const std::string& text) {
-  return read_as_holes(text, "", std::nullopt, true);
+  return files::parse_holes(text, "", {.few = true});
 }
 
 void add_measured(py::module_& module) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How a file of measurements is read: values that it may omit, or that replace its own.
+///
+/// \code
+///   const ReadGrid read = read_grid("grid.csv", {.machine = read_machine("machine.json")});
+/// \endcode
+#pragma once
+
+#include <optional>
+
+#include "model/machine.hpp"
+
+namespace chaintrue::grid::files {
+
+/// Replaces the tape of a file of holes, value by value.
+struct TapeOptions {
+  std::optional<double> sigma_mm;
+  std::optional<double> zero_offset_mm;
+  std::optional<double> zero_offset_sigma_mm;
+  std::optional<double> hole_sigma_mm;
+};
+
+struct MeasuredOptions {
+  /// Replaces the machine of the file.
+  std::optional<model::Machine> machine = std::nullopt;
+  /// Used for a file that names no machine: the machine of the map to be checked.
+  std::optional<model::Machine> otherwise = std::nullopt;
+  /// A few readings, which only check a map, need not be enough for a fit.
+  bool few = false;
+  /// What was measured is in inches, in a CSV whose header says mm: marks, lengths and distances, but
+  /// not the commands. JSON is as its keys say.
+  bool inches = false;
+  TapeOptions tape = {};
+};
+
+}  // namespace chaintrue::grid::files
