@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Random programs through both interpreters, differences reduced to small programs.
+/// Random programs through both interpreters, and how they differ.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ inline constexpr std::size_t kLeastAccepted = 80;
 struct LanguageRun {
   std::size_t accepted = 0;   ///< by LinuxCNC
   std::size_t different = 0;  ///< without those for which LinuxCNC is wrong (compared.cpp)
-  /// Seed, small program and difference, of the first few.
+  /// Seed, difference and program, of the first few.
   std::vector<std::string> failures;
 };
 
@@ -28,6 +28,6 @@ struct LanguageRun {
 /// Seeds from the first on; runs LinuxCNC.
 [[nodiscard]] LanguageRun compare_language(std::uint64_t first_seed,
                                            std::uint64_t count,
-                                           std::size_t most_reduced);
+                                           std::size_t most_reported);
 
 }  // namespace chaintrue::witness

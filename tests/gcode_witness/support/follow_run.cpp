@@ -12,7 +12,6 @@
 #include "tests/gcode_witness/support/compensated.hpp"
 #include "tests/gcode_witness/support/program_generator.hpp"
 #include "tests/gcode_witness/support/random.hpp"
-#include "tests/gcode_witness/support/shrink.hpp"
 
 namespace chaintrue::witness {
 namespace {
@@ -75,7 +74,8 @@ std::optional<std::string> moved(const std::string& output, Random& random, doub
   const std::size_t x = line.find(" X");
   const std::size_t y = line.find(" Y");
   const std::size_t end = line.find(' ', y + 1);
-  line = line.substr(0, x) + fmt::format(" X{:.4f} Y{:.4f}", all[at].x - side * dy / way, all[at].y + side * dx / way) +
+  line = line.substr(0, x) +
+         fmt::format(" X{:.4f} Y{:.4f}", all[at].x - side * dy / way, all[at].y + side * dx / way) +
          (end == std::string::npos ? "" : line.substr(end));
   return joined_lines(lines);
 }
@@ -110,7 +110,8 @@ class Trial {
       return "verify: " + fault;
     if (const auto wrong = moved(*output, random_, 1.5 * tolerance_mm_)) {
       ++run.judged_moved;
-      if (std::string fault = same_verdicts(*wrong, "moved by 1.5 tolerances"); !fault.empty()) return fault;
+      if (std::string fault = same_verdicts(*wrong, "moved by 1.5 tolerances"); !fault.empty())
+        return fault;
     }
     if (const auto wrong = shortened(*output, random_)) {
       ++run.judged_moved;
@@ -150,9 +151,6 @@ std::string judged(const Shop& shop,
   }
 }
 
-/// The fault's first words: a smaller program has the same fault with other numbers.
-std::string kind_of(const std::string& fault) { return fault.substr(0, 10); }
-
 }  // namespace
 
 FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
@@ -173,23 +171,12 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
     if (fault.empty()) continue;
     ++run.failed;
     if (run.failures.size() >= options.most_reported) continue;
-    const std::string small = shrink(program, [&](const std::vector<std::string>& candidates) {
-      std::vector<bool> same;
-      for (const std::string& candidate : candidates) {
-        FollowRun ignored;
-        const std::string other = judged(*shop, candidate, tolerance_mm, seed, ignored);
-        same.push_back(kind_of(other) == kind_of(fault));
-      }
-      return same;
-    });
-    FollowRun ignored;
-    run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\nreduced to\n{}{}",
+    run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\n{}",
                                        seed,
                                        shop->name(),
                                        tolerance_mm,
                                        fault,
-                                       small,
-                                       judged(*shop, small, tolerance_mm, seed, ignored)));
+                                       program));
   }
   return run;
 }
