@@ -14,7 +14,7 @@ struct FollowRun {
   std::size_t compensated = 0;  ///< the others are rejected, for instance because they leave the bed
   std::size_t judged_moved = 0; ///< outputs that were moved by 1.5 tolerances, and outputs that lost a line
   std::size_t failed = 0;
-  /// For the first few: seed, controller, tolerance, the fault, and a small program with it.
+  /// For the first few: seed, controller, tolerance, the fault, and the program.
   std::vector<std::string> failures;
 };
 

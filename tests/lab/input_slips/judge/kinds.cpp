@@ -16,43 +16,87 @@ using grid::MeasuredBelts;
 using grid::MeasuredGrid;
 using grid::MeasuredHoles;
 using grid::MeasuredPoint;
-
-constexpr double kInchMm = 25.4;
+using model::Belt;
+using model::PerBelt;
 
 std::string point_place(std::size_t row) { return fmt::format("/points/{}", row); }
-
-/// A number with two neighbouring digits exchanged, whole tens and hundreds of it: by 18 mm at least.
-std::optional<double> digits_exchanged(double value) {
-  std::string text = fmt::format("{:.10g}", std::abs(value));
-  for (std::size_t i = 0; i + 1 < text.size() && text[i + 1] != '.'; ++i) {
-    std::string other = text;
-    std::swap(other[i], other[i + 1]);
-    const double size = std::strtod(other.c_str(), nullptr);
-    if (std::abs(size - std::abs(value)) < 18.0) continue;
-    return std::copysign(size, value);
-  }
-  return std::nullopt;
-}
-
-/// One digit is another: of the tens or hundreds.
-double digit_wrong(double value, Dice& dice) {
-  const double unit = dice.below(2) == 0 ? 10.0 : 100.0;
-  const double digit = std::fmod(std::floor(std::abs(value) / unit), 10.0);
-  const double other = std::fmod(digit + 3.0 + static_cast<double>(dice.below(4)), 10.0);
-  return std::copysign(std::abs(value) + (other - digit) * unit, value);
-}
 
 std::string rather(double meant, double written) {
   return fmt::format("is it {:.10g} rather than {:.10g}", meant, written);
 }
 
-using WholePoints = std::function<void(MeasuredPoint&)>;
+/// A number written wrongly, or the number itself where the slip would be none.
+using Misread = std::function<double(double meant, Dice& dice)>;
 
-Kind every_point(const char* id, Way way, std::vector<std::string> words, WholePoints spoil) {
-  return {id, way, [=](Session& session, Dice&) {
-            for (MeasuredPoint& point : std::get<MeasuredGrid>(session).points) spoil(point);
-            return Expected{words, "", true};
-          }};
+/// Two neighbouring digits exchanged, whole tens and hundreds of it: by 18 mm at least.
+double digits_exchanged(double meant, Dice&) {
+  std::string text = fmt::format("{:.10g}", std::abs(meant));
+  for (std::size_t i = 0; i + 1 < text.size() && text[i + 1] != '.'; ++i) {
+    std::string other = text;
+    std::swap(other[i], other[i + 1]);
+    const double size = std::strtod(other.c_str(), nullptr);
+    if (std::abs(size - std::abs(meant)) >= 18.0) return std::copysign(size, meant);
+  }
+  return meant;
+}
+
+/// One digit is another: of the tens or hundreds.
+double digit_wrong(double meant, Dice& dice) {
+  const double unit = dice.below(2) == 0 ? 10.0 : 100.0;
+  const double digit = std::fmod(std::floor(std::abs(meant) / unit), 10.0);
+  const double other = std::fmod(digit + 3.0 + static_cast<double>(dice.below(4)), 10.0);
+  return std::copysign(std::abs(meant) + (other - digit) * unit, meant);
+}
+
+double digit_dropped(double meant, Dice&) {
+  std::string text = fmt::format("{:.10g}", meant);
+  text.erase(2, 1);
+  const double written = std::strtod(text.c_str(), nullptr);
+  return std::abs(written - meant) < 18.0 ? meant : written;
+}
+
+double point_left_out(double meant, Dice&) { return std::round(10.0 * meant); }
+// A hundred more is also the tape's mark.
+double hundred_more(double meant, Dice&) { return meant + 100.0; }
+double foot_less(double meant, Dice&) { return meant - 304.8; }
+
+using Spoil = std::function<Expected(Session& session, Dice& dice)>;
+
+/// Refused, as the file as a whole shows.
+Expected whole(std::string words) { return {{std::move(words)}, "", true}; }
+
+Spoil every_point(std::string words, std::function<void(MeasuredPoint&)> spoil) {
+  return [=](Session& session, Dice&) {
+    for (MeasuredPoint& point : std::get<MeasuredGrid>(session).points) spoil(point);
+    return whole(words);
+  };
+}
+
+/// Every x, and every y, times so much plus so much.
+Spoil marks(std::string words, double by_x, double by_y, model::MarkPoint more = {0.0, 0.0}) {
+  return every_point(std::move(words), [=](MeasuredPoint& p) {
+    p.mark = {p.mark.x_mm * by_x + more.x_mm, p.mark.y_mm * by_y + more.y_mm};
+  });
+}
+
+Spoil without_minus(std::string words, bool on_x, bool on_y) {
+  return every_point(std::move(words), [=](MeasuredPoint& p) {
+    if (on_x) p.mark.x_mm = std::abs(p.mark.x_mm);
+    if (on_y) p.mark.y_mm = std::abs(p.mark.y_mm);
+  });
+}
+
+Spoil chain_lengths(std::string words, double factor, double of_marks = 1.0) {
+  return every_point(std::move(words), [=](MeasuredPoint& p) {
+    p.lengths = {p.lengths->left_mm * factor, p.lengths->right_mm * factor};
+    p.mark = {p.mark.x_mm * of_marks, p.mark.y_mm * of_marks};
+  });
+}
+
+Spoil axes_exchanged() {
+  return every_point("columns look swapped", [](MeasuredPoint& p) {
+    p.mark = {p.mark.y_mm, p.mark.x_mm};
+  });
 }
 
 /// A row whose mark is far enough from the axes and the diagonal that the slip is one.
@@ -64,343 +108,270 @@ std::size_t some_row(const MeasuredGrid& grid, Dice& dice) {
   }
 }
 
-/// `spoil` returns the words that report it; none: another row is tried.
-using OneRow = std::function<std::vector<std::string>(MeasuredPoint&, Dice&)>;
+Spoil one_point(std::vector<std::string> words, std::function<void(MeasuredPoint&)> spoil) {
+  return [=](Session& session, Dice& dice) {
+    auto& grid = std::get<MeasuredGrid>(session);
+    const std::size_t row = some_row(grid, dice);
+    spoil(grid.points[row]);
+    return Expected{words, point_place(row), false};
+  };
+}
 
-Kind one_point(const char* id, Way way, OneRow spoil) {
-  return {id, way, [=](Session& session, Dice& dice) {
-            auto& grid = std::get<MeasuredGrid>(session);
-            for (;;) {
-              const std::size_t row = some_row(grid, dice);
-              const MeasuredPoint before = grid.points[row];
-              std::vector<std::string> words = spoil(grid.points[row], dice);
-              if (!words.empty()) return Expected{std::move(words), point_place(row), false};
-              grid.points[row] = before;
-            }
-          }};
+/// Where the slip would be none another row is tried.
+Spoil one_number(std::function<double&(MeasuredPoint&, Dice&)> of, Misread misread) {
+  return [=](Session& session, Dice& dice) {
+    auto& grid = std::get<MeasuredGrid>(session);
+    for (;;) {
+      const std::size_t row = some_row(grid, dice);
+      double& number = of(grid.points[row], dice);
+      const double meant = number;
+      number = misread(meant, dice);
+      if (number != meant) return Expected{{rather(meant, number)}, point_place(row), false};
+    }
+  };
 }
 
 /// From some row on each has the reading of the one after it, or before it.
-Kind slipped(const char* id, Way way, bool one_left_out) {
-  return {id, way, [=](Session& session, Dice& dice) {
-            auto& points = std::get<MeasuredGrid>(session).points;
-            const std::size_t from = 2 + dice.below(points.size() - 5);
-            const std::vector<MeasuredPoint> before = points;
-            for (std::size_t i = from; i < points.size(); ++i) {
-              const std::size_t of = one_left_out ? std::min(i + 1, points.size() - 1) : i - 1;
-              if (way == Way::commands) {
-                points[i].mark = before[of].mark;
-              } else {
-                points[i].lengths = before[of].lengths;
-              }
-            }
-            // Lengths that stand twice to the last digit are counted once.
-            if (one_left_out) points.pop_back();
-            const bool is_after = one_left_out == (way == Way::commands);
-            return Expected{{is_after ? "of the line after" : "of the line before"},
-                            point_place(from),
-                            true};
-          }};
-}
-
-std::vector<std::string> exchange_digits(double& number) {
-  const double meant = number;
-  const auto wrong = digits_exchanged(meant);
-  if (!wrong) return {};
-  number = *wrong;
-  return {rather(meant, *wrong)};
-}
-
-void add_commands(std::vector<Kind>& kinds) {
-  const Way way = Way::commands;
-  const auto every = [&](const char* id, const char* words, WholePoints spoil) {
-    kinds.push_back(every_point(id, way, {words}, std::move(spoil)));
+Spoil slipped(Way way, bool one_left_out) {
+  return [=](Session& session, Dice& dice) {
+    auto& points = std::get<MeasuredGrid>(session).points;
+    const std::size_t from = 2 + dice.below(points.size() - 5);
+    const std::vector<MeasuredPoint> before = points;
+    for (std::size_t i = from; i < points.size(); ++i) {
+      const std::size_t of = one_left_out ? std::min(i + 1, points.size() - 1) : i - 1;
+      if (way == Way::commands) {
+        points[i].mark = before[of].mark;
+      } else {
+        points[i].lengths = before[of].lengths;
+      }
+    }
+    // Lengths that stand twice to the last digit are counted once.
+    if (one_left_out) points.pop_back();
+    const bool is_after = one_left_out == (way == Way::commands);
+    return Expected{
+        {is_after ? "of the line after" : "of the line before"}, point_place(from), true};
   };
-  every("x mirrored", "sign of x_mm looks turned", [](auto& p) { p.mark.x_mm = -p.mark.x_mm; });
-  every("y mirrored", "counted downwards", [](auto& p) { p.mark.y_mm = -p.mark.y_mm; });
-  every("both mirrored", "both look turned round", [](auto& p) {
-    p.mark = {-p.mark.x_mm, -p.mark.y_mm};
-  });
-  every("x and y exchanged", "columns look swapped", [](auto& p) {
-    p.mark = {p.mark.y_mm, p.mark.x_mm};
-  });
-  every("no minus on x", "minus signs of x_mm look left out", [](auto& p) {
-    p.mark.x_mm = std::abs(p.mark.x_mm);
-  });
-  every("no minus on y", "minus signs of y_mm look left out", [](auto& p) {
-    p.mark.y_mm = std::abs(p.mark.y_mm);
-  });
-  every("no minus at all", "all the minus signs look left out", [](auto& p) {
-    p.mark = {std::abs(p.mark.x_mm), std::abs(p.mark.y_mm)};
-  });
-  every("marks in inches", "x_mm and y_mm look like inches", [](auto& p) {
-    p.mark = {p.mark.x_mm / kInchMm, p.mark.y_mm / kInchMm};
-  });
-  every("marks in centimetres", "x_mm and y_mm look like centimetres", [](auto& p) {
-    p.mark = {p.mark.x_mm / 10.0, p.mark.y_mm / 10.0};
-  });
-  every("all x from the 100 mm mark", "all x_mm look 100 mm too large", [](auto& p) {
-    p.mark.x_mm += 100.0;
-  });
-  every("from the lower left corner", "counted from the bed's lower left corner", [](auto& p) {
-    p.mark = {p.mark.x_mm + 1219.2, p.mark.y_mm + 609.6};
-  });
-  kinds.push_back(slipped("a row left out", way, true));
-  kinds.push_back(slipped("a row twice", way, false));
-  kinds.push_back({"marks of another sheet", way, [](Session& session, Dice& dice) {
-                     for (MeasuredPoint& point : std::get<MeasuredGrid>(session).points)
-                       point.mark = {std::round(dice.uniform(-1000.0, 1000.0)),
-                                     std::round(dice.uniform(-500.0, 500.0))};
-                     return Expected{{"are they of another sheet"}, "", true};
-                   }});
-  kinds.push_back(one_point("a minus missing, x", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    p.mark.x_mm = -p.mark.x_mm;
-    return {"is the minus missing?"};
-  }));
-  kinds.push_back(one_point("a minus missing, y", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    p.mark.y_mm = -p.mark.y_mm;
-    return {"is the minus missing?"};
-  }));
-  kinds.push_back(one_point("x and y in a row", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    p.mark = {p.mark.y_mm, p.mark.x_mm};
-    return {"re x and y swapped?"};
-  }));
-  kinds.push_back(one_point("digits exchanged", way, [](auto& p, Dice& dice) {
-    return exchange_digits(dice.below(2) == 0 ? p.mark.x_mm : p.mark.y_mm);
-  }));
-  kinds.push_back(one_point("a digit wrong", way, [](auto& p, Dice& dice) -> std::vector<std::string> {
-    const double meant = p.mark.x_mm;
-    p.mark.x_mm = digit_wrong(meant, dice);
-    // A hundred more is also the tape's mark.
-    return {rather(meant, p.mark.x_mm)};
-  }));
-  kinds.push_back(one_point("a digit dropped", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    const double meant = p.mark.x_mm;
-    std::string text = fmt::format("{:.10g}", meant);
-    text.erase(2, 1);
-    p.mark.x_mm = std::strtod(text.c_str(), nullptr);
-    if (p.mark.x_mm == meant || std::abs(p.mark.x_mm - meant) < 18.0) return {};
-    return {rather(meant, p.mark.x_mm)};
-  }));
-  kinds.push_back(one_point("the point left out", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    const double meant = p.mark.y_mm;
-    p.mark.y_mm = std::round(10.0 * meant);
-    return {rather(meant, p.mark.y_mm)};
-  }));
-  kinds.push_back(one_point("100 mm off", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    const double meant = p.mark.x_mm;
-    p.mark.x_mm += 100.0;
-    return {rather(meant, p.mark.x_mm)};
-  }));
-  kinds.push_back(one_point("a foot off", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    const double meant = p.mark.y_mm;
-    p.mark.y_mm -= 304.8;
-    return {rather(meant, p.mark.y_mm)};
-  }));
-  kinds.push_back({"two rows exchanged", way, [](Session& session, Dice& dice) {
-                     auto& grid = std::get<MeasuredGrid>(session);
-                     const std::size_t row = 3 + dice.below(20);
-                     std::swap(grid.points[row].mark, grid.points[row + 1].mark);
-                     return Expected{{"look exchanged"}, point_place(row), false};
-                   }});
-  kinds.push_back({"a second visit without its minus", way, [](Session& session, Dice&) {
-                     auto& grid = std::get<MeasuredGrid>(session);
-                     for (std::size_t i = grid.points.size(); i-- > 0;) {
-                       MeasuredPoint& late = grid.points[i];
-                       if (late.mark.x_mm > -100.0) continue;
-                       const bool is_second = std::any_of(
-                           grid.points.begin(),
-                           grid.points.begin() + static_cast<std::ptrdiff_t>(i),
-                           [&](const MeasuredPoint& p) {
-                             return p.commanded->x_mm == late.commanded->x_mm &&
-                                    p.commanded->y_mm == late.commanded->y_mm;
-                           });
-                       if (!is_second) continue;
-                       late.mark.x_mm = -late.mark.x_mm;
-                       return Expected{{fmt::format("Mark {} was measured twice", *late.order)},
-                                       point_place(i),
-                                       false};
-                     }
-                     return Expected{{"no second visit was drawn"}, "", false};
-                   }});
 }
 
-void add_lengths(std::vector<Kind>& kinds) {
-  const Way way = Way::lengths;
-  const auto every = [&](const char* id, std::vector<std::string> words, WholePoints spoil) {
-    kinds.push_back(every_point(id, way, std::move(words), std::move(spoil)));
+Expected other_sheet(Session& session, Dice& dice) {
+  for (MeasuredPoint& point : std::get<MeasuredGrid>(session).points)
+    point.mark = {std::round(dice.uniform(-1000.0, 1000.0)),
+                  std::round(dice.uniform(-500.0, 500.0))};
+  return whole("are they of another sheet");
+}
+
+Expected rows_exchanged(Session& session, Dice& dice) {
+  auto& points = std::get<MeasuredGrid>(session).points;
+  const std::size_t row = 3 + dice.below(20);
+  std::swap(points[row].mark, points[row + 1].mark);
+  return {{"look exchanged"}, point_place(row), false};
+}
+
+Expected second_visit_without_minus(Session& session, Dice&) {
+  auto& points = std::get<MeasuredGrid>(session).points;
+  for (std::size_t i = points.size(); i-- > 0;) {
+    MeasuredPoint& late = points[i];
+    const bool is_second = std::any_of(points.begin(),
+                                       points.begin() + static_cast<std::ptrdiff_t>(i),
+                                       [&](const MeasuredPoint& p) {
+                                         return p.commanded->x_mm == late.commanded->x_mm &&
+                                                p.commanded->y_mm == late.commanded->y_mm;
+                                       });
+    if (late.mark.x_mm > -100.0 || !is_second) continue;
+    late.mark.x_mm = -late.mark.x_mm;
+    return {{fmt::format("Mark {} was measured twice", *late.order)}, point_place(i), false};
+  }
+  return {{"no second visit was drawn"}, "", false};
+}
+
+Spoil every_distance(std::string words, double factor, double more_mm) {
+  return [=](Session& session, Dice&) {
+    for (auto& distance : std::get<MeasuredHoles>(session).distances)
+      distance.distance_mm = distance.distance_mm * factor + more_mm;
+    return whole(words);
   };
-  // For a mirror-symmetric frame these two are indistinguishable: both are reported.
-  every("left and right exchanged", {"left_mm and right_mm look swapped"}, [](auto& p) {
-    std::swap(p.lengths->left_mm, p.lengths->right_mm);
-  });
-  every("x mirrored", {"sign of x_mm looks turned"}, [](auto& p) { p.mark.x_mm = -p.mark.x_mm; });
-  every("y mirrored", {"counted downwards"}, [](auto& p) { p.mark.y_mm = -p.mark.y_mm; });
-  every("x and y exchanged", {"columns look swapped"}, [](auto& p) {
-    p.mark = {p.mark.y_mm, p.mark.x_mm};
-  });
-  every("lengths in inches", {"the lengths look like inches"}, [](auto& p) {
-    p.lengths = {p.lengths->left_mm / kInchMm, p.lengths->right_mm / kInchMm};
-  });
-  every("lengths in centimetres", {"the lengths look like centimetres"}, [](auto& p) {
-    p.lengths = {p.lengths->left_mm / 10.0, p.lengths->right_mm / 10.0};
-  });
-  every("all in inches", {"these look like inches"}, [](auto& p) {
-    p.lengths = {p.lengths->left_mm / kInchMm, p.lengths->right_mm / kInchMm};
-    p.mark = {p.mark.x_mm / kInchMm, p.mark.y_mm / kInchMm};
-  });
-  every("no minus on x", {"minus signs of x_mm look left out"}, [](auto& p) {
-    p.mark.x_mm = std::abs(p.mark.x_mm);
-  });
-  kinds.push_back(slipped("a row left out", way, true));
-  kinds.push_back(one_point("left and right in a row", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    std::swap(p.lengths->left_mm, p.lengths->right_mm);
-    return {"re left_mm and right_mm exchanged?", "is the minus missing?", "minus too many"};
-  }));
-  kinds.push_back(one_point("digits exchanged", way, [](auto& p, Dice& dice) {
-    return exchange_digits(dice.below(2) == 0 ? p.lengths->left_mm : p.lengths->right_mm);
-  }));
-  kinds.push_back(one_point("100 mm off", way, [](auto& p, Dice&) -> std::vector<std::string> {
-    const double meant = p.lengths->right_mm;
-    p.lengths->right_mm += 100.0;
-    return {rather(meant, p.lengths->right_mm)};
-  }));
 }
 
-Kind every_distance(const char* id, std::vector<std::string> words, double factor, double more_mm) {
-  return {id, Way::holes, [=](Session& session, Dice&) {
-            for (auto& distance : std::get<MeasuredHoles>(session).distances)
-              distance.distance_mm = distance.distance_mm * factor + more_mm;
-            return Expected{words, "", true};
-          }};
-}
-
-Kind one_distance(const char* id, std::function<std::vector<std::string>(double&, Dice&)> spoil) {
-  return {id, Way::holes, [=](Session& session, Dice& dice) {
-            auto& set = std::get<MeasuredHoles>(session);
-            for (;;) {
-              const std::size_t row = dice.below(set.distances.size());
-              double& distance = set.distances[row].distance_mm;
-              const double before = distance;
-              std::vector<std::string> words = spoil(distance, dice);
-              if (!words.empty())
-                return Expected{std::move(words), "", false};
-              distance = before;
-            }
-          }};
-}
-
-void add_holes(std::vector<Kind>& kinds) {
-  kinds.push_back(
-      every_distance("distances in inches", {"distances look like inches"}, 1.0 / kInchMm, 0.0));
-  kinds.push_back(
-      every_distance("distances in centimetres", {"distances look like centimetres"}, 0.1, 0.0));
-  kinds.push_back(every_distance("all from the 100 mm mark", {"give 100 mm"}, 1.0, 100.0));
-  kinds.push_back(one_distance("one from the 100 mm mark", [](double& d, Dice&) -> std::vector<std::string> {
-    const double meant = d;
-    d += 100.0;
-    return {rather(meant, d)};
-  }));
-  kinds.push_back(one_distance("a foot off", [](double& d, Dice&) -> std::vector<std::string> {
-    const double meant = d;
-    d -= 304.8;
-    if (d < 300.0) return {};
-    return {rather(meant, d)};
-  }));
-  kinds.push_back(one_distance("digits exchanged", [](double& d, Dice&) { return exchange_digits(d); }));
-  kinds.push_back({"a hole's minus missing", Way::holes, [](Session& session, Dice& dice) {
-                     auto& set = std::get<MeasuredHoles>(session);
-                     for (;;) {
-                       auto& hole = set.holes[dice.below(set.holes.size())];
-                       if (hole.commanded.x_mm > -100.0) continue;
-                       hole.commanded.x_mm = -hole.commanded.x_mm;
-                       // If another hole is there already, both are reported.
-                       return Expected{{fmt::format("hole {} was cut at", hole.name),
-                                        fmt::format("as hole {}: is a minus missing", hole.name)},
-                                       "",
-                                       true};
-                     }
-                   }});
-  kinds.push_back({"rows slipped", Way::holes, [](Session& session, Dice& dice) {
-                     auto& distances = std::get<MeasuredHoles>(session).distances;
-                     const std::size_t from = 2 + dice.below(distances.size() - 6);
-                     for (std::size_t i = from; i + 1 < distances.size(); ++i)
-                       distances[i].distance_mm = distances[i + 1].distance_mm;
-                     distances.pop_back();
-                     return Expected{{"fit the two holes of the line after"}, "", true};
-                   }});
-}
-
-void add_belts(std::vector<Kind>& kinds) {
-  const auto pairs = [&](const char* id,
-                         std::vector<std::string> words,
-                         std::vector<std::pair<model::Belt, model::Belt>> exchanged) {
-    kinds.push_back({id, Way::belts, [=](Session& session, Dice&) {
-                       for (auto& point : std::get<MeasuredBelts>(session).points) {
-                         for (const auto& [a, b] : exchanged)
-                           std::swap(point.lengths_mm[a], point.lengths_mm[b]);
-                       }
-                       return Expected{words, "", true};
-                     }});
+Spoil one_distance(Misread misread) {
+  return [=](Session& session, Dice& dice) {
+    auto& distances = std::get<MeasuredHoles>(session).distances;
+    for (;;) {
+      double& distance = distances[dice.below(distances.size())].distance_mm;
+      const double meant = distance;
+      distance = misread(meant, dice);
+      if (distance != meant) return Expected{{rather(meant, distance)}, "", false};
+    }
   };
-  using model::Belt;
-  pairs("tl and tr exchanged", {"tl and tr swapped"}, {{Belt::tl, Belt::tr}});
-  pairs("both left with both right",
-        {"tl and tr swapped and bl and br as well"},
-        {{Belt::tl, Belt::tr}, {Belt::bl, Belt::br}});
-  const auto unit = [&](const char* id, const char* words, double factor) {
-    kinds.push_back({id, Way::belts, [=](Session& session, Dice&) {
-                       for (auto& point : std::get<MeasuredBelts>(session).points) {
-                         for (const Belt belt : model::kBelts) point.lengths_mm[belt] *= factor;
-                       }
-                       return Expected{{words}, "", true};
-                     }});
+}
+
+Expected hole_without_minus(Session& session, Dice& dice) {
+  auto& set = std::get<MeasuredHoles>(session);
+  for (;;) {
+    auto& hole = set.holes[dice.below(set.holes.size())];
+    if (hole.commanded.x_mm > -100.0) continue;
+    hole.commanded.x_mm = -hole.commanded.x_mm;
+    // If another hole is there already, both are reported.
+    return {{fmt::format("hole {} was cut at", hole.name),
+             fmt::format("as hole {}: is a minus missing", hole.name)},
+            "",
+            true};
+  }
+}
+
+Expected distances_slipped(Session& session, Dice& dice) {
+  auto& distances = std::get<MeasuredHoles>(session).distances;
+  const std::size_t from = 2 + dice.below(distances.size() - 6);
+  for (std::size_t i = from; i + 1 < distances.size(); ++i)
+    distances[i].distance_mm = distances[i + 1].distance_mm;
+  distances.pop_back();
+  return whole("fit the two holes of the line after");
+}
+
+Spoil every_place(std::string words, std::function<void(PerBelt<double>&)> spoil) {
+  return [=](Session& session, Dice&) {
+    for (auto& point : std::get<MeasuredBelts>(session).points) spoil(point.lengths_mm);
+    return whole(words);
   };
-  unit("lengths in inches", "these lengths look like inches", 1.0 / kInchMm);
-  unit("lengths in centimetres", "these lengths look like centimetres", 0.1);
-  const auto taped = [&](const char* id, const char* words, double factor) {
-    kinds.push_back({id, Way::belts, [=](Session& session, Dice&) {
-                       auto& distance = std::get<MeasuredBelts>(session).distances.front();
-                       const double meant = distance.distance_mm;
-                       distance.distance_mm *= factor;
-                       return Expected{
-                           {fmt::format("{} {:.10g} mm", words, meant)}, "/distances/0", true};
-                     }});
+}
+
+Spoil belt_lengths(std::string words, double factor) {
+  return every_place(std::move(words), [=](PerBelt<double>& lengths) {
+    for (const Belt belt : model::kBelts) lengths[belt] *= factor;
+  });
+}
+
+Spoil diagonal(const char* words, double factor) {
+  return [=](Session& session, Dice&) {
+    auto& distance = std::get<MeasuredBelts>(session).distances.front();
+    const double meant = distance.distance_mm;
+    distance.distance_mm *= factor;
+    return Expected{{fmt::format("{} {:.10g} mm", words, meant)}, "/distances/0", true};
   };
-  taped("a diagonal twice over", "was it taped twice over,", 2.0);
-  taped("half a diagonal", "was only half of it taped, of", 0.5);
-  kinds.push_back({"a digit wrong", Way::belts, [](Session& session, Dice& dice) {
-                     auto& belts = std::get<MeasuredBelts>(session);
-                     const std::size_t row = dice.below(belts.points.size());
-                     double& read = belts.points[row].lengths_mm[model::kBelts[dice.below(4)]];
-                     const double meant = read;
-                     read = digit_wrong(meant, dice);
-                     return Expected{{rather(meant, read)}, point_place(row), false};
-                   }});
+}
+
+Expected belt_digit_wrong(Session& session, Dice& dice) {
+  auto& points = std::get<MeasuredBelts>(session).points;
+  const std::size_t row = dice.below(points.size());
+  double& read = points[row].lengths_mm[model::kBelts[dice.below(4)]];
+  const double meant = read;
+  read = digit_wrong(meant, dice);
+  return {{rather(meant, read)}, point_place(row), false};
+}
+
+std::vector<Kind> all_kinds() {
+  const auto x = [](MeasuredPoint& p, Dice&) -> double& { return p.mark.x_mm; };
+  const auto y = [](MeasuredPoint& p, Dice&) -> double& { return p.mark.y_mm; };
+  const auto x_or_y = [](MeasuredPoint& p, Dice& dice) -> double& {
+    return dice.below(2) == 0 ? p.mark.x_mm : p.mark.y_mm;
+  };
+  const auto right = [](MeasuredPoint& p, Dice&) -> double& { return p.lengths->right_mm; };
+  const auto left_or_right = [](MeasuredPoint& p, Dice& dice) -> double& {
+    return dice.below(2) == 0 ? p.lengths->left_mm : p.lengths->right_mm;
+  };
+  const Misread foot_less_of_long = [](double meant, Dice& dice) {
+    return meant < 604.8 ? meant : foot_less(meant, dice);
+  };
+  constexpr double kToInches = 1.0 / 25.4;
+  using enum Way;
+  return {
+      {"x mirrored", commands, marks("sign of x_mm looks turned", -1.0, 1.0)},
+      {"y mirrored", commands, marks("counted downwards", 1.0, -1.0)},
+      {"both mirrored", commands, marks("both look turned round", -1.0, -1.0)},
+      {"x and y exchanged", commands, axes_exchanged()},
+      {"no minus on x", commands, without_minus("minus signs of x_mm look left out", true, false)},
+      {"no minus on y", commands, without_minus("minus signs of y_mm look left out", false, true)},
+      {"no minus at all", commands, without_minus("all the minus signs look left out", true, true)},
+      {"marks in inches", commands, marks("x_mm and y_mm look like inches", kToInches, kToInches)},
+      {"marks in centimetres", commands, marks("x_mm and y_mm look like centimetres", 0.1, 0.1)},
+      {"all x from the 100 mm mark",
+       commands,
+       marks("all x_mm look 100 mm too large", 1.0, 1.0, {100.0, 0.0})},
+      {"from the lower left corner",
+       commands,
+       marks("counted from the bed's lower left corner", 1.0, 1.0, {1219.2, 609.6})},
+      {"a row left out", commands, slipped(commands, true)},
+      {"a row twice", commands, slipped(commands, false)},
+      {"marks of another sheet", commands, other_sheet},
+      {"a minus missing, x",
+       commands,
+       one_point({"is the minus missing?"}, [](auto& p) { p.mark.x_mm = -p.mark.x_mm; })},
+      {"a minus missing, y",
+       commands,
+       one_point({"is the minus missing?"}, [](auto& p) { p.mark.y_mm = -p.mark.y_mm; })},
+      {"x and y in a row",
+       commands,
+       one_point({"re x and y swapped?"},
+                 [](auto& p) {
+                   p.mark = {p.mark.y_mm, p.mark.x_mm};
+                 })},
+      {"digits exchanged", commands, one_number(x_or_y, digits_exchanged)},
+      {"a digit wrong", commands, one_number(x, digit_wrong)},
+      {"a digit dropped", commands, one_number(x, digit_dropped)},
+      {"the point left out", commands, one_number(y, point_left_out)},
+      {"100 mm off", commands, one_number(x, hundred_more)},
+      {"a foot off", commands, one_number(y, foot_less)},
+      {"two rows exchanged", commands, rows_exchanged},
+      {"a second visit without its minus", commands, second_visit_without_minus},
+      // For a mirror-symmetric frame these two are indistinguishable: both are reported.
+      {"left and right exchanged",
+       lengths,
+       every_point("left_mm and right_mm look swapped",
+                   [](auto& p) { std::swap(p.lengths->left_mm, p.lengths->right_mm); })},
+      {"x mirrored", lengths, marks("sign of x_mm looks turned", -1.0, 1.0)},
+      {"y mirrored", lengths, marks("counted downwards", 1.0, -1.0)},
+      {"x and y exchanged", lengths, axes_exchanged()},
+      {"lengths in inches", lengths, chain_lengths("the lengths look like inches", kToInches)},
+      {"lengths in centimetres", lengths, chain_lengths("the lengths look like centimetres", 0.1)},
+      {"all in inches", lengths, chain_lengths("these look like inches", kToInches, kToInches)},
+      {"no minus on x", lengths, without_minus("minus signs of x_mm look left out", true, false)},
+      {"a row left out", lengths, slipped(lengths, true)},
+      {"left and right in a row",
+       lengths,
+       one_point({"re left_mm and right_mm exchanged?", "is the minus missing?", "minus too many"},
+                 [](auto& p) { std::swap(p.lengths->left_mm, p.lengths->right_mm); })},
+      {"digits exchanged", lengths, one_number(left_or_right, digits_exchanged)},
+      {"100 mm off", lengths, one_number(right, hundred_more)},
+      {"distances in inches", holes, every_distance("distances look like inches", kToInches, 0.0)},
+      {"distances in centimetres",
+       holes,
+       every_distance("distances look like centimetres", 0.1, 0.0)},
+      {"all from the 100 mm mark", holes, every_distance("give 100 mm", 1.0, 100.0)},
+      {"one from the 100 mm mark", holes, one_distance(hundred_more)},
+      {"a foot off", holes, one_distance(foot_less_of_long)},
+      {"digits exchanged", holes, one_distance(digits_exchanged)},
+      {"a hole's minus missing", holes, hole_without_minus},
+      {"rows slipped", holes, distances_slipped},
+      {"tl and tr exchanged",
+       belts,
+       every_place("tl and tr swapped", [](auto& lengths) { std::swap(lengths.tl, lengths.tr); })},
+      {"both left with both right",
+       belts,
+       every_place("tl and tr swapped and bl and br as well",
+                   [](auto& lengths) {
+                     std::swap(lengths.tl, lengths.tr);
+                     std::swap(lengths.bl, lengths.br);
+                   })},
+      {"lengths in inches", belts, belt_lengths("these lengths look like inches", kToInches)},
+      {"lengths in centimetres", belts, belt_lengths("these lengths look like centimetres", 0.1)},
+      {"a diagonal twice over", belts, diagonal("was it taped twice over,", 2.0)},
+      {"half a diagonal", belts, diagonal("was only half of it taped, of", 0.5)},
+      {"a digit wrong", belts, belt_digit_wrong}};
 }
 
 bool names(const std::string& message, const Expected& expected) {
-  const bool is_there =
-      expected.place.empty() || message.find(expected.place + ":") != std::string::npos ||
-      message.find(expected.place + "/") != std::string::npos;
-  return is_there && std::any_of(expected.words.begin(),
-                                 expected.words.end(),
-                                 [&](const std::string& word) {
-                                   return message.find(word) != std::string::npos;
-                                 });
+  const bool is_there = expected.place.empty() ||
+                        message.find(expected.place + ":") != std::string::npos ||
+                        message.find(expected.place + "/") != std::string::npos;
+  return is_there &&
+         std::any_of(expected.words.begin(), expected.words.end(), [&](const std::string& word) {
+           return message.find(word) != std::string::npos;
+         });
 }
 
 }  // namespace
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> kAll = [] {
-    std::vector<Kind> all;
-    add_commands(all);
-    add_lengths(all);
-    add_holes(all);
-    add_belts(all);
-    return all;
-  }();
+  static const std::vector<Kind> kAll = all_kinds();
   return kAll;
 }
 
