@@ -209,7 +209,7 @@ void add_law(const BeltRecipe& recipe,
       added[k][belt] = law_value(law, site_of(draw.frame, belt, commands[k], plain[k][belt]));
     const double own = unexplained(projection.left_of(added), rivals);
     if (!(own > 1e-3)) continue;
-    const double strength = dice.log_uniform(recipe.least_law, recipe.most_law);
+    const double strength = drawn_law_strength(dice);
     const double size = dice.log_uniform(0.5, 6.0) * (is_slope(law.family) ? 4.0 : 1.0);
     draw.noise_mm = size * own / strength;
     if (draw.noise_mm < 0.1 || draw.noise_mm > 1.0) continue;

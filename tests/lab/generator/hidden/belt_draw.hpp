@@ -38,10 +38,8 @@ struct BeltRecipe {
   int bad_readings = 0;  ///< of one belt each, at separate points
   /// All points once with each: sizes and the strength are those of the first.
   std::vector<double> pulls = {1.0};
-  /// A law or a field as well, of a strength in this range; of recipes with one pull.
+  /// A law or a field as well; of recipes with one pull.
   std::optional<LawFamily> law{};
-  double least_law = 12.0;
-  double most_law = 40.0;
 };
 
 struct BeltDraw {

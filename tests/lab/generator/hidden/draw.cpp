@@ -191,16 +191,12 @@ bool same_class(const Hidden& h, const Rival& r) {
   return uniform(h.cause, h.where) && uniform(r.cause, r.where);
 }
 
-void note_rival(const Yardstick& yardstick, const SizedEffect& truth, Answer& answer) {
+bool is_separable(const Yardstick& yardstick, const SizedEffect& truth) {
+  double likest = 0.0;
   for (const Rival& r : yardstick.rivals()) {
-    if (same_class(truth.hidden, r)) continue;
-    const double rho = likeness(truth.signature, r);
-    if (rho <= answer.nearest_rho) continue;
-    answer.nearest_rho = rho;
-    answer.nearest = r.cause;
-    answer.nearest_where = r.where;
+    if (!same_class(truth.hidden, r)) likest = std::max(likest, likeness(truth.signature, r));
   }
-  answer.separable = truth.delta >= strength_to_separate(answer.nearest_rho);
+  return truth.delta >= strength_to_separate(likest);
 }
 
 // Scaled so that the part not explained by the catalogue has a delta of 10 to 20.
@@ -393,7 +389,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
       answer.delta.push_back(s.delta);
       signatures.push_back(s.signature);
     }
-    note_rival(*yardstick, effects.front(), answer);
+    answer.separable = is_separable(*yardstick, effects.front());
   }
   if (recipe.kind == Mix::unlisted) draw_unlisted(*yardstick, answer, effect_dice);
   if (has_pattern(recipe.kind)) {
@@ -403,8 +399,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
 
   if (recipe.law) {
     Dice law_dice(seed, "law");
-    answer.law =
-        draw_law(*yardstick, *recipe.law, recipe.least_law_delta, recipe.most_law_delta, law_dice);
+    answer.law = draw_law(*yardstick, *recipe.law, law_dice);
   }
 
   HiddenMachine machine(stated, truth, answer.hidden);

@@ -77,21 +77,16 @@ struct Recipe {
   std::optional<double> noise_ratio;
   /// For the mixes with a pattern.
   PatternGroup patterns = PatternGroup::smooth;
-  /// A law or a field as well, of a strength in this range.
+  /// A law or a field as well.
   std::optional<LawFamily> law;
-  double least_law_delta = 12.0;
-  double most_law_delta = 40.0;
 };
 
 /// The truth of a set.
 struct Answer {
   std::vector<Hidden> hidden;
   std::vector<double> delta;  ///< of each on its own
-  /// Largest |cosine| of the first with any other effect outside its class, and which.
-  double nearest_rho = 0.0;
-  Cause nearest = Cause::tape_scale;
-  Where nearest_where = Where::nowhere;
-  bool separable = false;  ///< delta is sufficient to separate it from that rival
+  /// The first's delta is sufficient to separate it from any other effect outside its class.
+  bool separable = false;
   std::optional<Unlisted> unlisted;
   double left_over_delta = 0.0;  ///< of the unlisted, the part that no effect explains
   double whole_delta = 0.0;

@@ -164,6 +164,8 @@ double law_value(const HiddenLaw& law, const PatternSite& site) {
   return (1.0 - share) * smooth + share * rough;
 }
 
+double drawn_law_strength(Dice& dice) { return dice.log_uniform(12.0, 40.0); }
+
 std::vector<Vec2> law_at(const HiddenLaw& law,
                          std::span<const Visit> visits,
                          const std::vector<Rest>& at_rest) {
@@ -175,11 +177,7 @@ std::vector<Vec2> law_at(const HiddenLaw& law,
   return all;
 }
 
-SizedLaw draw_law(const Yardstick& yardstick,
-                  LawFamily family,
-                  double least_delta,
-                  double most_delta,
-                  Dice& dice) {
+SizedLaw draw_law(const Yardstick& yardstick, LawFamily family, Dice& dice) {
   const auto rivals = yardstick.rivals();
   for (int n = 0; n < 2000; ++n) {
     HiddenLaw law = drawn(family, dice);
@@ -194,7 +192,7 @@ SizedLaw draw_law(const Yardstick& yardstick,
     }
     const double left = unexplained(s, rivals);
     if (!(left > 1e-3)) continue;
-    const double delta = dice.log_uniform(least_delta, most_delta);
+    const double delta = drawn_law_strength(dice);
     const double size = delta / left;
     const double usual = is_slope(family) ? 12.0 : 6.0;
     if (size > usual) continue;

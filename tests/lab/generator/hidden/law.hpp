@@ -71,14 +71,11 @@ struct SizedLaw {
   /// For the part that no single effect of the catalogue explains.
   double delta = 0.0;
 };
-/// Place, extent, entry and size; the strength log-uniform between the two, the size at most 6 mm.
-/// \throws std::runtime_error if 2000 draws find none.
-[[nodiscard]] SizedLaw draw_law(const Yardstick& yardstick,
-                                LawFamily family,
-                                double least_delta,
-                                double most_delta,
-                                Dice& dice);
-
+/// From 12 to 40, log-uniform.
+[[nodiscard]] double drawn_law_strength(Dice& dice);
+/// Place, extent, entry and size; the size at most 6 mm, of a slope 12. \throws std::runtime_error if 2000 draws find
+/// none.
+[[nodiscard]] SizedLaw draw_law(const Yardstick& yardstick, LawFamily family, Dice& dice);
 /// Its shift of the tool, or addition to the readings, at each site.
 [[nodiscard]] std::vector<Vec2> law_at(const HiddenLaw& law,
                                        std::span<const Visit> visits,

@@ -19,12 +19,6 @@ double largest_cosine(const Signature& own, std::span<const Signature> others) {
 
 }  // namespace
 
-std::string_view word(PatternFamily family) {
-  constexpr std::string_view kWords[] = {
-      "dent", "wave", "fold", "column_band", "chain_angle", "edge_heave", "patch", "length_steps"};
-  return kWords[static_cast<std::size_t>(family)];
-}
-
 double field(const Pattern& pattern, const PatternSite& site) {
   const Vec2 from{site.place.x - pattern.centre.x, site.place.y - pattern.centre.y};
   switch (pattern.family) {

@@ -12,7 +12,6 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "generator/hidden/effects.hpp"
@@ -38,7 +37,6 @@ enum class PatternFamily {
   patch,        ///< constant over a part of the bed and outside it, a short slope between
   length_steps  ///< along one chain's length: a few levels with slopes between
 };
-[[nodiscard]] std::string_view word(PatternFamily family);
 
 /// Argument of a field: the tool's position, and the chains' or belts' angles and lengths there.
 struct PatternSite {

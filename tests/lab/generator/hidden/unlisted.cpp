@@ -13,11 +13,6 @@ constexpr double kHalfHeight = 609.6;
 
 }  // namespace
 
-std::string_view word(Oddity oddity) {
-  constexpr std::string_view kWords[] = {"dent", "wavy_board", "fold", "edge", "periodic_in_x"};
-  return kWords[static_cast<std::size_t>(oddity)];
-}
-
 Vec2 shift(const Unlisted& what, Vec2 place) {
   const double c = std::cos(what.direction_rad), s = std::sin(what.direction_rad);
   const Vec2 from{place.x - what.centre.x, place.y - what.centre.y};

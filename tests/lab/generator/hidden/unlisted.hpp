@@ -5,7 +5,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "generator/hidden/effects.hpp"
@@ -15,7 +14,6 @@ namespace chaintrue::generator {
 
 enum class Oddity { dent, wavy_board, fold, edge, periodic_in_x };
 inline constexpr std::size_t kOddities = 5;
-[[nodiscard]] std::string_view word(Oddity oddity);
 
 struct Unlisted {
   Oddity oddity = Oddity::dent;

@@ -159,9 +159,8 @@ std::string words(const sealed::RateBounds& bounds) {
 
 std::pair<Outcome, Outcome> run_draw(const Scan& scan,
                                      const std::vector<Reference>& references,
-                                     std::uint64_t seed,
-                                     const DrawOptions& options) {
-  const Draw draw = draw_planted(scan, references, seed, options);
+                                     std::uint64_t seed) {
+  const Draw draw = draw_planted(scan, references, seed);
   std::pair<Outcome, Outcome> both{
       outcome_of(scan.name + kPlain, seed, draw.plain, ""),
       outcome_of(scan.name + kPlanted, seed, draw.planted, sealed::id_of(draw.hidden))};

@@ -28,8 +28,7 @@ using sealed::Outcome;
 /// Plain and planted.
 [[nodiscard]] std::pair<Outcome, Outcome> run_draw(const Scan& scan,
                                                    const std::vector<Reference>& references,
-                                                   std::uint64_t seed,
-                                                   const DrawOptions& options = {});
+                                                   std::uint64_t seed);
 
 /// Sets the facts that follow from the claims, besides `order` and `named` (outright, alone or with
 /// others): none_denied_90, none_denied_60, borne_out_90 and

@@ -24,6 +24,8 @@ using generator::Vec2;
 using generator::Visit;
 using generator::Where;
 
+constexpr std::size_t kDrawnMarks = 60;
+
 generator::TrueMachine machine_of(const model::Machine& stated) {
   generator::TrueMachine m;
   m.axis = {{{stated.motors.left.x_mm, stated.motors.left.y_mm},
@@ -90,10 +92,7 @@ std::vector<Lengths> added_by(const CalibratedSession& session,
   return added;
 }
 
-Hidden drawn_cause(const CalibratedSession& session,
-                   std::uint64_t seed,
-                   const DrawOptions& options,
-                   Dice& dice) {
+Hidden drawn_cause(const CalibratedSession& session, std::uint64_t seed, Dice& dice) {
   constexpr std::array kCauses = {Cause::chain_stretch,
                                   Cause::beam_flex,
                                   Cause::sprocket_eccentricity,
@@ -103,8 +102,7 @@ Hidden drawn_cause(const CalibratedSession& session,
                                   Cause::tape_scale};
   const Cause cause = kCauses[seed % kCauses.size()];
   for (int n = 0; n < 30; ++n) {
-    const auto drawn = generator::draw_sized_effect(
-        session.yardstick, cause, options.least_white, options.most_white, dice);
+    const auto drawn = generator::draw_sized_effect(session.yardstick, cause, 8.0, 20.0, dice);
     if (!drawn) continue;
     // The scans' own banner is long along x.
     if (cause == Cause::tape_scale && drawn->hidden.where != Where::y) continue;
@@ -134,12 +132,11 @@ Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& g
   return result;
 }
 
-grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid, bool average_parts) {
+grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
   grid::diagnosis::DiagnosisOptions options;
   options.improvement = false;
   options.next_measurements = false;
   options.accept_class = true;
-  options.average_parts = average_parts;
   auto found = grid::diagnosis::diagnose(grid, options);
   if (!found) throw std::runtime_error(found.error().sentence());
   return std::move(*found);
@@ -157,15 +154,12 @@ Reference make_reference(const Scan& scan) {
           claims_of(diagnosed(scan.grid))};
 }
 
-Draw draw_planted(const Scan& scan,
-                  const std::vector<Reference>& references,
-                  std::uint64_t seed,
-                  const DrawOptions& options) {
+Draw draw_planted(const Scan& scan, const std::vector<Reference>& references, std::uint64_t seed) {
   Dice mark_dice(seed, "marks"), cause_dice(seed, "cause");
   Draw draw;
-  draw.plain = some_of(scan, options.marks, mark_dice);
+  draw.plain = some_of(scan, kDrawnMarks, mark_dice);
   const CalibratedSession session = calibrated(scan, draw.plain);
-  draw.hidden = drawn_cause(session, seed, options, cause_dice);
+  draw.hidden = drawn_cause(session, seed, cause_dice);
   draw.with_order = generator::card(draw.hidden.cause).nature == Nature::of_order;
   const std::vector<Lengths> added = added_by(session, marks_of(draw.plain), draw.hidden);
   const generator::Signature signature = session.yardstick.signature_of_lengths(added);

@@ -38,20 +38,12 @@ struct Draw {
   double white = 0.0;     ///< strength against the stated noise alone
   double strength = 0.0;  ///< given the reference's field (smooth_field.hpp)
 };
-struct DrawOptions {
-  std::size_t marks = 60;
-  /// Strength against the stated noise alone.
-  double least_white = 8.0;
-  double most_white = 20.0;
-};
-/// The same seed has the same cause on every scan: seven in turn, stretch, flex, eccentricity, kink, a zero
+/// 60 marks, and a strength of 8 to 20 against the stated noise alone. The same seed has the same cause on every scan: seven in turn, stretch, flex, eccentricity, kink, a zero
 /// that moves, drift, a tape that is long along y. \throws std::runtime_error if no size of it fits.
 [[nodiscard]] Draw draw_planted(const Scan& scan,
                                 const std::vector<Reference>& references,
-                                std::uint64_t seed,
-                                const DrawOptions& options = {});
+                                std::uint64_t seed);
 
-/// `average_parts` false: with the probabilities of all readings at once (grid/diagnosis/bed_parts.hpp).
-[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid, bool average_parts = true);
+[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid);
 
 }  // namespace chaintrue::planted

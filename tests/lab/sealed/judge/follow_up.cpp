@@ -30,42 +30,28 @@ bool measure(generator::SealedSet& set,
   return true;
 }
 
-bool single_right(const Diagnosis& found, const generator::SealedSet& set) {
-  if (found.verdict != Verdict::named || found.causes.size() != 1) return false;
-  if (set.answer.hidden.size() != 1) return false;
-  const std::string truth = id_of(set.answer.hidden.front());
-  const auto& cause = found.causes.front();
-  if (id_of(cause.cause) == truth) return true;
-  for (const auto& same : cause.same_as) {
-    if (id_of(same.cause) == truth) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
-FollowUp follow_up(generator::SealedSet& set,
-                   grid::MeasuredGrid grid,
-                   Diagnosis found,
-                   const grid::diagnosis::DiagnosisOptions& how,
-                   int measurements) {
+bool follow_up(generator::SealedSet& set,
+               grid::MeasuredGrid grid,
+               Diagnosis found,
+               const grid::diagnosis::DiagnosisOptions& how) {
+  constexpr int kMeasurements = 8;
   generator::Dice dice(1, "follow-up");
-  FollowUp result;
-  while (result.measurements < measurements && found.verdict != Verdict::named) {
-    bool any = false;
+  int measured = 0;
+  while (measured < kMeasurements && found.verdict != Verdict::named) {
+    const int before = measured;
     for (const NextMeasurement& next : found.next_measurements) {
-      if (result.measurements == measurements) break;
-      if (!measure(set, grid, next, dice)) continue;
-      ++result.measurements;
-      any = true;
+      if (measured < kMeasurements && measure(set, grid, next, dice)) ++measured;
     }
-    if (!any) break;
+    if (measured == before) break;
     auto again = grid::diagnosis::diagnose(grid, how);
     if (!again) break;
     found = std::move(*again);
   }
-  result.single_right = single_right(found, set);
-  return result;
+  const std::vector<NamedCause> named = named_causes(found);
+  return found.verdict == Verdict::named && named.size() == 1 && set.answer.hidden.size() == 1 &&
+         means(named.front(), id_of(set.answer.hidden.front()));
 }
 
 }  // namespace chaintrue::sealed

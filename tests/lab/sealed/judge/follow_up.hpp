@@ -7,12 +7,11 @@
 
 namespace chaintrue::sealed {
 
-/// Measures in the order of the list, repeats the diagnosis after each round, until a single cause
-/// remains or the number of measurements is reached.
-[[nodiscard]] FollowUp follow_up(generator::SealedSet& set,
-                                 grid::MeasuredGrid grid,
-                                 grid::diagnosis::Diagnosis found,
-                                 const grid::diagnosis::DiagnosisOptions& how,
-                                 int measurements);
+/// Measures in the order of the list, repeats the diagnosis after each round, until a single cause remains or eight are
+/// measured. \returns whether the right one remains.
+[[nodiscard]] bool follow_up(generator::SealedSet& set,
+                             grid::MeasuredGrid grid,
+                             grid::diagnosis::Diagnosis found,
+                             const grid::diagnosis::DiagnosisOptions& how);
 
 }  // namespace chaintrue::sealed

@@ -75,10 +75,10 @@ class HolesDraw {
     const std::vector<generator::Rival> rivals = rivals_at_usual_sizes();
     constexpr int kDraws = 200;
     for (int n = 0; n < kDraws; ++n) {
-      HiddenLaw law = generator::draw_law(*yardstick, family, 12.0, 40.0, dice_).law;
+      HiddenLaw law = generator::draw_law(*yardstick, family, dice_).law;
       const double own =
           generator::unexplained(left_of(HiddenMachine(TrueMachine{}, truth_, {}), &law), rivals);
-      const double times = dice_.log_uniform(12.0, 40.0) / own;
+      const double times = generator::drawn_law_strength(dice_) / own;
       // A metre's rise, and what falls off within a hand's breadth of the border, where few holes are.
       const bool is_steep = is_slope(family) || family == LawFamily::drop_at_edge;
       if (!(std::abs(law.size_mm * times) < (is_steep ? 12.0 : 6.0))) continue;

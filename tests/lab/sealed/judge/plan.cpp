@@ -129,11 +129,6 @@ std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
   return {cut(shard - 1), cut(shard)};
 }
 
-std::optional<generator::Recipe> recipe_of(const PlannedSet& set) {
-  const auto* chains = std::get_if<Chains>(&kind_of(set.kind).recipe);
-  return chains == nullptr ? std::nullopt : std::optional(recipe_of(*chains, set.seed));
-}
-
 Outcome run_set(const PlannedSet& set) {
   const Kind& kind = kind_of(set.kind);
   try {

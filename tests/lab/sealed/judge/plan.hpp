@@ -29,9 +29,6 @@ struct PlannedSet {
 [[nodiscard]] std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
                                                std::size_t shard,
                                                std::size_t shards);
-/// From which generator::draw_set() draws a set of chains at points; empty for holes and belts. \throws
-/// std::invalid_argument for a kind that is not in the list.
-[[nodiscard]] std::optional<generator::Recipe> recipe_of(const PlannedSet& set);
 /// Draws the set, diagnoses it and compares with the truth. An exception counts as a failed set.
 /// \throws std::invalid_argument for a kind that is not in the list.
 [[nodiscard]] Outcome run_set(const PlannedSet& set);

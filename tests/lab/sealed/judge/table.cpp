@@ -11,6 +11,7 @@
 #include <map>
 
 #include "sealed/judge/binomial.hpp"
+#include "sealed/judge/calibration.hpp"
 #include "sealed/judge/rates.hpp"
 
 namespace chaintrue::sealed {
@@ -83,12 +84,23 @@ void about_thresholds(const std::vector<Trial>& trials, Rows& rows) {
   }
 }
 
+/// For every cause that is named, alone, among several or in a set; and how often those of 0.95 and more act.
 void about_claims(const std::vector<Trial>& trials, Rows& rows) {
-  const Honesty h = honesty(trials);
-  if (h.calibration.claims() == 0) return;
+  Calibration calibration;
+  Share sure_right;
+  for (const Trial& t : trials) {
+    if (!names_something(t)) continue;
+    for (const NamedCause& named : t.causes) {
+      const bool right =
+          std::ranges::any_of(t.hidden, [&](const std::string& id) { return means(named, id); });
+      calibration.add(named.probability, right);
+      if (named.probability >= 0.95) sure_right.count(right);
+    }
+  }
+  if (calibration.claims() == 0) return;
   rows.add("calibration error of stated probabilities",
-           fmt::format("{:.3f} over {} claims", h.calibration.error(), h.calibration.claims()));
-  rows.add("claims of 95 % or more that are right", h.sure_right);
+           fmt::format("{:.3f} over {} claims", calibration.error(), calibration.claims()));
+  rows.add("claims of 95 % or more that are right", sure_right);
 }
 
 bool only_miscounts(const generator::Answer& answer) {
@@ -137,7 +149,7 @@ void about_errors(const std::vector<Trial>& trials, Rows& rows) {
 void about_follow_up(const std::vector<Trial>& trials, Rows& rows) {
   Share resolved;
   for (const Trial& t : trials) {
-    if (t.follow_up) resolved.count(t.follow_up->single_right);
+    if (t.follow_up) resolved.count(*t.follow_up);
   }
   rows.add("ambiguous sets with a single right name after follow-up", resolved);
 }
@@ -181,21 +193,6 @@ std::string text(const Share& share) {
                      share.of,
                      100.0 * bounds.lower,
                      100.0 * bounds.upper);
-}
-
-Honesty honesty(const std::vector<Trial>& trials) {
-  Honesty result;
-  for (const Trial& t : trials) {
-    if (!names_something(t)) continue;
-    for (const NamedCause& named : t.causes) {
-      const bool right = std::any_of(t.hidden.begin(), t.hidden.end(), [&](const std::string& id) {
-        return means(named, id);
-      });
-      result.calibration.add(named.probability, right);
-      if (named.probability >= 0.95) result.sure_right.count(right);
-    }
-  }
-  return result;
 }
 
 std::string markdown(const TrialOptions& options, const std::vector<Trial>& trials) {

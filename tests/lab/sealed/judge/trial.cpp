@@ -68,7 +68,6 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   trial.points = options.recipe.points;
   const grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   grid::diagnosis::DiagnosisOptions how;
-  how.stability = options.stability;
   how.improvement = options.improvement;
   how.next_measurements = options.follow_up;
   how.accept_class = true;  // the oracle is given the cause, so its class is accepted
@@ -81,7 +80,6 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   for (const auto& hidden : set.answer.hidden) trial.hidden.push_back(id_of(hidden));
   if (!found) {
     trial.failed = true;
-    trial.failure = found.error().sentence();
     return trial;
   }
   take_over(*found, trial);
@@ -89,7 +87,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   const bool ambiguous = trial.verdict == Verdict::named_set ||
                          (trial.verdict == Verdict::named && trial.causes.size() > 1);
   if (options.follow_up && ambiguous) {
-    trial.follow_up = follow_up(set, grid, *found, how, options.follow_up_measurements);
+    trial.follow_up = follow_up(set, grid, *found, how);
   }
   return trial;
 }

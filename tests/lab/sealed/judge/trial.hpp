@@ -16,10 +16,8 @@ namespace chaintrue::sealed {
 
 struct TrialOptions {
   generator::Recipe recipe;
-  bool stability = true;     ///< names without each reading, and no name that depends on one
   bool improvement = false;  ///< held-out errors, reported and true
   bool follow_up = false;    ///< measures what the diagnosis proposes, if it leaves a set of causes
-  int follow_up_measurements = 8;
 };
 
 /// A cause as reported by the diagnosis.
@@ -38,18 +36,12 @@ struct TrueErrors {
   double reported_share = 0.0;
 };
 
-struct FollowUp {
-  int measurements = 0;
-  bool single_right = false;
-};
-
 struct Trial {
   std::uint64_t seed = 0;
   int points = 0;
   generator::Answer answer;
   std::vector<std::string> hidden;  ///< effect:side
   bool failed = false;
-  std::string failure;
   grid::diagnosis::Verdict verdict = grid::diagnosis::Verdict::nothing_found;
   std::vector<NamedCause> causes;
   std::vector<grid::diagnosis::Hypothesis> hypotheses;
@@ -58,7 +50,7 @@ struct Trial {
   std::vector<std::size_t> bad_points;
   double seconds = 0.0;
   std::optional<TrueErrors> errors;
-  std::optional<FollowUp> follow_up;
+  std::optional<bool> follow_up;  ///< a single right name after it
 };
 
 [[nodiscard]] Trial run_trial(const TrialOptions& options, std::uint64_t seed);
