@@ -1,24 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of every surface method of surface_methods.hpp. A new line there is tested here without a
-// new test.
+// Laws of every way to interpolate a full grid: a new one is a line of kSurfaceMethods.
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/contracts/surface_methods.hpp"
+#include "interp/quintic_spline.hpp"
+#include "interp/tensor_spline.hpp"
 #include "tests/support/in_threads.hpp"
 #include "tests/support/random.hpp"
 
 namespace chaintrue::interp {
 
-void PrintTo(const SurfaceMethod& method, std::ostream* out) { *out << method.id; }
-
 namespace {
+
+using Nodes = std::vector<double>;
+
+/// `build` throws std::invalid_argument as TensorSpline does.
+struct SurfaceMethod {
+  std::string_view id;
+  int exact_degree;  ///< polynomials of this degree in x times the same in y are reproduced
+  std::unique_ptr<Surface> (*build)(const Nodes& x, const Nodes& y, const Eigen::MatrixXd& values);
+};
+
+template <EndCondition kEnd>
+std::unique_ptr<Surface> bicubic(const Nodes& x, const Nodes& y, const Eigen::MatrixXd& values) {
+  return std::make_unique<TensorSpline>(x, y, values, TensorEnds{{kEnd, kEnd}, {kEnd, kEnd}});
+}
+
+std::unique_ptr<Surface> quintic(const Nodes& x, const Nodes& y, const Eigen::MatrixXd& values) {
+  return std::make_unique<QuinticSpline>(x, y, values);
+}
+
+constexpr std::array kSurfaceMethods = {
+    SurfaceMethod{"not_a_knot", 3, bicubic<EndCondition::not_a_knot>},
+    SurfaceMethod{"natural", 1, bicubic<EndCondition::natural>},
+    SurfaceMethod{"parabolic", 2, bicubic<EndCondition::parabolic>},
+    SurfaceMethod{"clamped", 0, bicubic<EndCondition::clamped>},
+    SurfaceMethod{"quintic", 5, quintic},
+};
+
+void PrintTo(const SurfaceMethod& method, std::ostream* out) { *out << method.id; }
 
 constexpr std::uint64_t kSeed = 1234;
 
