@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/belts/holes_simulation.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -91,26 +92,16 @@ SimulatedHoles simulate_with_holes(const HolesSimulation& simulation) {
 }
 
 double rms_when_laid(const std::vector<BedPoint>& from, const std::vector<BedPoint>& to) {
-  using Complex = std::complex<double>;
-  const auto count = static_cast<double>(from.size());
-  Complex a;
-  Complex b;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    a += Complex(from[i].x_mm, from[i].y_mm) / count;
-    b += Complex(to[i].x_mm, to[i].y_mm) / count;
-  }
-  Complex turn;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    turn +=
-        std::conj(Complex(from[i].x_mm, from[i].y_mm) - a) * (Complex(to[i].x_mm, to[i].y_mm) - b);
-  }
-  turn /= std::abs(turn);
-  double square = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    square += std::norm(turn * (Complex(from[i].x_mm, from[i].y_mm) - a) -
-                        (Complex(to[i].x_mm, to[i].y_mm) - b));
-  }
-  return std::sqrt(square / count);
+  const auto matrix_of = [](const std::vector<BedPoint>& points) {
+    Eigen::Matrix2Xd all(2, std::ssize(points));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      all.col(static_cast<Eigen::Index>(i)) << points[i].x_mm, points[i].y_mm;
+    return all;
+  };
+  const Eigen::Matrix2Xd a = matrix_of(from), b = matrix_of(to);
+  const Eigen::Matrix3d laid = Eigen::umeyama(a, b, false);
+  return std::sqrt((laid * a.colwise().homogeneous() - b.colwise().homogeneous()).squaredNorm() /
+                   static_cast<double>(from.size()));
 }
 
 }  // namespace chaintrue::grid

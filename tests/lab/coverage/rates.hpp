@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "sealed/judge/binomial.hpp"
+
 namespace chaintrue::coverage {
 
 /// The seeds of a statistic's sets: as many as CHAINTRUE_SETS in the environment says, else `usual`.
@@ -48,17 +50,6 @@ class Squares {
   int sets_ = 0;
 };
 
-/// Chance of k or fewer of n at rate p.
-inline double chance_of_at_most(int k, int n, double p) {
-  double sum = 0.0;
-  for (int i = 0; i <= k; ++i) {
-    const double log_term = std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) +
-                            i * std::log(p) + (n - i) * std::log1p(-p);
-    sum += std::exp(log_term);
-  }
-  return std::min(1.0, sum);
-}
-
 /// Counts of an event with a stated rate. Both expectations fail by chance once in a thousand.
 struct Rate {
   int found = 0;
@@ -68,10 +59,10 @@ struct Rate {
     ++sets;
   }
   void expect_at_least(double p) const {
-    EXPECT_GE(chance_of_at_most(found, sets, p), 1e-3) << found << " of " << sets;
+    EXPECT_GE(1.0 - sealed::probability_of_at_least(found + 1, sets, p), 1e-3) << found << " of " << sets;
   }
   void expect_at_most(double p) const {
-    EXPECT_GE(1.0 - chance_of_at_most(found - 1, sets, p), 1e-3) << found << " of " << sets;
+    EXPECT_GE(sealed::probability_of_at_least(found, sets, p), 1e-3) << found << " of " << sets;
   }
 };
 

@@ -213,6 +213,13 @@ std::function<Lengths(Vec2)> by_map(const grid::CompensationMap& map) {
   };
 }
 
+/// Squared distances of tools, laid on the sheet, from their commands.
+Eigen::RowVectorXd squares_when_laid(const Eigen::Matrix2Xd& tools,
+                                     const Eigen::Matrix2Xd& commands,
+                                     const Eigen::Matrix3d& laid) {
+  return (laid * tools.colwise().homogeneous() - commands.colwise().homogeneous()).colwise().squaredNorm();
+}
+
 using FrameAnchors = std::array<std::array<double, 3>, 4>;
 
 /// Where the sled of a true frame comes to rest when its upper belts are paid out for `command` by other
@@ -248,11 +255,7 @@ grid::ErrorSummary true_error_of_belts(const generator::BeltFrame& frame,
     commands.col(static_cast<Eigen::Index>(i)) = within[i];
     tools.col(static_cast<Eigen::Index>(i)) = rest_for(frame, anchors, within[i]);
   }
-  const Eigen::Matrix3d laid = Eigen::umeyama(tools, commands, true);
-  const Eigen::RowVectorXd squares = ((laid.topLeftCorner<2, 2>() * tools).colwise() +
-                                      laid.topRightCorner<2, 1>() - commands)
-                                         .colwise()
-                                         .squaredNorm();
+  const Eigen::RowVectorXd squares = squares_when_laid(tools, commands, Eigen::umeyama(tools, commands, true));
   return {std::sqrt(squares.head(static_cast<Eigen::Index>(inner)).mean()), std::sqrt(squares.maxCoeff())};
 }
 
@@ -307,11 +310,7 @@ std::optional<PromisedRow> promised_by_plotter(const PromisedSession& session, s
   Eigen::Matrix2Xd commands(2, std::ssize(circle));
   for (std::size_t i = 0; i < circle.size(); ++i)
     commands.col(static_cast<Eigen::Index>(i)) << circle[i].x, circle[i].y;
-  const Eigen::RowVectorXd squares = (((laid.topLeftCorner<2, 2>() * pens_of(commands)).colwise() +
-                                       laid.topRightCorner<2, 1>()) -
-                                      commands)
-                                         .colwise()
-                                         .squaredNorm();
+  const Eigen::RowVectorXd squares = squares_when_laid(pens_of(commands), commands, laid);
   PromisedRow row{session, {}};
   row.of[static_cast<std::size_t>(Promise::cuts)] =
       Promised{expected_along(circle, map), {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())}};
