@@ -10,36 +10,12 @@
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 #include "tests/contracts/declared_examples.hpp"
+#include "tests/contracts/session_numbers.hpp"
 
 namespace chaintrue::model::effects::equivalence {
 namespace {
 
-std::vector<double> session(const Machine& machine) {
-  std::vector<Visit> visits;
-  int order = 0;
-  for (int row = 0; row < 5; ++row) {
-    for (int k = 0; k < 7; ++k) {
-      const int column = row % 2 == 0 ? k : 6 - k;
-      visits.push_back({{-1219.2 + column * 406.4, -609.6 + row * 304.8}, order++});
-    }
-  }
-  const auto lengths = readings(ReadingModel(machine), visits);
-  const MarkFrame frame(machine);
-  std::vector<double> numbers;
-  for (std::size_t i = 0; lengths && i < visits.size(); ++i) {
-    const MarkPoint mark = frame.written(identity_placement(visits[i].position));
-    numbers.insert(numbers.end(),
-                   {mark.x_mm, mark.y_mm, (*lengths)[i].left_mm, (*lengths)[i].right_mm});
-  }
-  return numbers;
-}
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.empty() || a.size() != b.size()) return INFINITY;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
-}
+std::vector<double> found_in(const Machine& machine) { return found(machine, session()); }
 
 const Effect* built_in_of(const Effect& own) {
   return find_effect(declaration_of(own)->instead_of);
@@ -93,7 +69,7 @@ TEST(DeclaredEquivalence, EqualsTheBuiltInEffect) {
         with_file.effects = {applied(*own, side, values)};
         Machine with_built_in;
         with_built_in.effects = {applied(built_in, side, values)};
-        EXPECT_LE(largest_difference(session(with_file), session(with_built_in)), kRoundingMm);
+        EXPECT_LE(largest_difference(found_in(with_file), found_in(with_built_in)), kRoundingMm);
       }
     }
   }
@@ -109,7 +85,7 @@ TEST(DeclaredEquivalence, EqualsTheBuiltInEffectsTogether) {
     with_files.effects.push_back(applied(*own, built_in.sides.front(), values));
     with_built_in.effects.push_back(applied(built_in, built_in.sides.front(), values));
   }
-  EXPECT_LE(largest_difference(session(with_files), session(with_built_in)), kRoundingMm);
+  EXPECT_LE(largest_difference(found_in(with_files), found_in(with_built_in)), kRoundingMm);
 }
 
 TEST(DeclaredExamples, MatchThePage) {

@@ -23,16 +23,7 @@ extern "C" {
 namespace chaintrue::grid::files {
 namespace {
 
-/// A map over a sheet, with a surface on the calibrated machine.
-const CompensationMap& sample_map() {
-  static const CompensationMap map = [] {
-    synthetic::SyntheticSpec spec = testing_support::usual_spec(5);
-    spec.hidden = {{"chain_sag", "", {{"relative_weight", 0.3}}}};
-    const auto made = synthetic::generate(model::Machine{}, spec).value();
-    return joint_fit(Measured(made.grid)).value().map;
-  }();
-  return map;
-}
+using testing_support::sagging_map;
 
 class Module {
  public:
@@ -89,7 +80,7 @@ class Module {
 };
 
 TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
-  const MapInFrame map(sample_map());
+  const MapInFrame map(sagging_map());
   const auto written = linuxcnc_kinematics(map, {"chaintrue_kins", "a map */ int x; /*"});
   ASSERT_TRUE(written) << written.error().sentence();
   EXPECT_LE(written->largest_error_mm, kTableErrorMm);
@@ -124,7 +115,7 @@ TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
 }
 
 TEST(LinuxcncKinematics, OutsideTheTableBothDirectionsFail) {
-  const MapInFrame map(sample_map());
+  const MapInFrame map(sagging_map());
   const Module module(linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source);
   ASSERT_TRUE(module.is_loaded());
   double joints[3] = {};
@@ -136,7 +127,7 @@ TEST(LinuxcncKinematics, OutsideTheTableBothDirectionsFail) {
 }
 
 TEST(LinuxcncKinematics, SameMapSameBytes) {
-  const MapInFrame map(sample_map());
+  const MapInFrame map(sagging_map());
   EXPECT_EQ(linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source, linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source);
 }
 

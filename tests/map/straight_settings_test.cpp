@@ -16,15 +16,7 @@
 namespace chaintrue::grid {
 namespace {
 
-const CompensationMap& sagging_map() {
-  static const CompensationMap map = [] {
-    synthetic::SyntheticSpec spec = testing_support::usual_spec(5);
-    spec.hidden = {{"chain_sag", "", {{"relative_weight", 0.3}}}};
-    const auto made = synthetic::generate(model::Machine{}, spec).value();
-    return joint_fit(Measured(made.grid)).value().map;
-  }();
-  return map;
-}
+using testing_support::sagging_map;
 
 /// The tool's position by the map when a straight-line controller that was switched on at 0, 0 is
 /// sent to the measured places: rms of the distances from these, with the map's uncertainty.

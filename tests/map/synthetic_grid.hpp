@@ -10,6 +10,7 @@
 #include <functional>
 #include <vector>
 
+#include "grid/map/joint_fit.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "model/reading_model.hpp"
@@ -27,6 +28,16 @@ inline grid::synthetic::SyntheticSpec usual_spec(std::uint64_t seed) {
   spec.draw_settings = true;
   spec.seed = seed;
   return spec;
+}
+
+/// The map of such a grid of a machine whose chains are a third heavier than stated: with a surface.
+inline const grid::CompensationMap& sagging_map() {
+  static const grid::CompensationMap map = [] {
+    grid::synthetic::SyntheticSpec spec = usual_spec(5);
+    spec.hidden = {{"chain_sag", "", {{"relative_weight", 0.3}}}};
+    return grid::joint_fit(grid::synthetic::generate(model::Machine{}, spec)->grid).value().map;
+  }();
+  return map;
 }
 
 /// Root mean square of a map's tool error, over a raster of the bed within the points.
