@@ -205,12 +205,11 @@ std::vector<DeclarationProblem> problems_on_bed(const Declaration& declaration,
   const DeclaredLaw law(declaration);
   const std::vector<Trial> trials = trials_of(declaration, machine);
   Problems problems;
-  for (const auto& [key, formula] : {std::pair{"/adds_mm", &law.adds()},
-                                     std::pair{"/adds_x_mm", &law.adds_x()},
-                                     std::pair{"/adds_y_mm", &law.adds_y()},
-                                     std::pair{"/elongation", &law.elongation()}}) {
-    if (!*formula) continue;
-    if (auto found = FormulaOnBed(declaration, key, **formula, trials).problem())
+  for (const FormulaRow& row : kFormulas) {
+    const std::optional<Formula>& formula = law.formula(row.key);
+    if (!formula) continue;
+    if (auto found =
+            FormulaOnBed(declaration, fmt::format("/{}", row.name), *formula, trials).problem())
       problems.push_back(*std::move(found));
   }
   return problems;

@@ -158,18 +158,9 @@ void check_parameters(const Declaration& own, Problems& problems) {
   }
 }
 
-struct FormulaKey {
-  std::string_view key;
-  const std::string Declaration::*text;
-};
-constexpr FormulaKey kFormulas[] = {{"adds_mm", &Declaration::adds_mm},
-                                    {"adds_x_mm", &Declaration::adds_x_mm},
-                                    {"adds_y_mm", &Declaration::adds_y_mm},
-                                    {"elongation", &Declaration::elongation}};
-
-bool belongs(ActsOn acts_on, std::string_view key) {
-  if (acts_on == ActsOn::paper) return key == "adds_x_mm" || key == "adds_y_mm";
-  return key == "adds_mm" || (acts_on == ActsOn::chain && key == "elongation");
+bool belongs(ActsOn acts_on, FormulaKey key) {
+  if (acts_on == ActsOn::paper) return key == FormulaKey::adds_x_mm || key == FormulaKey::adds_y_mm;
+  return key == FormulaKey::adds_mm || (acts_on == ActsOn::chain && key == FormulaKey::elongation);
 }
 
 std::string keys_of(ActsOn acts_on) {
@@ -187,11 +178,11 @@ bool acts_along(const Declaration& own, EffectSide axis) {
 bool check_keys(const Declaration& own, Problems& problems) {
   const std::size_t before = problems.size();
   int stated = 0;
-  for (const FormulaKey& one : kFormulas) {
+  for (const FormulaRow& one : kFormulas) {
     if ((own.*one.text).empty()) continue;
     ++stated;
     if (!belongs(own.acts_on, one.key)) {
-      problems.push_back({fmt::format("/{}", one.key),
+      problems.push_back({fmt::format("/{}", one.name),
                           {},
                           own.*one.text,
                           fmt::format("{}: it acts on {}",
@@ -223,16 +214,13 @@ bool check_keys(const Declaration& own, Problems& problems) {
 }
 
 void check_formula(const Declaration& own,
-                   const FormulaKey& one,
+                   const FormulaRow& one,
                    std::vector<bool>& used,
                    Problems& problems) {
-  const std::string& text = own.*one.text;
-  if (text.empty()) return;
-  const bool elongation = one.key == "elongation";
-  const std::vector<FormulaName> names = names_of(own, elongation);
-  const std::string place = fmt::format("/{}", one.key);
-  const auto formula =
-      Formula::parse(text, names, elongation ? FormulaUnit{} : FormulaUnit{.mm = 1.0});
+  if ((own.*one.text).empty()) return;
+  const std::vector<FormulaName> names = names_of(own, one.key);
+  const std::string place = fmt::format("/{}", one.name);
+  const auto formula = parsed(own, one);
   if (!formula) {
     const FormulaProblem& problem = formula.error();
     problems.push_back({place, problem.offset, problem.found, problem.expected});
@@ -263,7 +251,7 @@ void check_formulas(const Declaration& own, Problems& problems) {
   std::vector<bool> used(own.parameters.size(), false);
   // For an effect at one visit, the place gives the visit.
   if (own.acts_on == ActsOn::visit && used.size() > 1) used[1] = true;
-  for (const FormulaKey& one : kFormulas) check_formula(own, one, used, problems);
+  for (const FormulaRow& one : kFormulas) check_formula(own, one, used, problems);
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) continue;
     problems.push_back({fmt::format("/parameters/{}/name", i),

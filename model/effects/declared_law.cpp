@@ -11,39 +11,22 @@ namespace {
 constexpr FormulaUnit kMm{.mm = 1.0};
 constexpr FormulaUnit kNewton{.n = 1.0};
 
-std::optional<Formula> parsed(const Declaration& declaration,
-                              const std::string& text,
-                              bool elongation) {
-  if (text.empty()) return std::nullopt;
-  auto formula =
-      Formula::parse(text, names_of(declaration, elongation), elongation ? FormulaUnit{} : kMm);
-  if (!formula) {
-    const FormulaProblem& problem = formula.error();
-    throw std::invalid_argument(fmt::format("{}: {}: found {}, expected {}",
-                                            declaration.id,
-                                            problem.offset,
-                                            problem.found,
-                                            problem.expected));
-  }
-  return *std::move(formula);
-}
-
 Number added_by(const DeclaredLaw& law, const LengthState& state, Values values) {
   if (law.effect().at_one_visit && state.order != values.back()) return {};
-  return law.value(law.adds(), state, values);
+  return law.value(FormulaKey::adds_mm, state, values);
 }
 
 double elongation_of(const DeclaredLaw& law, Values values) {
-  return law.value(law.elongation(), {}, values).value;
+  return law.value(FormulaKey::elongation, {}, values).value;
 }
 
 MarkPoint written_at(const DeclaredLaw& law, MarkPoint mark, EffectSide side, Values values) {
   const LengthState at{.x_mm = mark.x_mm, .y_mm = mark.y_mm};
   MarkPoint written = mark;
-  if (law.adds_x() && side != EffectSide::y)
-    written.x_mm += law.value(law.adds_x(), at, values).value;
-  if (law.adds_y() && side != EffectSide::x)
-    written.y_mm += law.value(law.adds_y(), at, values).value;
+  if (law.formula(FormulaKey::adds_x_mm) && side != EffectSide::y)
+    written.x_mm += law.value(FormulaKey::adds_x_mm, at, values).value;
+  if (law.formula(FormulaKey::adds_y_mm) && side != EffectSide::x)
+    written.y_mm += law.value(FormulaKey::adds_y_mm, at, values).value;
   return written;
 }
 
@@ -91,40 +74,56 @@ std::span<const FormulaVariable> variables_of(ActsOn acts_on) {
 
 std::vector<Number> values_at(ActsOn acts_on, const LengthState& state, Values parameters) {
   std::vector<Number> values(parameters.begin(), parameters.end());
-  for (const FormulaVariable& variable : variables_of(acts_on)) values.push_back(variable.of(state));
+  for (const FormulaVariable& variable : variables_of(acts_on))
+    values.push_back(variable.of(state));
   return values;
 }
 
-std::vector<FormulaName> names_of(const Declaration& declaration, bool elongation) {
+std::vector<FormulaName> names_of(const Declaration& declaration, FormulaKey key) {
   std::vector<FormulaName> names;
   for (const DeclaredParameter& parameter : declaration.parameters)
     names.push_back({parameter.name, unit_of_name(parameter.name).value_or(FormulaUnit{})});
-  if (elongation) return names;
+  if (key == FormulaKey::elongation) return names;
   for (const FormulaVariable& variable : variables_of(declaration.acts_on))
     names.push_back({std::string(variable.name), variable.unit});
   return names;
 }
 
-DeclaredLaw::DeclaredLaw(const Declaration& declaration)
-    : declaration_(declaration),
-      adds_(parsed(declaration, declaration.adds_mm, false)),
-      adds_x_(parsed(declaration, declaration.adds_x_mm, false)),
-      adds_y_(parsed(declaration, declaration.adds_y_mm, false)),
-      elongation_(parsed(declaration, declaration.elongation, true)) {
+tl::expected<Formula, FormulaProblem> parsed(const Declaration& declaration,
+                                             const FormulaRow& row) {
+  return Formula::parse(declaration.*row.text,
+                        names_of(declaration, row.key),
+                        row.key == FormulaKey::elongation ? FormulaUnit{} : kMm);
+}
+
+DeclaredLaw::DeclaredLaw(const Declaration& declaration) : declaration_(declaration) {
+  for (const FormulaRow& row : kFormulas) {
+    if ((declaration.*row.text).empty()) continue;
+    auto formula = parsed(declaration, row);
+    if (!formula) {
+      const FormulaProblem& problem = formula.error();
+      throw std::invalid_argument(fmt::format("{}: {}: found {}, expected {}",
+                                              declaration.id,
+                                              problem.offset,
+                                              problem.found,
+                                              problem.expected));
+    }
+    formulas_[static_cast<std::size_t>(row.key)] = *std::move(formula);
+  }
   sides_ = declaration.sides;
   if (sides_.empty()) sides_ = {EffectSide::none};
   for (const DeclaredParameter& p : declaration_.parameters) {
     effect_.parameters.push_back({.name = p.name,
                                   .symbol = p.symbol,
                                   .meaning = p.meaning,
-                           .role = p.role,
-                           .null = p.null,
-                           .nominal = p.nominal,
-                           .lower = p.lower,
-                           .upper = p.upper,
-                           .prior_sigma = p.prior_sigma,
-                           .integer = p.integer,
-                           .mirror_sign = p.mirror_sign});
+                                  .role = p.role,
+                                  .null = p.null,
+                                  .nominal = p.nominal,
+                                  .lower = p.lower,
+                                  .upper = p.upper,
+                                  .prior_sigma = p.prior_sigma,
+                                  .integer = p.integer,
+                                  .mirror_sign = p.mirror_sign});
   }
   describe();
   connect();
@@ -132,10 +131,10 @@ DeclaredLaw::DeclaredLaw(const Declaration& declaration)
 
 void DeclaredLaw::describe() {
   const Declaration& own = declaration_;
-  if (elongation_) equation_ = fmt::format("L / (1 + {})", own.elongation);
-  if (adds_) equation_ = fmt::format("+ {}", own.adds_mm);
-  if (adds_x_) equation_ = fmt::format("x_written = x + {}", own.adds_x_mm);
-  if (adds_y_)
+  if (!own.elongation.empty()) equation_ = fmt::format("L / (1 + {})", own.elongation);
+  if (!own.adds_mm.empty()) equation_ = fmt::format("+ {}", own.adds_mm);
+  if (!own.adds_x_mm.empty()) equation_ = fmt::format("x_written = x + {}", own.adds_x_mm);
+  if (!own.adds_y_mm.empty())
     equation_ += fmt::format("{}y_written = y + {}", equation_.empty() ? "" : "; ", own.adds_y_mm);
   effect_.id = own.id;
   effect_.sides = sides_;
@@ -158,7 +157,7 @@ void DeclaredLaw::connect() {
       break;
     case ActsOn::chain:
       effect_.station = Station::chain;
-      if (elongation_) {
+      if (formula(FormulaKey::elongation)) {
         effect_.elongation = {*this, elongation_of};
       } else {
         effect_.add = {*this, added_by};
@@ -174,19 +173,17 @@ void DeclaredLaw::connect() {
   effect_.needs = depends_on_visit(effect_) ? DataNeed::order : DataNeed::positions;
 }
 
-Number DeclaredLaw::value(const std::optional<Formula>& formula,
-                          const LengthState& state,
-                          Values parameters) const {
+Number DeclaredLaw::value(FormulaKey key, const LengthState& state, Values parameters) const {
   const std::vector<Number> values = values_at(declaration_.acts_on, state, parameters);
-  return formula->evaluate(std::span<const Number>(values));
+  return formula(key)->evaluate(std::span<const Number>(values));
 }
 
 bool DeclaredLaw::uses(std::string_view name) const {
-  for (const auto* formula : {&adds_, &adds_x_, &adds_y_, &elongation_}) {
-    if (!*formula) continue;
-    const std::vector<FormulaName> names = names_of(declaration_, formula == &elongation_);
+  for (const FormulaRow& row : kFormulas) {
+    if (!formula(row.key)) continue;
+    const std::vector<FormulaName> names = names_of(declaration_, row.key);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i].name == name && (*formula)->uses(i)) return true;
+      if (names[i].name == name && formula(row.key)->uses(i)) return true;
     }
   }
   return false;

@@ -3,6 +3,7 @@
 /// A declared effect with its parsed formulas, and what these give. Private to model/effects.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,8 +21,23 @@ struct FormulaVariable {
 };
 /// Of what acts on the paper x_mm and y_mm of the state are the mark's.
 [[nodiscard]] std::span<const FormulaVariable> variables_of(ActsOn acts_on);
+/// A formula of a declaration, in the order of kFormulas.
+enum class FormulaKey { adds_mm, adds_x_mm, adds_y_mm, elongation };
+struct FormulaRow {
+  FormulaKey key;
+  std::string_view name;  ///< in files
+  const std::string Declaration::*text;
+};
+inline constexpr std::array kFormulas = {
+    FormulaRow{FormulaKey::adds_mm, "adds_mm", &Declaration::adds_mm},
+    FormulaRow{FormulaKey::adds_x_mm, "adds_x_mm", &Declaration::adds_x_mm},
+    FormulaRow{FormulaKey::adds_y_mm, "adds_y_mm", &Declaration::adds_y_mm},
+    FormulaRow{FormulaKey::elongation, "elongation", &Declaration::elongation}};
+
 /// All values of a formula of this declaration, the parameters first; of an elongation these alone.
-[[nodiscard]] std::vector<FormulaName> names_of(const Declaration& declaration, bool elongation);
+[[nodiscard]] std::vector<FormulaName> names_of(const Declaration& declaration, FormulaKey key);
+[[nodiscard]] tl::expected<Formula, FormulaProblem> parsed(const Declaration& declaration,
+                                                           const FormulaRow& row);
 /// What the formulas of such a declaration are evaluated for, in the order of names_of().
 [[nodiscard]] std::vector<Number> values_at(ActsOn acts_on,
                                             const LengthState& state,
@@ -40,13 +56,10 @@ class DeclaredLaw {
   [[nodiscard]] const Declaration& declaration() const { return declaration_; }
   [[nodiscard]] const Effect& effect() const { return effect_; }
   /// Empty if not stated.
-  [[nodiscard]] const std::optional<Formula>& adds() const { return adds_; }
-  [[nodiscard]] const std::optional<Formula>& adds_x() const { return adds_x_; }
-  [[nodiscard]] const std::optional<Formula>& adds_y() const { return adds_y_; }
-  [[nodiscard]] const std::optional<Formula>& elongation() const { return elongation_; }
-  [[nodiscard]] Number value(const std::optional<Formula>& formula,
-                             const LengthState& state,
-                             Values parameters) const;
+  [[nodiscard]] const std::optional<Formula>& formula(FormulaKey key) const {
+    return formulas_[static_cast<std::size_t>(key)];
+  }
+  [[nodiscard]] Number value(FormulaKey key, const LengthState& state, Values parameters) const;
   /// A formula of this effect uses the value of this name.
   [[nodiscard]] bool uses(std::string_view name) const;
 
@@ -56,7 +69,7 @@ class DeclaredLaw {
 
   Declaration declaration_;
   std::vector<EffectSide> sides_;
-  std::optional<Formula> adds_, adds_x_, adds_y_, elongation_;
+  std::array<std::optional<Formula>, kFormulas.size()> formulas_;
   std::string equation_;
   Effect effect_;
 };
