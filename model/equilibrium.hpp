@@ -28,7 +28,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/catenary.hpp"
+#include "model/hanging_body.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::model {
@@ -50,12 +50,6 @@ struct EquilibriumConstants {
 };
 
 [[nodiscard]] EquilibriumConstants equilibrium_constants(const EquilibriumParameters& parameters);
-
-struct EquilibriumState {
-  double h_left = 0.0, v_left = 0.0;
-  PerSide<double> s;
-  double psi = 0.0;
-};
 
 /// Left side of (1) without U and Y, and its derivatives by the chain's own H, V and S.
 struct ChainTerms {
@@ -111,18 +105,10 @@ struct EquilibriumLoad {
   double moment = 0.0;
 };
 
-inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const EquilibriumState& q) {
-  return {chain_terms(m, q.h_left, q.v_left, q.s.left),
-          chain_terms(m, q.h_left - m.f, m.W - q.v_left, q.s.right)};
+inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const Unknowns<double>& q) {
+  return {chain_terms(m, q[kH], q[kV], q[kSLeft]),
+          chain_terms(m, q[kH] - m.f, m.W - q[kV], q[kSRight])};
 }
-
-/// The step of the unknowns. The right chain's H moves by as much as the left one's, its V by as much
-/// the other way.
-struct EquilibriumStep {
-  double h_left = 0.0, v_left = 0.0;
-  PerSide<double> s;
-  double psi = 0.0;
-};
 
 /// Left side of (2).
 inline double moment_about_bit(const EquilibriumConstants& m,
@@ -147,11 +133,13 @@ struct SledRow {
   double h = 0.0, v = 0.0, psi = 0.0, load = 0.0;
 };
 
-/// Both equations, and for brackets that of the moment, by Cramer's rule: row * step + load = 0.
+/// Steps of H and V of the left chain and of psi from both equations, and for brackets that of the
+/// moment: row * step + load = 0 by Cramer's rule. The right chain's H moves by as much, its V by as
+/// much the other way.
 /// Zero determinants give infinities, which fail every convergence test.
 template <bool kRotates>
-EquilibriumStep solve_sled(const SledRow& l, const SledRow& r, const SledRow& moment) {
-  EquilibriumStep step;
+Unknowns<double> solve_sled(const SledRow& l, const SledRow& r, const SledRow& moment) {
+  Unknowns<double> step{};
   if constexpr (kRotates) {
     const double mh = moment.h, mv = moment.v, mp = moment.psi;
     const double c0 = r.v * mp - r.psi * mv, c1 = r.psi * mh - r.h * mp, c2 = r.h * mv - r.v * mh;
@@ -159,13 +147,13 @@ EquilibriumStep solve_sled(const SledRow& l, const SledRow& r, const SledRow& mo
     const double d0 = -r.load * mp + r.psi * moment.load;
     const double d1 = -r.load * mv + r.v * moment.load;
     const double d2 = -r.h * moment.load + r.load * mh;
-    step.h_left = per_det * (-l.load * c0 - l.v * d0 + l.psi * d1);
-    step.v_left = per_det * (l.h * d0 - l.load * c1 + l.psi * d2);
-    step.psi = per_det * (-l.load * c2 - l.v * d2 - l.h * d1);
+    step[kH] = per_det * (-l.load * c0 - l.v * d0 + l.psi * d1);
+    step[kV] = per_det * (l.h * d0 - l.load * c1 + l.psi * d2);
+    step[kTurn] = per_det * (-l.load * c2 - l.v * d2 - l.h * d1);
   } else {
     const double per_det = 1.0 / (l.h * r.v - l.v * r.h);
-    step.h_left = per_det * (l.v * r.load - l.load * r.v);
-    step.v_left = per_det * (r.h * l.load - l.h * r.load);
+    step[kH] = per_det * (l.v * r.load - l.load * r.v);
+    step[kV] = per_det * (r.h * l.load - l.h * r.load);
   }
   return step;
 }
@@ -181,10 +169,10 @@ inline SledRow moment_row(const EquilibriumConstants& m,
 
 /// Solves the linearised equations: terms * step + load = 0.
 template <bool kRotates>
-EquilibriumStep solve_linearised(const EquilibriumConstants& m,
-                                 const PerSide<ChainTerms>& t,
-                                 const EquilibriumLoad& load,
-                                 double psi) {
+Unknowns<double> solve_linearised(const EquilibriumConstants& m,
+                                  const PerSide<ChainTerms>& t,
+                                  const EquilibriumLoad& load,
+                                  double psi) {
   // With a chain's S eliminated; its V moves against the left one's by `way`.
   const auto row =
       [](const ChainTerms& c, double way, double u_psi, double y_psi, double u, double y) {
@@ -200,7 +188,7 @@ EquilibriumStep solve_linearised(const EquilibriumConstants& m,
     moment = moment_row(m, a, t, psi, load.moment);
   }
   // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
-  EquilibriumStep step =
+  Unknowns<double> step =
       solve_sled<kRotates>(row(t.left, 1.0, a.left_y, a.left_x, load.u.left, load.y.left),
                            row(t.right, -1.0, -a.right_y, a.right_x, load.u.right, load.y.right),
                            moment);
@@ -208,14 +196,14 @@ EquilibriumStep solve_linearised(const EquilibriumConstants& m,
     return -(c.u_s * u + c.y_s * y) / (c.u_s * c.u_s + c.y_s * c.y_s);
   };
   const ChainTerms &cl = t.left, &cr = t.right;
-  step.s.left =
+  step[kSLeft] =
       s_step(cl,
-             load.u.left + cl.u_h * step.h_left + cl.u_v * step.v_left + a.left_y * step.psi,
-             load.y.left + cl.y_h * step.h_left + cl.y_v * step.v_left + a.left_x * step.psi);
-  step.s.right =
+             load.u.left + cl.u_h * step[kH] + cl.u_v * step[kV] + a.left_y * step[kTurn],
+             load.y.left + cl.y_h * step[kH] + cl.y_v * step[kV] + a.left_x * step[kTurn]);
+  step[kSRight] =
       s_step(cr,
-             load.u.right + cr.u_h * step.h_left - cr.u_v * step.v_left - a.right_y * step.psi,
-             load.y.right + cr.y_h * step.h_left - cr.y_v * step.v_left + a.right_x * step.psi);
+             load.u.right + cr.u_h * step[kH] - cr.u_v * step[kV] - a.right_y * step[kTurn],
+             load.y.right + cr.y_h * step[kH] - cr.y_v * step[kV] + a.right_x * step[kTurn]);
   return step;
 }
 

@@ -23,48 +23,41 @@ ChainState chain_state(const EquilibriumConstants& m, double h, double v, double
   return state;
 }
 
-Unknowns<double> unknowns_of(const EquilibriumState& q) {
-  return {q.h_left, q.v_left, q.s.left, q.s.right, 0.0, 0.0, q.psi};
-}
-
-EquilibriumState state_of(const Pose& pose) {
-  return {pose.chains.left.horizontal_n,
-          pose.chains.left.vertical_at_sled_n,
-          {pose.chains.left.free_length_mm, pose.chains.right.free_length_mm},
-          pose.sled_rotation_rad};
-}
-
-/// How the lengths move with the unknowns in answer to a load.
-template <bool kRotates>
-Eigen::Vector2d length_changes(const EquilibriumConstants& m,
-                               const Pose& pose,
-                               const EquilibriumLoad& load) {
-  const EquilibriumState q = state_of(pose);
+/// How the lengths move with the unknowns in answer to loads.
+template <bool kRotates, std::size_t kLoads>
+Eigen::Matrix<double, 2, kLoads> length_changes(const EquilibriumConstants& m,
+                                                const Pose& pose,
+                                                const std::array<EquilibriumLoad, kLoads>& loads) {
+  const Unknowns<double> q = unknowns_of(pose);
   const PerSide<ChainTerms> t = terms_of(m, q);
-  const EquilibriumStep d = solve_linearised<kRotates>(m, t, load, q.psi);
   const auto change = [&m](const ChainTerms& c, double h, double v, double s) {
     return s + m.sg * m.r * (c.phi_h * h + c.phi_v * v + c.phi_s * s);
   };
-  return {change(t.left, d.h_left, d.v_left, d.s.left),
-          change(t.right, d.h_left, -d.v_left, d.s.right)};
+  Eigen::Matrix<double, 2, kLoads> changes;
+  for (std::size_t i = 0; i < kLoads; ++i) {
+    const Unknowns<double> d = solve_linearised<kRotates>(m, t, loads[i], q[kTurn]);
+    changes.col(static_cast<Eigen::Index>(i)) << change(t.left, d[kH], d[kV], d[kSLeft]),
+        change(t.right, d[kH], -d[kV], d[kSRight]);
+  }
+  return changes;
 }
 
 /// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not converge.
 template <bool kRotates>
-int converge_inverse(const EquilibriumConstants& m, BedPoint p, EquilibriumState& q) {
-  for (int n = 1; n <= kMaxIterations; ++n) {
+int converge_inverse(const EquilibriumConstants& m, BedPoint p, Unknowns<double>& q) {
+  for (int n = 1; n <= hanging::kMostSteps; ++n) {
     const PerSide<ChainTerms> t = terms_of(m, q);
     Attachments a;
-    if constexpr (kRotates) a = attachments(m, q.psi);
+    if constexpr (kRotates) a = attachments(m, q[kTurn]);
     EquilibriumLoad residual;
     residual.u = {t.left.tip_u - (p.x_mm + a.left_x - m.motors.left.x_mm),
                   t.right.tip_u - (m.motors.right.x_mm - p.x_mm - a.right_x)};
     residual.y = {t.left.tip_y - (m.motors.left.y_mm - p.y_mm - a.left_y),
                   t.right.tip_y - (m.motors.right.y_mm - p.y_mm - a.right_y)};
-    if constexpr (kRotates) residual.moment = moment_about_bit(m, a, t, q.psi);
-    const EquilibriumStep step = solve_linearised<kRotates>(m, t, residual, q.psi);
-    if (!std::isfinite(step.h_left + step.v_left + step.s.left + step.s.right + step.psi)) return 0;
-    if (advance<kRotates>(m, step, q)) return n;
+    if constexpr (kRotates) residual.moment = moment_about_bit(m, a, t, q[kTurn]);
+    const Unknowns<double> step = solve_linearised<kRotates>(m, t, residual, q[kTurn]);
+    if (!hanging::are_finite(step)) return 0;
+    if (hanging::advance({m.W, m.f}, step, q)) return n;
   }
   return 0;
 }
@@ -110,20 +103,13 @@ Pose pose_of(const EquilibriumConstants& m,
 template <bool kRotates>
 PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
   if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
-  EquilibriumState q = straight_start(m_, point);
-  int iterations = converge_inverse<kRotates>(m_, point, q);
-  if (iterations == 0) {
-    iterations = converge_by_continuation(
-        m_,
-        point,
-        q,
-        [this](BedPoint p) { return straight_start(m_, p); },
-        [this](BedPoint p, EquilibriumState& state) {
-          return converge_inverse<kRotates>(m_, p, state);
-        });
-  }
+  Unknowns<double> q;
+  const int iterations =
+      converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
+        return converge_inverse<kRotates>(m_, p, at);
+      });
   if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
-  return pose_of(m_, unknowns_of(q), point, iterations);
+  return pose_of(m_, q, point, iterations);
 }
 
 template <bool kRotates>
@@ -131,13 +117,13 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
   const DomainLimits limits = limits_of(m_);
   const CircleGuess guess = circle_guess(limits, lengths);
   if (guess.hopeless || !guess.circles_meet) return forward_by_inverse(*this, limits, lengths);
-  EquilibriumState q = straight_start(m_, guess.point);
+  Unknowns<double> q = straight_start(m_, guess.point);
   const double span = m_.motors.right.x_mm - m_.motors.left.x_mm;
   const double rise = m_.motors.left.y_mm - m_.motors.right.y_mm;
-  for (int n = 1; n <= kMaxIterations; ++n) {
+  for (int n = 1; n <= hanging::kMostSteps; ++n) {
     const PerSide<ChainTerms> t = terms_of(m_, q);
     Attachments a;
-    if constexpr (kRotates) a = attachments(m_, q.psi);
+    if constexpr (kRotates) a = attachments(m_, q[kTurn]);
     // Each chain's S follows from its length: S + wrap(phi) = L, linearised.
     struct Row {
       double u_h, u_v, y_h, y_v, u, y, s_h, s_v, s;
@@ -156,30 +142,31 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
       r.y = c.tip_y + c.y_s * r.s;
       return r;
     };
-    const Row l = row(t.left, q.s.left, lengths.left_mm);
-    const Row r = row(t.right, q.s.right, lengths.right_mm);
+    const Row l = row(t.left, q[kSLeft], lengths.left_mm);
+    const Row r = row(t.right, q[kSRight], lengths.right_mm);
     // Both chains end at the same sled, across and in height.
     const double cx = l.u + r.u - a.left_x + a.right_x - span;
     const double cy = l.y - r.y + a.left_y - a.right_y - rise;
     SledRow moment;
-    if constexpr (kRotates) moment = moment_row(m_, a, t, q.psi, moment_about_bit(m_, a, t, q.psi));
-    EquilibriumStep step =
+    if constexpr (kRotates)
+      moment = moment_row(m_, a, t, q[kTurn], moment_about_bit(m_, a, t, q[kTurn]));
+    Unknowns<double> step =
         solve_sled<kRotates>({l.u_h + r.u_h, l.u_v - r.u_v, a.left_y - a.right_y, cx},
                              {l.y_h - r.y_h, l.y_v + r.y_v, a.left_x - a.right_x, cy},
                              moment);
-    step.s.left = l.s + l.s_h * step.h_left + l.s_v * step.v_left;
-    step.s.right = r.s + r.s_h * step.h_left - r.s_v * step.v_left;
-    if (!std::isfinite(step.h_left + step.v_left + step.s.left + step.s.right + step.psi)) break;
-    if (!advance<kRotates>(m_, step, q)) continue;
+    step[kSLeft] = l.s + l.s_h * step[kH] + l.s_v * step[kV];
+    step[kSRight] = r.s + r.s_h * step[kH] - r.s_v * step[kV];
+    if (!hanging::are_finite(step)) break;
+    if (!hanging::advance({m_.W, m_.f}, step, q)) continue;
     const PerSide<ChainTerms> end = terms_of(m_, q);
-    if constexpr (kRotates) a = attachments(m_, q.psi);
+    if constexpr (kRotates) a = attachments(m_, q[kTurn]);
     // Left and right are equal to rounding; their mean keeps the mirror symmetry exact.
     const BedPoint p{0.5 * (m_.motors.left.x_mm + end.left.tip_u - a.left_x +
                             (m_.motors.right.x_mm - end.right.tip_u - a.right_x)),
                      0.5 * (m_.motors.left.y_mm - end.left.tip_y - a.left_y +
                             (m_.motors.right.y_mm - end.right.tip_y - a.right_y))};
     if (domain_failure(limits, p)) break;
-    return pose_of(m_, unknowns_of(q), p, n);
+    return pose_of(m_, q, p, n);
   }
   return forward_by_inverse(*this, limits, lengths);
 }
@@ -189,10 +176,7 @@ Eigen::Matrix2d EquilibriumKinematics<kRotates>::jacobian(const Pose& pose) cons
   EquilibriumLoad by_x, by_y;
   by_x.u = {-1.0, 1.0};
   by_y.y = {1.0, 1.0};
-  Eigen::Matrix2d j;
-  j.col(0) = length_changes<kRotates>(m_, pose, by_x);
-  j.col(1) = length_changes<kRotates>(m_, pose, by_y);
-  return j;
+  return length_changes<kRotates>(m_, pose, std::array{by_x, by_y});
 }
 
 template <bool kRotates>
@@ -205,13 +189,24 @@ Eigen::Vector2d EquilibriumKinematics<kRotates>::sensitivity(const Pose& pose,
     return Eigen::Vector2d::Zero();
   }
   const ChainInputs<Dual<1>> inputs = by_parameter(m_, pose.position, parameter);
+  EquilibriumLoad load;
+  if (parameter <= Parameter::motor_right_y_mm) {
+    // A motor's place stands in (1) by itself.
+    for (const Side side : kSides) {
+      const auto motor = inputs.to_motor(side);
+      load.u[side] = -motor[0].d[0];
+      load.y[side] = -motor[1].d[0];
+    }
+    return length_changes<kRotates>(m_, pose, std::array{load});
+  }
   const Unknowns<Dual<1>> q = hanging::fixed<1>(unknowns_of(pose));
   const auto left = hanging::slopes_of(residual(m_, inputs, q));
+  load = {{left[0], left[3]}, {left[1], left[4]}, left[6]};
   const auto direct = [&](Side side) {
     return length_of(m_, inputs, pull_of(inputs, q, side)).d[0];
   };
   return Eigen::Vector2d(direct(Side::left), direct(Side::right)) +
-         length_changes<kRotates>(m_, pose, {{left[0], left[3]}, {left[1], left[4]}, left[6]});
+         length_changes<kRotates>(m_, pose, std::array{load});
 }
 
 template class EquilibriumKinematics<false>;

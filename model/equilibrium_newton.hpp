@@ -14,12 +14,6 @@
 
 namespace chaintrue::model {
 
-inline constexpr int kMaxIterations = 50;
-// Newton converges quadratically: the error after a step below these is less than rounding.
-inline constexpr double kLengthStepMm = 1e-7;
-inline constexpr double kRelativeForceStep = 1e-7;
-inline constexpr double kAngleStepRad = 1e-9;
-
 /// A bracket reaches as far from the bit as its corner.
 inline DomainLimits limits_of(const EquilibriumConstants& m) {
   return {m.motors,
@@ -29,7 +23,7 @@ inline DomainLimits limits_of(const EquilibriumConstants& m) {
 }
 
 /// Straight tangents carry sled and chains: the starting point of every solution.
-inline EquilibriumState straight_start(const EquilibriumConstants& m, BedPoint p) {
+inline Unknowns<double> straight_start(const EquilibriumConstants& m, BedPoint p) {
   const Attachments a = attachments(m, 0.0);
   const double ul = p.x_mm + a.left_x - m.motors.left.x_mm;
   const double yl = m.motors.left.y_mm - p.y_mm - a.left_y;
@@ -45,57 +39,47 @@ inline EquilibriumState straight_start(const EquilibriumConstants& m, BedPoint p
   // Next to a bracket's vertical or at the beam the straight line has no equilibrium; Newton starts
   // from a taut chain.
   const double slopes = tan_l > 0.0 && tan_r > 0.0 ? tan_l + tan_r : std::max(tan_l + tan_r, 0.05);
-  EquilibriumState q;
+  Unknowns<double> q{};
   const double least = 1e-3 * load + std::abs(m.f);
-  q.h_left = std::max((load + m.f * tan_r) / slopes, least + m.f);
-  q.v_left = q.h_left * tan_l - 0.5 * w * sl;
-  q.s = {std::max(sl - m.rho, 0.1 * sl), std::max(sr - m.rho, 0.1 * sr)};
+  q[kH] = std::max((load + m.f * tan_r) / slopes, least + m.f);
+  q[kV] = q[kH] * tan_l - 0.5 * w * sl;
+  q[kSLeft] = std::max(sl - m.rho, 0.1 * sl);
+  q[kSRight] = std::max(sr - m.rho, 0.1 * sr);
+  // Each end carries half of the chain's weight off the sheet.
+  const double off_sheet = 0.5 * w * m.sin_tilt / m.cos_tilt;
+  q[kNLeft] = -off_sheet * q[kSLeft];
+  q[kNRight] = -off_sheet * q[kSRight];
   return q;
 }
 
-/// Applies a Newton step, shortened where a tension or a length would fall below a tenth of itself.
-template <bool kRotates>
-bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, EquilibriumState& q) {
-  const double h_right = q.h_left - m.f;
-  double share = 1.0;
-  const auto keep = [&share](double value, double change) {
-    if (value + share * change < 0.1 * value) share = -0.9 * value / change;
-  };
-  keep(q.h_left, step.h_left);
-  keep(h_right, step.h_left);
-  keep(q.s.left, step.s.left);
-  keep(q.s.right, step.s.right);
-  if constexpr (kRotates) {
-    constexpr double kMaxTurn = 0.3;  // rad: beyond it the bracket's moment is not nearly linear
-    if (std::abs(share * step.psi) > kMaxTurn) share = kMaxTurn / std::abs(step.psi);
-    q.psi += share * step.psi;
-  }
-  q.h_left += share * step.h_left;
-  q.v_left += share * step.v_left;
-  q.s.left += share * step.s.left;
-  q.s.right += share * step.s.right;
-  const double least_h = std::min(q.h_left, q.h_left - m.f);
-  return share == 1.0 && std::abs(step.s.left) + std::abs(step.s.right) < kLengthStepMm &&
-         std::abs(step.h_left) < kRelativeForceStep * least_h &&
-         std::abs(step.v_left) < kRelativeForceStep * (m.W + std::abs(q.v_left)) &&
-         std::abs(step.psi) < kAngleStepRad;
-}
-
 /// Continuation from below the beam's middle to the point: the branch of solutions with taut chains.
-/// \param start  State(BedPoint): the cold start
-/// \param converge int(BedPoint, State&): iterations, or 0
-template <class State, class Start, class Converge>
-int converge_by_continuation(
-    const EquilibriumConstants& m, BedPoint p, State& q, Start start, Converge converge) {
+/// \param converge int(BedPoint, Unknowns<double>&): steps, or 0
+template <class Converge>
+int converge_by_continuation(const EquilibriumConstants& m,
+                             BedPoint p,
+                             Unknowns<double>& q,
+                             const Converge& converge) {
   const MotorPosition &l = m.motors.left, &r = m.motors.right;
   const BedPoint middle{0.5 * (l.x_mm + r.x_mm),
                         std::min(p.y_mm, 0.5 * (l.y_mm + r.y_mm) - 0.2 * (r.x_mm - l.x_mm))};
-  q = start(middle);
-  return hanging::follow(q, [&](double share, State& state) {
+  q = straight_start(m, middle);
+  return hanging::follow(q, [&](double share, Unknowns<double>& at) {
     return converge(BedPoint{middle.x_mm + share * (p.x_mm - middle.x_mm),
                              middle.y_mm + share * (p.y_mm - middle.y_mm)},
-                    state);
+                    at);
   });
+}
+
+/// From straight chains, or by continuation where that finds nothing. \param converge as above
+/// \returns steps, or 0
+template <class Converge>
+int converge_from_start(const EquilibriumConstants& m,
+                        BedPoint p,
+                        Unknowns<double>& q,
+                        const Converge& converge) {
+  q = straight_start(m, p);
+  const int steps = converge(p, q);
+  return steps != 0 ? steps : converge_by_continuation(m, p, q, converge);
 }
 
 /// The likeliest reason why Newton does not converge for a point inside the domain.

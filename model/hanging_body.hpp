@@ -78,42 +78,49 @@ Unknowns<Dual<kUnknowns>> linearised(const Equations& equations, const Unknowns<
   return equations(variables);
 }
 
+inline constexpr int kMostSteps = 60;
+
+inline bool are_finite(const Unknowns<double>& q) {
+  return std::all_of(q.begin(), q.end(), [](double value) { return std::isfinite(value); });
+}
+
 /// The step, shortened where a pull or a length would fall below a tenth of itself or the body would
 /// turn too far for its moment to be nearly linear. \returns whether it was below rounding.
-inline bool advance(const BodyForces& body, const Slopes<1>& step, Unknowns<double>& q) {
+inline bool advance(const BodyForces& body, const Unknowns<double>& step, Unknowns<double>& q) {
   // Newton converges quadratically: after a step below these the error is less than rounding.
   constexpr double kLengthStepMm = 1e-7;
-  constexpr double kRelativeForceStep = 1e-8;
+  constexpr double kRelativeForceStep = 1e-7;
   constexpr double kTurnStepRad = 1e-9;
   constexpr double kMostTurnRad = 0.3;
   double share = 1.0;
   const auto keep = [&share](double value, double change) {
     if (value + share * change < 0.1 * value) share = -0.9 * value / change;
   };
-  keep(q[kH] + std::min(0.0, -body.side_n), step[kH]);
+  const double slacker = std::min(0.0, -body.side_n);
+  keep(q[kH] + slacker, step[kH]);
   keep(q[kSLeft], step[kSLeft]);
   keep(q[kSRight], step[kSRight]);
   if (std::abs(share * step[kTurn]) > kMostTurnRad) share = kMostTurnRad / std::abs(step[kTurn]);
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] += share * step[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += share * step[i];
   const auto small = [&](Unknown i, double scale) {
     return std::abs(step[i]) < kRelativeForceStep * scale;
   };
   const double force = body.weight_n + std::abs(q[kH]);
   return share == 1.0 && std::abs(step[kSLeft]) + std::abs(step[kSRight]) < kLengthStepMm &&
-         small(kH, q[kH]) && small(kV, force) && small(kNLeft, force) && small(kNRight, force) &&
-         std::abs(step[kTurn]) < kTurnStepRad;
+         small(kH, q[kH] + slacker) && small(kV, force) && small(kNLeft, force) &&
+         small(kNRight, force) && std::abs(step[kTurn]) < kTurnStepRad;
 }
 
 /// Newton from `q`. \returns steps, or 0 where it does not converge.
 template <class Equations>
 int converge(const Equations& equations, const BodyForces& body, Unknowns<double>& q) {
-  constexpr int kMostSteps = 60;
   for (int n = 1; n <= kMostSteps; ++n) {
     const Unknowns<Dual<kUnknowns>> left = linearised(equations, q);
     Slopes<1> value;
     for (int i = 0; i < kUnknowns; ++i) value[i] = left[static_cast<std::size_t>(i)].value;
-    const Slopes<1> step = -slopes_of(left).partialPivLu().solve(value);
-    if (!step.allFinite()) return 0;
+    Unknowns<double> step;
+    Eigen::Map<Slopes<1>>(step.data()) = -slopes_of(left).partialPivLu().solve(value);
+    if (!are_finite(step)) return 0;
     if (advance(body, step, q)) return n;
   }
   return 0;

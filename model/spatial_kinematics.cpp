@@ -14,19 +14,6 @@ auto equations_at(const EquilibriumConstants& m, const ChainInputs<T>& inputs) {
   return [&m, inputs](const Unknowns<T>& q) { return residual(m, inputs, q); };
 }
 
-Unknowns<double> spatial_start(const EquilibriumConstants& m, BedPoint p) {
-  const EquilibriumState plane = straight_start(m, p);
-  // Each end carries half of the chain's weight off the sheet.
-  const double half = -0.5 * m.chain.weight_n_per_mm / m.cos_tilt * m.sin_tilt;
-  return {plane.h_left,
-          plane.v_left,
-          plane.s.left,
-          plane.s.right,
-          half * plane.s.left,
-          half * plane.s.right,
-          0.0};
-}
-
 int converge_inverse(const EquilibriumConstants& m, BedPoint p, Unknowns<double>& q) {
   return hanging::converge(equations_at(m, ChainInputs<Dual<kUnknowns>>(m, p)), {m.W, m.f}, q);
 }
@@ -59,15 +46,11 @@ SpatialKinematics::SpatialKinematics(const EquilibriumParameters& parameters)
 
 PoseResult SpatialKinematics::inverse(BedPoint point) const {
   if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
-  const auto converge = [this](BedPoint p, Unknowns<double>& q) {
-    return converge_inverse(m_, p, q);
-  };
-  Unknowns<double> q = spatial_start(m_, point);
-  int iterations = converge(point, q);
-  if (iterations == 0) {
-    iterations = converge_by_continuation(
-        m_, point, q, [this](BedPoint p) { return spatial_start(m_, p); }, converge);
-  }
+  Unknowns<double> q;
+  const int iterations =
+      converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
+        return converge_inverse(m_, p, at);
+      });
   if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
   return pose_of(m_, q, point, iterations);
 }
