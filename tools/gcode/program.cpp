@@ -3,11 +3,6 @@
 /// From lines to executed blocks.
 #include "tools/gcode/program.hpp"
 
-#include <fmt/format.h>
-
-#include "tools/gcode/flow.hpp"
-#include "tools/gcode/plotter_codes.hpp"
-
 namespace chaintrue::gcode {
 namespace {
 
@@ -26,167 +21,127 @@ constexpr OtherKind kOtherKinds[] = {
     {"solid ", "this is a solid (STL), not a program; let a CAM program make G-code of it"},
 };
 
+/// \param begun a line of the program came before
+void refuse_other_kind(const SourceLine& raw, std::size_t first, bool begun) {
+  const std::string_view text = raw.text.substr(first);
+  for (const OtherKind& kind : kOtherKinds) {
+    if (!text.starts_with(kind.beginning) || (begun && text.front() != '<')) continue;
+    refuse(not_a_program, {raw.number, first + 1}, kind.sentence);
+  }
+}
+
+[[noreturn]] void lines_lost(std::size_t line) { refuse(line_ends_lost, {line}, kLineEndsLost); }
+
 }  // namespace
 
-class Program::Runner {
- public:
-  Runner(LineSource& source, const Dialect& dialect, Sink& sink)
-      : interpreter_(dialect, block_, sink),
-        source_(source),
-        flow_(source, interpreter_),
-        sink_(sink) {}
-
-  bool step() {
-    if (ended_) return false;
-    SourceLine raw;
-    if (!flow_.next(raw)) {
-      end_of_file();
-      return false;
-    }
-    summary_.lines = raw.number;
-    line(raw);
-    return !ended_;
+bool Program::step() {
+  if (ended_) return false;
+  SourceLine raw;
+  if (!flow_.next(raw)) {
+    end_of_file();
+    return false;
   }
+  summary_.lines = raw.number;
+  line(raw);
+  return !ended_;
+}
 
-  const ProgramSummary& summary() const { return summary_; }
-  const Interpreter& interpreter() const { return interpreter_; }
-  std::size_t next_line() const { return source_.position().lines_before + 1; }
-
- private:
-  void end_of_file() {
-    flow_.finish({summary_.lines});
-    if (opened_by_percent_) {
-      sink_.note({summary_.lines,
-                  "no_closing_percent",
-                  "the file begins with % but does not end with it"});
-    } else {
-      sink_.note({summary_.lines,
-                  "no_program_end",
-                  "the program has neither M2, M30 nor %; LinuxCNC would refuse it"});
-    }
-    return end(summary_.lines, "");
+void Program::end_of_file() {
+  flow_.finish({summary_.lines});
+  if (opened_by_percent_) {
+    sink_.note(
+        {summary_.lines, "no_closing_percent", "the file begins with % but does not end with it"});
+  } else {
+    sink_.note({summary_.lines,
+                "no_program_end",
+                "the program has neither M2, M30 nor %; LinuxCNC would refuse it"});
   }
+  return end(summary_.lines, "");
+}
 
-  void line(const SourceLine& raw) {
-    const std::size_t first = raw.text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return;
-    other_kind(raw, first);
-    if (raw.text[first] == '%') return percent(raw);
-    // A DOS end-of-file mark.
-    if (raw.text.substr(first) == "\x1A") return end(raw.number, "");
-    begun_ = true;
-    const Dialect& dialect = interpreter_.dialect();
-    if (const auto text = text_line(raw.text, dialect.passes_plotter_codes))
-      return line_with_text(raw.number, *text);
-    clean(raw.text, raw.number, line_);
-    block_.clear(raw.number);
-    std::size_t at = 0;
-    if (peek(at) == '/') {
-      if (dialect.skip_deletable_blocks) return;
-      block_.deletable = true;
-      ++at;
-    }
-    if (peek(at) == 'n') line_number(at);
-    if (peek(at) == 'o') return flow_.control(line_, at);
-    ++summary_.blocks;
-    if (dialect.passes_plotter_codes) {
-      if (const auto word = plotter_word(line_, at, dialect.plotter_home_mm.has_value()))
-        return interpreter_.pass_line(line_.comments, word->code, word->words);
-    }
-    try {
-      read_words(ValueReader(line_, interpreter_.parameters(), at),
-                 block_,
-                 dialect.tools_have_no_diameter);
-    } catch (const Refusal&) {
-      if (holds_moves(line_.text)) lines_lost(raw.number);
-      throw;
-    }
-    follow(interpreter_.execute(line_.comments));
+void Program::line(const SourceLine& raw) {
+  const std::size_t first = raw.text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return;
+  refuse_other_kind(raw, first, begun_);
+  if (raw.text[first] == '%') return percent(raw);
+  // A DOS end-of-file mark.
+  if (raw.text.substr(first) == "\x1A") return end(raw.number, "");
+  begun_ = true;
+  const Dialect& dialect = interpreter_.dialect();
+  if (const auto text = text_line(raw.text, dialect.passes_plotter_codes))
+    return line_with_text(raw.number, *text);
+  clean(raw.text, raw.number, line_);
+  block_.clear(raw.number);
+  std::size_t at = 0;
+  if (peek(at) == '/') {
+    if (dialect.skip_deletable_blocks) return;
+    block_.deletable = true;
+    ++at;
   }
-
-  void other_kind(const SourceLine& raw, std::size_t first) const {
-    const std::string_view text = raw.text.substr(first);
-    for (const OtherKind& kind : kOtherKinds) {
-      if (!text.starts_with(kind.beginning) || (begun_ && text.front() != '<')) continue;
-      refuse(not_a_program, {raw.number, first + 1}, kind.sentence);
-    }
+  if (peek(at) == 'n') line_number(at);
+  if (peek(at) == 'o') return flow_.control(line_, at);
+  ++summary_.blocks;
+  if (dialect.passes_plotter_codes) {
+    if (const auto word = plotter_word(line_, at, dialect.plotter_home_mm.has_value()))
+      return interpreter_.pass_line(line_.comments, word->code, word->words);
   }
-
-  [[noreturn]] static void lines_lost(std::size_t line) {
-    refuse(line_ends_lost, {line}, kLineEndsLost);
+  try {
+    read_words(
+        ValueReader(line_, interpreter_.parameters(), at), block_, dialect.tools_have_no_diameter);
+  } catch (const Refusal&) {
+    if (holds_moves(line_.text)) lines_lost(raw.number);
+    throw;
   }
+  follow(interpreter_.execute(line_.comments));
+}
 
-  /// The text is the operator's: a plotter's controller shows it, in other programs it is a message.
-  void line_with_text(std::size_t number, const TextLine& text) {
-    ++summary_.blocks;
-    block_.clear(number);
-    const bool shows = interpreter_.dialect().passes_plotter_codes;
-    if (!shows) sink_.comment({number, text.text, true});
-    interpreter_.pass_line(text.comments, text.code, shows ? " " + text.text : "");
+/// The text is the operator's: a plotter's controller shows it, in other programs it is a message.
+void Program::line_with_text(std::size_t number, const TextLine& text) {
+  ++summary_.blocks;
+  block_.clear(number);
+  const bool shows = interpreter_.dialect().passes_plotter_codes;
+  if (!shows) sink_.comment({number, text.text, true});
+  interpreter_.pass_line(text.comments, text.code, shows ? " " + text.text : "");
+}
+
+void Program::line_number(std::size_t& at) const {
+  const std::size_t start = at + 1;
+  at = past_digits(line_.text, start);
+  if (at == start)
+    refuse(bad_line_number, line_.place(start), "N needs a whole number, not negative");
+  if (peek(at) == '.') at = past_digits(line_.text, at + 1);
+}
+
+void Program::percent(const SourceLine& raw) {
+  if (holds_moves(raw.text)) lines_lost(raw.number);
+  if (!begun_ && !opened_by_percent_) {
+    opened_by_percent_ = true;
+    return;
   }
-
-  char peek(std::size_t at) const { return at < line_.text.size() ? line_.text[at] : '\0'; }
-
-  void line_number(std::size_t& at) {
-    const std::size_t start = at + 1;
-    at = past_digits(line_.text, start);
-    if (at == start)
-      refuse(bad_line_number, line_.place(start), "N needs a whole number, not negative");
-    if (peek(at) == '.') at = past_digits(line_.text, at + 1);
+  if (!opened_by_percent_) {
+    refuse(bad_character, {raw.number, 1}, "a % ends a program only where a % began it");
   }
+  return end(raw.number, "%");
+}
 
-  void percent(const SourceLine& raw) {
-    if (holds_moves(raw.text)) lines_lost(raw.number);
-    if (!begun_ && !opened_by_percent_) {
-      opened_by_percent_ = true;
+void Program::end(std::size_t line, std::string_view word) {
+  ended_ = true;
+  interpreter_.note_whole(line);
+  sink_.end(line, word);
+}
+
+void Program::follow(const AfterBlock& after) {
+  switch (after.flow) {
+    case AfterBlock::Flow::next:
       return;
-    }
-    if (!opened_by_percent_) {
-      refuse(bad_character, {raw.number, 1}, "a % ends a program only where a % began it");
-    }
-    return end(raw.number, "%");
+    case AfterBlock::Flow::end:
+      return end(block_.line, after.end_word);
+    case AfterBlock::Flow::call_program:
+      return flow_.call_program(after.program, after.repeats, block_.start());
+    case AfterBlock::Flow::leave_program:
+      return flow_.leave_program(block_.start());
   }
-
-  void end(std::size_t line, std::string_view word) {
-    ended_ = true;
-    interpreter_.note_whole(line);
-    sink_.end(line, word);
-  }
-
-  void follow(const AfterBlock& after) {
-    switch (after.flow) {
-      case AfterBlock::Flow::next:
-        return;
-      case AfterBlock::Flow::end:
-        return end(block_.line, after.end_word);
-      case AfterBlock::Flow::call_program:
-        return flow_.call_program(after.program, after.repeats, block_.start());
-      case AfterBlock::Flow::leave_program:
-        return flow_.leave_program(block_.start());
-    }
-  }
-
-  Block block_;
-  Interpreter interpreter_;
-  LineSource& source_;
-  Flow flow_;
-  Sink& sink_;
-  CleanLine line_;
-  ProgramSummary summary_;
-  bool begun_ = false;
-  bool opened_by_percent_ = false;
-  bool ended_ = false;
-};
-
-Program::Program(LineSource& source, const Dialect& dialect, Sink& sink)
-    : runner_(std::make_unique<Runner>(source, dialect, sink)) {}
-
-Program::~Program() = default;
-
-bool Program::step() { return runner_->step(); }
-const ProgramSummary& Program::summary() const { return runner_->summary(); }
-const Interpreter& Program::interpreter() const { return runner_->interpreter(); }
-std::size_t Program::next_line() const { return runner_->next_line(); }
+}
 
 Result<ProgramSummary> run_program(LineSource& source, const Dialect& dialect, Sink& sink) {
   return attempt([&] {

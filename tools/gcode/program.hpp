@@ -20,13 +20,13 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
-#include <memory>
 #include <string>
 
 #include "tools/gcode/events.hpp"
+#include "tools/gcode/flow.hpp"
 #include "tools/gcode/interpreter.hpp"
 #include "tools/gcode/line_source.hpp"
+#include "tools/gcode/plotter_codes.hpp"
 
 namespace chaintrue::gcode {
 
@@ -43,21 +43,41 @@ struct ProgramSummary {
 class Program {
  public:
   /// Keeps references to source and sink.
-  Program(LineSource& source, const Dialect& dialect, Sink& sink);
-  ~Program();
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  Program(LineSource& source, const Dialect& dialect, Sink& sink)
+      : interpreter_(dialect, block_, sink),
+        source_(source),
+        flow_(source, interpreter_),
+        sink_(sink) {}
 
   /// Executes the next line; false when the program has ended. \throws Refusal
   bool step();
-  [[nodiscard]] const ProgramSummary& summary() const;
-  [[nodiscard]] const Interpreter& interpreter() const;
+  [[nodiscard]] const ProgramSummary& summary() const { return summary_; }
+  [[nodiscard]] const Interpreter& interpreter() const { return interpreter_; }
   /// Number of the line that step() will read, in the order of execution.
-  [[nodiscard]] std::size_t next_line() const;
+  [[nodiscard]] std::size_t next_line() const { return source_.position().lines_before + 1; }
 
  private:
-  class Runner;
-  std::unique_ptr<Runner> runner_;
+  void line(const SourceLine& raw);
+  void line_with_text(std::size_t number, const TextLine& text);
+  void line_number(std::size_t& at) const;
+  void percent(const SourceLine& raw);
+  void follow(const AfterBlock& after);
+  void end_of_file();
+  void end(std::size_t line, std::string_view word);
+  [[nodiscard]] char peek(std::size_t at) const {
+    return at < line_.text.size() ? line_.text[at] : '\0';
+  }
+
+  Block block_;
+  Interpreter interpreter_;
+  LineSource& source_;
+  Flow flow_;
+  Sink& sink_;
+  CleanLine line_;
+  ProgramSummary summary_;
+  bool begun_ = false;
+  bool opened_by_percent_ = false;
+  bool ended_ = false;
 };
 
 struct ProgramEvent {
