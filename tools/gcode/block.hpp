@@ -144,6 +144,8 @@ struct Block {
     return code(name.group) != nullptr && code(name.group)->tenths == name.tenths;
   }
   [[nodiscard]] bool has_axes() const;
+  /// A polar radius or angle.
+  [[nodiscard]] bool has_polar() const { return has('@') || has('^'); }
   /// Z and no other axis.
   [[nodiscard]] bool has_z_alone() const;
 

@@ -44,6 +44,12 @@ struct Dialect {
 /// X, Y, Z in mm, A, B, C in degrees.
 using Axes = std::array<double, 6>;
 
+/// Of a coordinate system about Z.
+struct Turn {
+  double cosine = 1.0;
+  double sine = 0.0;
+};
+
 /// The action of the program after a block.
 struct AfterBlock {
   enum class Flow { next, end, call_program, leave_program };
@@ -97,8 +103,7 @@ class Interpreter {
     Axes origin{};
     Axes offset{};
     double rotation_deg = 0.0;
-    double cosine = 1.0;
-    double sine = 0.0;
+    Turn turn;
   };
   struct Sticky {
     int plane = g::plane_xy;
@@ -134,7 +139,8 @@ class Interpreter {
 
   // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
   void select_system(int system);
-  void read_system(int system, Axes& origin, double& rotation_deg) const;
+  [[nodiscard]] Axes stored(int first) const;
+  void store(int first, const Axes& axes);
   void once();
   void set_system();
   void set_offset();
@@ -158,13 +164,14 @@ class Interpreter {
   void check_start(int motion);
   void check_height(const Axes& machine) const;
   void polar(Axes& program) const;
+  void run(Move move, const Axes& machine);
   void straight(MoveKind kind, const Axes& machine);
   void arc(bool clockwise);
   void probe();
   [[nodiscard]] double length(char letter) const { return block_.value(letter) * mm_per_unit(); }
   [[nodiscard]] double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
   [[nodiscard]] Point on_sheet(const Axes& machine) const;
-  [[nodiscard]] Move basic_move(std::size_t line, MoveKind kind, const Axes& to) const;
+  [[nodiscard]] Move basic_move(MoveKind kind, const Axes& to) const;
 
   // interpreter_cycles.cpp
   void cycle(int motion);

@@ -54,7 +54,7 @@ Axes Interpreter::Cycle::at(double height) const {
 void Interpreter::Cycle::go(MoveKind kind, double height) const {
   interpreter.step(interpreter.block_.start());
   const Axes machine = at(height);
-  Move move = interpreter.basic_move(interpreter.block_.line, kind, machine);
+  Move move = interpreter.basic_move(kind, machine);
   move.names_xy = true;
   move.names_z = true;
   interpreter.sink_.move(move);
@@ -66,7 +66,7 @@ void Interpreter::cycle(int motion) {
   Cycle cycle{*this, motion, plane_axes(modes_.plane), to_program(machine_)};
   const char depth_letter = kAxisLetters[cycle.axes.normal];
   if (!block_.has_axes()) refuse(bad_cycle, block_, "a canned cycle needs axis words");
-  if (block_.has('a') || block_.has('b') || block_.has('c') || block_.has('@') || block_.has('^')) {
+  if (block_.has('a') || block_.has('b') || block_.has('c') || block_.has_polar()) {
     refuse(bad_cycle, block_, "a canned cycle takes X, Y and Z only");
   }
   if (z_unknown_) {

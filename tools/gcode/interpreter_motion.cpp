@@ -19,8 +19,7 @@ constexpr double kMostTurns = 1000.0;
 
 void name_axes(const Block& block, Move& move) {
   const bool changes_xy = move.to.x_mm != move.from.x_mm || move.to.y_mm != move.from.y_mm;
-  move.names_xy = changes_xy || move.arc || block.has('x') || block.has('y') || block.has('@') ||
-                  block.has('^');
+  move.names_xy = changes_xy || move.arc || block.has('x') || block.has('y') || block.has_polar();
   // An arc in G18 or G19 changes height even if it returns to it.
   const bool upright = move.arc && (move.arc->first.z_mm != 0.0 || move.arc->second.z_mm != 0.0);
   move.names_z = move.to.z_mm != move.from.z_mm || block.has('z') || upright;
@@ -32,10 +31,10 @@ Point Interpreter::on_sheet(const Axes& machine) const {
   return {machine[0] + dialect_.home_mm[0], machine[1] + dialect_.home_mm[1], machine[2]};
 }
 
-Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) const {
+Move Interpreter::basic_move(MoveKind kind, const Axes& to) const {
   Move move;
   move.kind = kind;
-  move.line = line;
+  move.line = block_.line;
   move.from = on_sheet(machine_);
   move.to = on_sheet(to);
   move.feed = {modes_.feed_mode, modes_.feed};
@@ -81,7 +80,7 @@ double Interpreter::axis_value(std::size_t axis) const {
 Axes Interpreter::target() const {
   const bool in_machine = block_.is(g::machine_frame);
   Axes place = in_machine ? machine_ : to_program(machine_);
-  if (block_.has('@') || block_.has('^')) {
+  if (block_.has_polar()) {
     if (in_machine) refuse(bad_word_value, block_, "G53 takes no polar coordinates");
     polar(place);
   }
@@ -95,9 +94,8 @@ Axes Interpreter::target() const {
 
 /// Whether the program has stated the place that it steps from.
 void Interpreter::check_start(int motion) {
-  const bool is_polar = block_.has('@') || block_.has('^');
   for (const std::size_t axis : {0U, 1U}) {
-    if (!block_.has(kAxisLetters[axis]) && !is_polar && !is_arc(motion)) continue;
+    if (!block_.has(kAxisLetters[axis]) && !block_.has_polar() && !is_arc(motion)) continue;
     if (modes_.incremental && !placed_[axis]) {
       note_once({block_.line,
                  "start_relative",
@@ -168,13 +166,16 @@ void Interpreter::polar(Axes& program) const {
   program[1] = radius * std::sin(angle_deg * kRadiansPerDegree);
 }
 
-void Interpreter::straight(MoveKind kind, const Axes& machine) {
+void Interpreter::run(Move move, const Axes& machine) {
   check_height(machine);
   if (block_.has('z')) z_unknown_ = z_is_machine_ = false;
-  Move move = basic_move(block_.line, kind, machine);
   name_axes(block_, move);
   sink_.move(move);
   machine_ = machine;
+}
+
+void Interpreter::straight(MoveKind kind, const Axes& machine) {
+  run(basic_move(kind, machine), machine);
 }
 
 void Interpreter::probe() {
@@ -238,8 +239,8 @@ void Interpreter::arc(bool clockwise) {
   }
 
   const auto direction = [&](std::size_t axis) {
-    if (axis == 0) return Point{frame_.cosine, frame_.sine, 0.0};
-    if (axis == 1) return Point{-frame_.sine, frame_.cosine, 0.0};
+    if (axis == 0) return Point{frame_.turn.cosine, frame_.turn.sine, 0.0};
+    if (axis == 1) return Point{-frame_.turn.sine, frame_.turn.cosine, 0.0};
     return Point{0.0, 0.0, 1.0};
   };
   Axes centre = start;
@@ -261,13 +262,9 @@ void Interpreter::arc(bool clockwise) {
     ++arcs_;
     if (sweep > kHalfTurnRad && long_arcs_++ == 0) first_long_arc_ = block_.line;
   }
-  Move move = basic_move(block_.line, MoveKind::arc, machine);
+  Move move = basic_move(MoveKind::arc, machine);
   move.arc = arc;
-  check_height(machine);
-  if (block_.has('z')) z_unknown_ = z_is_machine_ = false;
-  name_axes(block_, move);
-  sink_.move(move);
-  machine_ = machine;
+  run(move, machine);
 }
 
 }  // namespace chaintrue::gcode

@@ -18,16 +18,13 @@ namespace {
 int first_parameter(int system) { return parameter::kFirstSystem + 20 * (system - 1); }
 int rotation_parameter(int system) { return first_parameter(system) + 9; }
 
-struct Turn {
-  double cosine;
-  double sine;
-};
-
 Turn turn(double degrees) {
-  if (degrees == 0.0) return {1.0, 0.0};
+  if (degrees == 0.0) return {};
   const double angle = degrees * std::numbers::pi / 180.0;
   return {std::cos(angle), std::sin(angle)};
 }
+
+Turn back(Turn by) { return {by.cosine, -by.sine}; }
 
 void rotate(Axes& axes, Turn by) {
   const double x = axes[0];
@@ -41,7 +38,7 @@ void rotate(Axes& axes, Turn by) {
 Axes Interpreter::to_machine(const Axes& program) const {
   Axes result;
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = program[i] + frame_.offset[i];
-  rotate(result, {frame_.cosine, frame_.sine});
+  rotate(result, frame_.turn);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] += frame_.origin[i];
   return result;
 }
@@ -49,23 +46,27 @@ Axes Interpreter::to_machine(const Axes& program) const {
 Axes Interpreter::to_program(const Axes& machine) const {
   Axes result;
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = machine[i] - frame_.origin[i];
-  rotate(result, {frame_.cosine, -frame_.sine});
+  rotate(result, back(frame_.turn));
   for (std::size_t i = 0; i < result.size(); ++i) result[i] -= frame_.offset[i];
   return result;
 }
 
-void Interpreter::read_system(int system, Axes& origin, double& rotation_deg) const {
-  for (std::size_t i = 0; i < origin.size(); ++i) {
-    origin[i] = parameters_.stored(first_parameter(system) + static_cast<int>(i));
-  }
-  rotation_deg = parameters_.stored(rotation_parameter(system));
+Axes Interpreter::stored(int first) const {
+  Axes axes;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    axes[i] = parameters_.stored(first + static_cast<int>(i));
+  return axes;
+}
+
+void Interpreter::store(int first, const Axes& axes) {
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    parameters_.set(first + static_cast<int>(i), axes[i]);
 }
 
 void Interpreter::refresh_frame() {
-  read_system(modes_.system, frame_.origin, frame_.rotation_deg);
-  const Turn by = turn(frame_.rotation_deg);
-  frame_.cosine = by.cosine;
-  frame_.sine = by.sine;
+  frame_.origin = stored(first_parameter(modes_.system));
+  frame_.rotation_deg = parameters_.stored(rotation_parameter(modes_.system));
+  frame_.turn = turn(frame_.rotation_deg);
 }
 
 void Interpreter::select_system(int system) {
@@ -130,19 +131,17 @@ void Interpreter::set_system() {
       refuse(bad_word_value, block_.place('r'), "R (a rotation) belongs to G10 L2, not to L20");
     }
   }
-  if (block_.has('@') || block_.has('^')) {
+  if (block_.has_polar()) {
     refuse(bad_word_value, block_, "G10 takes no polar coordinates");
   }
   if (block_.has('r')) parameters_.set(rotation_parameter(system), block_.value('r'));
 
-  Axes origin;
-  double rotation_deg = 0.0;
-  read_system(system, origin, rotation_deg);
+  Axes origin = stored(first_parameter(system));
+  const Turn by = turn(parameters_.stored(rotation_parameter(system)));
   // The machine's position in that system.
   Axes here{};
   for (std::size_t i = 0; i < here.size(); ++i) here[i] = machine_[i] - origin[i];
-  const Turn by = turn(rotation_deg);
-  rotate(here, {by.cosine, -by.sine});
+  rotate(here, back(by));
   // The change of the origin, in the system's directions, with which the machine's position has the
   // given coordinates.
   Axes shift{};
@@ -157,9 +156,8 @@ void Interpreter::set_system() {
     }
   }
   rotate(shift, by);
-  for (std::size_t i = 0; i < origin.size(); ++i) {
-    parameters_.set(first_parameter(system) + static_cast<int>(i), origin[i] + shift[i]);
-  }
+  for (std::size_t i = 0; i < origin.size(); ++i) origin[i] += shift[i];
+  store(first_parameter(system), origin);
   if (system == modes_.system) refresh_frame();
 }
 
@@ -169,7 +167,7 @@ void Interpreter::set_offset() {
   if (!block_.has_axes()) {
     refuse(missing_word, block_, "G52 and G92 need an axis word");
   }
-  if (block_.has('@') || block_.has('^')) {
+  if (block_.has_polar()) {
     refuse(bad_word_value, block_, "G52 and G92 take no polar coordinates");
   }
   const bool from_here = block_.is(g::offset_here);
@@ -182,9 +180,7 @@ void Interpreter::set_offset() {
     if (from_here && i < 2) placed_[i] = true;
   }
   parameters_.set(parameter::kOffsetOn, 1.0);
-  for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
-    parameters_.set(parameter::kOffset + static_cast<int>(i), frame_.offset[i]);
-  }
+  store(parameter::kOffset, frame_.offset);
 }
 
 void Interpreter::cancel_offset(bool forget) {
@@ -196,14 +192,11 @@ void Interpreter::cancel_offset(bool forget) {
 
 void Interpreter::restore_offset() {
   parameters_.set(parameter::kOffsetOn, 1.0);
-  for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
-    frame_.offset[i] = parameters_.stored(parameter::kOffset + static_cast<int>(i));
-  }
+  frame_.offset = stored(parameter::kOffset);
 }
 
 void Interpreter::store_home(int first) {
-  for (std::size_t i = 0; i < machine_.size(); ++i)
-    parameters_.set(first + static_cast<int>(i), machine_[i]);
+  store(first, machine_);
   home_known_[first == parameter::kHome ? 0 : 1] = true;
 }
 
@@ -230,9 +223,7 @@ void Interpreter::go_home(int first) {
   }
   placed_[0] = placed_[1] = true;
   straight(MoveKind::rapid, through);
-  Axes home{};
-  for (std::size_t i = 0; i < home.size(); ++i)
-    home[i] = parameters_.stored(first + static_cast<int>(i));
+  const Axes home = stored(first);
   if (!block_.has_axes()) return straight(MoveKind::rapid, home);
   // The words refer to axes of the program, which differ from the machine's in a rotated frame.
   const Axes home_program = to_program(home);
