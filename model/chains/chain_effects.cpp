@@ -15,9 +15,15 @@ extern const Effect angular_kink;
 
 namespace {
 
+/// An offset of one of the equilibrium's numbers.
+template <double EquilibriumParameters::*kNumber>
+void adds_to(EquilibriumParameters& p, Values v) {
+  p.*kNumber += v[0];
+}
 /// Precondition: Part::brackets.
-Brackets& brackets_of(EquilibriumParameters& parameters) {
-  return std::get<Brackets>(parameters.attachment);
+template <double Brackets::*kNumber>
+void adds_to_brackets(EquilibriumParameters& p, Values v) {
+  std::get<Brackets>(p.attachment).*kNumber += v[0];
 }
 
 // paper
@@ -110,7 +116,7 @@ constexpr Effect sled_width{
     .typical = "2 to 15 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure between the points where the chains hold the brackets and enter it (sledwidth)",
-    .alter = [](EquilibriumParameters& p, Values v) { brackets_of(p).spacing_mm += v[0]; },
+    .alter = adds_to_brackets<&Brackets::spacing_mm>,
     .part = Part::brackets,
 };
 
@@ -130,7 +136,7 @@ constexpr Effect sled_height{
     .typical = "2 to 10 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure from the bit up to the line between the brackets and enter it (sledheight)",
-    .alter = [](EquilibriumParameters& p, Values v) { brackets_of(p).height_mm += v[0]; },
+    .alter = adds_to_brackets<&Brackets::height_mm>,
     .part = Part::brackets,
 };
 
@@ -151,7 +157,7 @@ constexpr Effect sled_cg{
     .typical = "5 to 30 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "balance the sled on an edge, measure from there to the bit and enter it (sledcg)",
-    .alter = [](EquilibriumParameters& p, Values v) { brackets_of(p).cg_below_bit_mm += v[0]; },
+    .alter = adds_to_brackets<&Brackets::cg_below_bit_mm>,
     .part = Part::brackets,
 };
 
@@ -171,7 +177,7 @@ constexpr Effect sprocket_radius{
     .typical = "0.17 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "enter the radius in the machine file",
-    .alter = [](EquilibriumParameters& p, Values v) { p.sprocket_radius_mm += v[0]; },
+    .alter = adds_to<&EquilibriumParameters::sprocket_radius_mm>,
 };
 
 constexpr Effect chain_sag{
@@ -210,7 +216,7 @@ constexpr Effect chain_stretch{
     .typical = "4e-6 to 8e-6 per N: 1 mm on 3 m at 60 N",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "put the compliance into the machine file",
-    .alter = [](EquilibriumParameters& p, Values v) { p.chain_compliance_per_n += v[0]; },
+    .alter = adds_to<&EquilibriumParameters::chain_compliance_per_n>,
 };
 
 constexpr Effect beam_flex{
@@ -232,7 +238,7 @@ constexpr Effect beam_flex{
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "brace the beam, or put its flexibility into the machine file",
     // Solved together with the equilibrium.
-    .alter = [](EquilibriumParameters& p, Values v) { p.beam_flexibility_mm_per_n += v[0]; },
+    .alter = adds_to<&EquilibriumParameters::beam_flexibility_mm_per_n>,
 };
 
 constexpr Effect side_pull{
@@ -249,7 +255,7 @@ constexpr Effect side_pull{
     .typical = "1 to 5 N, the weight of 100 to 500 g",
     .remedy_kind = RemedyKind::repair,
     .remedy = "hang the hose and the cord from a boom so that they pull straight up or not at all",
-    .alter = [](EquilibriumParameters& p, Values v) { p.side_force_n += v[0]; },
+    .alter = adds_to<&EquilibriumParameters::side_force_n>,
 };
 
 // chain

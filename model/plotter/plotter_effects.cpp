@@ -11,6 +11,12 @@ namespace {
 
 using namespace effects;  // NOLINT(google-build-using-namespace): the words of the table
 
+/// An offset of one of the machine's numbers.
+template <double Statics::*kNumber>
+void adds_to(Statics& m, EffectSide, const PerSide<double>&, Values v) {
+  m.*kNumber += v[0];
+}
+
 // machine
 
 constexpr Effect pen_off_centre{
@@ -29,8 +35,7 @@ constexpr Effect pen_off_centre{
     .typical = "1 to 10 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "put the pen into the middle between the cords, or enter its offset",
-    .alter_cords =
-        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.pen_right_mm += v[0]; },
+    .alter_cords = adds_to<&Statics::pen_right_mm>,
     .part = Part::body,
 };
 
@@ -50,8 +55,7 @@ constexpr Effect servo_arm{
     .typical = "1 to 10 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "balance the gondola until it hangs level in the middle, with the pen down",
-    .alter_cords =
-        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.mass_right_mm += v[0]; },
+    .alter_cords = adds_to<&Statics::mass_right_mm>,
     .part = Part::body,
 };
 
@@ -69,8 +73,7 @@ constexpr Effect gondola_width{
     .typical = "1 to 3 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure between the axles of the pulleys and enter it",
-    .alter_cords =
-        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.spacing_mm += v[0]; },
+    .alter_cords = adds_to<&Statics::spacing_mm>,
     .part = Part::body,
 };
 
@@ -90,8 +93,7 @@ constexpr Effect standoff{
     .typical = "5 to 20 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure how far pins and pulleys stand off the wall and enter the difference",
-    .alter_cords =
-        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.standoff_mm += v[0]; },
+    .alter_cords = adds_to<&Statics::standoff_mm>,
 };
 
 constexpr Effect gondola_mass{
