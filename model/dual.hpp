@@ -85,9 +85,6 @@ struct Dual {
     }
     return result;
   }
-  friend Dual asin(const Dual& a) {
-    return a.chained(std::asin(a.value), 1.0 / std::sqrt((1.0 - a.value) * (1.0 + a.value)));
-  }
   friend Dual atan2(const Dual& y, const Dual& x) {
     const double square = x.value * x.value + y.value * y.value;
     Dual result(std::atan2(y.value, x.value));

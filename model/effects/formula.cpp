@@ -162,37 +162,30 @@ class FormulaParser {
     FormulaParser& parser_;
   };
 
-  void sum() {
-    const Level level(*this, at_);
-    term();
+  struct Operation {
+    char sign;
+    Kind kind;
+  };
+  /// Operands joined from the left by either of two operations.
+  template <class OneOperand>
+  void joined_by(const Operation& first, const Operation& second, const OneOperand& operand) {
+    operand();
     while (true) {
       const std::size_t offset = at_;
-      if (take('+')) {
-        term();
-        combine(Kind::add, offset);
-      } else if (take('-')) {
-        term();
-        combine(Kind::subtract, offset);
-      } else {
-        return;
-      }
+      const bool is_first = take(first.sign);
+      if (!is_first && !take(second.sign)) return;
+      operand();
+      combine(is_first ? first.kind : second.kind, offset);
     }
   }
 
+  void sum() {
+    const Level level(*this, at_);
+    joined_by({'+', Kind::add}, {'-', Kind::subtract}, [this] { term(); });
+  }
+
   void term() {
-    factor();
-    while (true) {
-      const std::size_t offset = at_;
-      if (take('*')) {
-        factor();
-        combine(Kind::multiply, offset);
-      } else if (take('/')) {
-        factor();
-        combine(Kind::divide, offset);
-      } else {
-        return;
-      }
-    }
+    joined_by({'*', Kind::multiply}, {'/', Kind::divide}, [this] { factor(); });
   }
 
   void factor() {
@@ -352,16 +345,15 @@ class FormulaParser {
   }
 
   static Operand combined(Kind kind, const Operand& a, const Operand& b, std::size_t offset) {
-    Operand result;
-    result.bare = a.bare && b.bare;
+    Operand result{{}, a.bare && b.bare, {}};
+    if (a.constant && b.constant && kind <= Kind::power)
+      result.constant = Formula::binary<1>(kind, *a.constant, *b.constant).value;
     if (kind == Kind::multiply) {
       result.unit = {a.unit.mm + b.unit.mm, a.unit.n + b.unit.n};
-      if (a.constant && b.constant) result.constant = *a.constant * *b.constant;
     } else if (kind == Kind::divide) {
       result.unit = {a.unit.mm - b.unit.mm, a.unit.n - b.unit.n};
-      if (a.constant && b.constant) result.constant = *a.constant / *b.constant;
     } else if (kind == Kind::power) {
-      result = raised(a, b, offset);
+      result.unit = raised(a, b, offset);
     } else {
       if (!a.bare && !b.bare && !(a.unit == b.unit)) {
         stop(offset,
@@ -369,27 +361,20 @@ class FormulaParser {
              "two values with the same unit");
       }
       result.unit = a.bare ? b.unit : a.unit;
-      if (a.constant && b.constant && kind == Kind::add)
-        result.constant = *a.constant + *b.constant;
-      if (a.constant && b.constant && kind == Kind::subtract)
-        result.constant = *a.constant - *b.constant;
     }
     return result;
   }
 
-  static Operand raised(const Operand& a, const Operand& b, std::size_t offset) {
+  static FormulaUnit raised(const Operand& a, const Operand& b, std::size_t offset) {
     if (!(b.unit == FormulaUnit{}))
       stop(offset, fmt::format("a power of {}", words_of(b)), "a number behind ^");
-    Operand result{{}, a.bare && b.bare, {}};
-    if (a.constant && b.constant) result.constant = std::pow(*a.constant, *b.constant);
-    if (a.unit == FormulaUnit{}) return result;
+    if (a.unit == FormulaUnit{}) return {};
     if (!b.constant) {
       stop(offset,
            fmt::format("{} to a power that varies", words_of(a)),
            "a plain number behind ^, so that the unit is known");
     }
-    result.unit = {a.unit.mm * *b.constant, a.unit.n * *b.constant};
-    return result;
+    return {a.unit.mm * *b.constant, a.unit.n * *b.constant};
   }
 
   void push(const Operand& operand, const Step& step) {
