@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/plotter/plotter_commands.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -25,38 +26,25 @@ tl::expected<BedPoint, PlotterFailure> circles_meet(const PlotterMachine& as_set
 
 /// A mural's tilt bends the relation: Newton from where straight cords would meet.
 tl::expected<BedPoint, PlotterFailure> newton_below(const PlotterMachine& as_set,
-                                                    ChainLengths lengths,
+                                                    ChainLengths own,
                                                     BedPoint start) {
   constexpr int kMostSteps = 60;
   constexpr double kConvergedMm = 1e-9;
-  // Lengths are exact to about 1e-12 mm, so a difference over 2e-3 mm gives a derivative to 1e-9.
-  constexpr double kDifferenceMm = 1e-3;
   constexpr double kLongestStepMm = 100.0;
-  const auto at = [&](double x, double y) {
-    return paid_out(PlotterFirmware::mural, as_set, {x, y});
-  };
   BedPoint point = start;
   for (int step = 0; step < kMostSteps; ++step) {
-    const auto here = at(point.x_mm, point.y_mm);
-    const auto right = at(point.x_mm + kDifferenceMm, point.y_mm);
-    const auto left = at(point.x_mm - kDifferenceMm, point.y_mm);
-    const auto over = at(point.x_mm, point.y_mm + kDifferenceMm);
-    const auto under = at(point.x_mm, point.y_mm - kDifferenceMm);
-    if (!here || !right || !left || !over || !under)
-      return tl::unexpected(here ? PlotterFailure(PlotterReason::not_converged) : here.error());
-    const double a = (right->left_mm - left->left_mm) / (2.0 * kDifferenceMm);
-    const double b = (over->left_mm - under->left_mm) / (2.0 * kDifferenceMm);
-    const double c = (right->right_mm - left->right_mm) / (2.0 * kDifferenceMm);
-    const double d = (over->right_mm - under->right_mm) / (2.0 * kDifferenceMm);
-    const double off_left = lengths.left_mm - here->left_mm;
-    const double off_right = lengths.right_mm - here->right_mm;
-    const double determinant = a * d - b * c;
-    if (!(std::abs(determinant) > 0.0)) break;
-    double dx = (d * off_left - b * off_right) / determinant;
-    double dy = (a * off_right - c * off_left) / determinant;
-    const double longer = std::max(1.0, std::hypot(dx, dy) / kLongestStepMm);
-    point = {point.x_mm + dx / longer, point.y_mm + dy / longer};
-    if (std::hypot(dx, dy) < kConvergedMm) return point;
+    const auto inside = paid_out(PlotterFirmware::mural, as_set, point);
+    if (!inside) return tl::unexpected(inside.error());
+    const auto here = mural_lengths(as_set, point);
+    Eigen::Matrix2d slope;
+    slope << here->left.d[0], here->left.d[1], here->right.d[0], here->right.d[1];
+    const Eigen::Vector2d move =
+        slope.inverse() *
+        Eigen::Vector2d(own.left_mm - here->left.value, own.right_mm - here->right.value);
+    if (!move.allFinite()) break;
+    const double longer = std::max(1.0, move.norm() / kLongestStepMm);
+    point = {point.x_mm + move.x() / longer, point.y_mm + move.y() / longer};
+    if (move.norm() < kConvergedMm) return point;
   }
   return tl::unexpected(PlotterReason::not_converged);
 }
@@ -83,10 +71,8 @@ PoseFailure pose_failure(const PlotterFailure& failure) {
 }
 
 tl::expected<ChainLengths, PoseFailure> PlotterController::lengths(BedPoint command) const {
-  const auto found =
-      paid_out(firmware_,
-               as_set_,
-               {command.x_mm - pins_middle_.x_mm, command.y_mm - pins_middle_.y_mm});
+  const auto found = paid_out(
+      firmware_, as_set_, {command.x_mm - pins_middle_.x_mm, command.y_mm - pins_middle_.y_mm});
   if (!found) return tl::unexpected(pose_failure(found.error()));
   return *found;
 }
@@ -94,8 +80,7 @@ tl::expected<ChainLengths, PoseFailure> PlotterController::lengths(BedPoint comm
 tl::expected<BedPoint, PoseFailure> PlotterController::command(ChainLengths lengths) const {
   ChainLengths own = lengths;
   for (const Side side : kSides) {
-    own[side] =
-        (own[side] - as_set_.zero_mm[side]) / (1.0 + 1e-3 * as_set_.scale_mm_per_m[side]);
+    own[side] = (own[side] - as_set_.zero_mm[side]) / (1.0 + 1e-3 * as_set_.scale_mm_per_m[side]);
   }
   const bool is_mural = firmware_ == PlotterFirmware::mural;
   PlotterMachine about = as_set_;
@@ -106,7 +91,7 @@ tl::expected<BedPoint, PoseFailure> PlotterController::command(ChainLengths leng
   auto point = circles_meet(about, rise, own);
   if (point && is_mural) {
     point->y_mm -= as_set_.gondola.pen_below_mm;
-    point = newton_below(as_set_, lengths, *point);
+    point = newton_below(as_set_, own, *point);
   }
   if (!point) return tl::unexpected(pose_failure(point.error()));
   return BedPoint{point->x_mm + pins_middle_.x_mm, point->y_mm + pins_middle_.y_mm};

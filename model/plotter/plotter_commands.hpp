@@ -23,8 +23,7 @@ class PlotterController final : public ControllerKinematics {
   PlotterController(PlotterFirmware firmware, const PlotterMachine& as_set, BedPoint pins_middle)
       : firmware_(firmware), as_set_(as_set), pins_middle_(pins_middle) {}
   [[nodiscard]] tl::expected<ChainLengths, PoseFailure> lengths(BedPoint command) const override;
-  /// Exact to rounding where cords are straight to the pen; of a mural by Newton to 1e-9 mm, with
-  /// derivatives by differences.
+  /// Exact to rounding where cords are straight to the pen; of a mural by Newton to 1e-9 mm.
   [[nodiscard]] tl::expected<BedPoint, PoseFailure> command(ChainLengths lengths) const override;
 
  private:

@@ -37,4 +37,10 @@ inline constexpr PlotterFirmware kPlotterFirmwares[] = {PlotterFirmware::fluidnc
                                                                   const PlotterMachine& as_set,
                                                                   BedPoint command);
 
+/// A number with its derivatives by x and y of the command.
+using ByCommand = Dual<2>;
+/// What a mural pays out before zero and scale. \throws std::invalid_argument for a point.
+[[nodiscard]] tl::expected<PerSide<ByCommand>, PlotterFailure> mural_lengths(
+    const PlotterMachine& as_set, BedPoint command);
+
 }  // namespace chaintrue::model
