@@ -7,7 +7,7 @@
 ///   r_ij = |s_i - A_j| - m_ij                                                              (1)
 ///   minimise the sum of r^2 over the places s_i and tl, tr and the x of br
 ///
-/// by Levenberg and Marquardt, the places by a Schur complement.
+/// by Eigen's Levenberg and Marquardt, each place by its own four readings.
 ///
 /// Source of the description: MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow/Calibration.cpp.
 #pragma once
