@@ -16,7 +16,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using synthetic::SyntheticSpec;
 using testing::HasSubstr;
 using testing_support::session_of;
 using testing_support::verdict_alone;

@@ -23,7 +23,6 @@ namespace chaintrue::grid::diagnosis::law_places {
 namespace {
 
 using model::Belt;
-using model::kBelts;
 
 MeasuredBelts frame() {
   return files::read_belts(CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;

@@ -19,7 +19,6 @@ using model::BedPoint;
 using model::Machine;
 using model::MarkPoint;
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 SyntheticSession session_of(const SyntheticSpec& spec, const Machine& machine = {}) {

@@ -16,7 +16,6 @@ namespace {
 
 using generator::Cause;
 using generator::Hidden;
-using generator::Lengths;
 using generator::NoiseLevel;
 using generator::TrueMachine;
 using generator::Where;

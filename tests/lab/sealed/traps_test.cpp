@@ -23,7 +23,6 @@ using generator::Order;
 using generator::Where;
 using grid::diagnosis::Diagnosis;
 using grid::diagnosis::Verdict;
-using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;
 

@@ -20,7 +20,6 @@ using generator::Dice;
 using generator::Hidden;
 using generator::Lengths;
 using generator::Nature;
-using generator::Vec2;
 using generator::Visit;
 using generator::Where;
 

@@ -30,7 +30,6 @@
 namespace chaintrue::sealed {
 namespace {
 
-using generator::HiddenMachine;
 using generator::Lengths;
 using generator::TrueMachine;
 using generator::Vec2;

@@ -23,7 +23,6 @@ using generator::Cause;
 using generator::CauseCard;
 using generator::Dice;
 using generator::Hidden;
-using generator::Where;
 
 constexpr std::string_view kTapeZero = "tape_zero_";
 constexpr std::string_view kKnownTapeZero = "tape_zero_known";

@@ -18,7 +18,6 @@ namespace chaintrue::sealed {
 namespace {
 
 using generator::Mix;
-using grid::diagnosis::Verdict;
 
 /// Two columns, one row for each figure.
 class Rows {
