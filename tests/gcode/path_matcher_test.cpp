@@ -57,7 +57,7 @@ bool follows(const Polyline& path, const Polyline& track, double distance) {
                         piece = {path[next++], false, 100.0, next};
                         return true;
                       });
-  if (matcher.begin(path.front(), track.front(), 0) != PathMatcher::Outcome::follows) return false;
+  if (matcher.begin({0.0, path.front(), track.front()}) != PathMatcher::Outcome::follows) return false;
   for (std::size_t i = 1; i < track.size(); ++i) {
     if (matcher.advance({track[i], false, 100.0, i}) != PathMatcher::Outcome::follows) return false;
   }

@@ -82,28 +82,31 @@ bool PathMatcher::read() {
   next.pinned = pin(path_run_, next.from, next.piece);
   next.corner.distance_mm = kMostDistanceMm;
   path_end_ = next.piece.to;
+  path_end_line_ = next.piece.line;
   open_.push_back(next);
   return true;
 }
 
-PathMatcher::Outcome PathMatcher::begin(Point intended, Point tool, std::size_t line) {
+PathMatcher::Outcome PathMatcher::begin(const Deviation& start) {
   exhausted_ = false;
   path_run_ = {};
   tool_run_ = {};
-  path_end_ = intended;
-  tool_ = tool;
-  tool_line_ = line;
+  path_end_ = start.intended;
+  path_end_line_ = start.original_line;
+  tool_ = start.tool;
+  tool_line_ = start.run_line;
   open_.clear();
   first_ = reached_ = 0;
-  Open start;
-  start.from = intended;
-  start.piece.to = intended;
-  start.corner.distance_mm = kMostDistanceMm;
-  start.left = {0.0, 1.0};
-  open_.push_back(start);
-  const double apart = distance_mm(intended, tool);
+  Open place;
+  place.from = start.intended;
+  place.piece.to = start.intended;
+  place.piece.line = start.original_line;
+  place.corner.distance_mm = kMostDistanceMm;
+  place.left = {0.0, 1.0};
+  open_.push_back(place);
+  const double apart = distance_mm(start.intended, start.tool);
   const Outcome outcome = apart <= distance_mm_ ? Outcome::follows : Outcome::strays;
-  note(false, {apart, intended, tool, 0, line});
+  note(false, {apart, start.intended, start.tool, start.original_line, start.run_line});
   distance_mm_ = std::max(distance_mm_, apart);
   close_up();
   return outcome;
@@ -274,22 +277,20 @@ PathMatcher::Outcome PathMatcher::finish() {
 /// The rest of the path was not run: all of it is compared with the tool's last position.
 void PathMatcher::finish_anyhow() {
   std::size_t i = first_;
-  std::size_t line = 0;
   do {
     for (; i < open_.size(); ++i) {
       note_corner(open_[i], tool_, tool_line_);
       note(open_[i].piece.rapid, open_[i].corner);
     }
-    if (!open_.empty()) line = open_.back().piece.line;
     open_.clear();
     i = 0;
   } while (read());
   // The ends correspond to each other.
-  note(false, {distance_mm(path_end_, tool_), path_end_, tool_, line, tool_line_});
+  note(false, {distance_mm(path_end_, tool_), path_end_, tool_, path_end_line_, tool_line_});
 }
 
 Deviation PathMatcher::front() const {
-  if (open_.empty()) return {0.0, path_end_, tool_, 0, tool_line_};
+  if (open_.empty()) return {0.0, path_end_, tool_, path_end_line_, tool_line_};
   const Open& open = open_[std::min(reached_, open_.size() - 1)];
   const double t = open.left.empty() ? 1.0 : open.left.high;
   const Point place = between(open.from, open.piece.to, t);

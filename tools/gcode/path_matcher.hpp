@@ -68,8 +68,9 @@ class PathMatcher {
   };
   PathMatcher(const Limits& limits, Path path);
 
-  /// Starts a section with both curves at these points. \return strays if they are too far apart.
-  Outcome begin(Point intended, Point tool, std::size_t line);
+  /// Starts a section with both curves at these points, of these lines. \return strays if they are
+  /// too far apart.
+  Outcome begin(const Deviation& start);
   /// The tool moves on. After any result but `follows` the tool is still at its previous position.
   Outcome advance(const PathPiece& piece);
   /// The same with the smallest sufficient distance, to within a tenth; used after a fault.
@@ -138,6 +139,7 @@ class PathMatcher {
   std::size_t first_ = 0;    // of the reachable ones
   std::size_t reached_ = 0;  // the last with a left span
   Point path_end_;
+  std::size_t path_end_line_ = 0;
   Point tool_;
   std::size_t tool_line_ = 0;
   Run path_run_;

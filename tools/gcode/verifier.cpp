@@ -83,7 +83,7 @@ class Verification {
                  [this](PathPiece& piece) { return next_piece(piece); }) {}
 
   VerifySummary result() {
-    static_cast<void>(matcher_.begin({}, {}, 0));
+    static_cast<void>(matcher_.begin({}));
     while (!stopped_) {
       const ProgramEvent& event = run_.peek();
       if (event.kind == ProgramEvent::Kind::move) {
@@ -188,12 +188,14 @@ class Verification {
     const bool at_end = starts_at_end(command);
     const bool intended_at_end = starts_at_end(event.move);
     const Point intended = intended_at_end ? event.move.to : event.move.from;
+    const std::size_t intended_line = event.move.line;
     if (intended_at_end) intended_.pop();
     homed_ = false;
     last_command_ = at_end ? command.to : command.from;
     last_tool_ = machine_.place(last_command_, command.line);
     ++summary_.places;
-    if (matcher_.begin(intended, last_tool_, command.line) != PathMatcher::Outcome::follows) {
+    if (matcher_.begin({0.0, intended, last_tool_, intended_line, command.line}) !=
+        PathMatcher::Outcome::follows) {
       stray(place_fault());
     }
     if (!at_end) execute(command);
@@ -307,16 +309,17 @@ class Verification {
       return;
     }
     moves_itself_ = moves_itself_ || found.word.moves_itself;
+    const std::size_t line = event.line;
     intended_.pop();
     if (found.word.leaves_xy) {
       // Both start anew, from where the machine's own frame has brought them.
       homed_ = true;
       started_ = heights_done_ = false;
-      static_cast<void>(matcher_.begin({}, {}, found.line));
+      static_cast<void>(matcher_.begin({0.0, {}, {}, line, found.line}));
       return;
     }
-    static_cast<void>(matcher_.begin(
-        matcher_.path_end(), started_ ? last_tool_ : matcher_.front().tool, found.line));
+    const Point tool = started_ ? last_tool_ : matcher_.front().tool;
+    static_cast<void>(matcher_.begin({0.0, matcher_.path_end(), tool, line, found.line}));
   }
 
   [[nodiscard]] std::string place_fault() const {
