@@ -11,15 +11,13 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::BeltPlacePicture;
-using grid::diagnosis::BeltsFindings;
+using diagnosis::BeltPlacePicture;
+using diagnosis::BeltsFindings;
 using model::Belt;
 using model::kBelts;
-using report::Detail;
-using report::Tone;
 
 /// A fit as a diagnosis without causes: the same picture.
-BeltsFindings findings_of(const grid::BeltsFit& fit) {
+BeltsFindings findings_of(const BeltsFit& fit) {
   BeltsFindings found;
   found.machine = fit.machine;
   for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
@@ -39,16 +37,16 @@ BeltsFindings findings_of(const grid::BeltsFit& fit) {
 
 /// The headline, and below it figures, lights and advice.
 void put_the_verdict(const FittedBelts& fitted,
-                     const std::optional<grid::BeltsError>& error,
-                     report::Document& page) {
-  const grid::BeltsFit& fit = fitted.fit;
+                     const std::optional<BeltsError>& error,
+                     Document& page) {
+  const BeltsFit& fit = fitted.fit;
   page.verdict = {headline_of(fit, error)};
   if (error) page.figures = figures_of(*error);
   if (!fit.places.empty()) {
     page.figures.push_back({fmt::format("{:.2f} mm", fit.residual_sigma_mm), "one belt is off by"});
     page.advice.push_back(
-        {"Find the cause of the remaining error: run chaintrue diagnose on the same "
-         "belts.", Detail::page});
+        {"Find the cause of the remaining error: run chaintrue diagnose on the same belts.",
+         Detail::page});
   }
   page.tone = fit.bad.empty() && fit.bad_points.empty() ? Tone::good : Tone::caution;
   page.lights = {{fit.scale ? Tone::good : Tone::caution,
@@ -62,22 +60,20 @@ void put_the_verdict(const FittedBelts& fitted,
 
 }  // namespace
 
-report::Document anchors_document(const FittedBelts& fitted,
-                                  std::string_view name,
-                                  std::string_view source) {
-  const grid::BeltsFit& fit = fitted.fit;
-  report::Document document;
+Document anchors_document(const FittedBelts& fitted,
+                          std::string_view name,
+                          std::string_view source) {
+  const BeltsFit& fit = fitted.fit;
+  Document document;
   document.title = fmt::format("Anchors: {}", name.empty() ? source : name);
   document.subtitle = fmt::format("{}, {} places", fit.machine.name, fit.places.size());
   const auto error = grid::error_of_belts(fit, fitted.holes);
   put_the_verdict(fitted, error, document);
   document.remarks = agreement_section(fitted, error);
   if (!fit.places.empty()) {
-    report::Chart chart =
-        frame_chart(findings_of(fit), "Anchors as fitted", &BeltPlacePicture::before_mm);
+    Chart chart = frame_chart(findings_of(fit), "Anchors as fitted", &BeltPlacePicture::before_mm);
     chart.caption = kFrameCaption;
-    document.sections.push_back(
-        {"The frame, and the residuals of its belts", {std::move(chart)}});
+    document.sections.push_back({"The frame, and the residuals of its belts", {std::move(chart)}});
   }
   document.sections.push_back(fitted_anchors_section(fit));
   document.sections.push_back(tests_section(fitted));

@@ -7,23 +7,24 @@
 
 #include "grid/belts/belts_and_holes.hpp"
 #include "grid/belts/point_indices.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// The input of the fit; null if not available.
 struct FittedBelts {
-  const grid::BeltsFit& fit;
+  const BeltsFit& fit;
   const grid::HolesWithBelts* holes = nullptr;
   /// The anchors' file has neither the taped distances nor the machine's message.
-  const grid::MeasuredBelts* belts = nullptr;
+  const MeasuredBelts* belts = nullptr;
   grid::PointIndices indices{};  ///< of the points in their file
 };
 
 /// How well the belts agree, the frame, the anchors, what was left out and predicted, the scale and
 /// the tape. `name` is the belts', `source` the file's.
-[[nodiscard]] report::Document anchors_document(const FittedBelts& fitted,
-                                                std::string_view name,
-                                                std::string_view source);
+[[nodiscard]] Document anchors_document(const FittedBelts& fitted,
+                                        std::string_view name,
+                                        std::string_view source);
 
 }  // namespace chaintrue::cli

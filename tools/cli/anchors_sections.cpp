@@ -15,14 +15,8 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::BeltsFit;
 using model::Belt;
 using model::kBelts;
-using report::Detail;
-using report::List;
-using report::Paragraph;
-using report::Section;
-using report::Table;
 
 void say(Section& section, std::string text, Detail detail = Detail::always) {
   section.blocks.emplace_back(Paragraph{std::move(text), detail});
@@ -38,7 +32,7 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
   const model::effects::Effect* effect =
       model::effects::find_effect(model::belts::belt_effects(), cause.effect);
   if (effect == nullptr) return {};
-  grid::diagnosis::CauseId id{effect};
+  diagnosis::CauseId id{effect};
   for (const model::effects::EffectSide side : id.effect->sides) {
     if (model::effects::name(side) == cause.side) id.side = side;
   }
@@ -46,9 +40,9 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
   return fmt::format(
       "{}{} ({}; {})",
       id.effect->cause,
-      grid::diagnosis::side_words(id),
-      grid::diagnosis::in_workshop_units(id, {size, cause.parameters.at(size), cause.sigma}),
-      grid::diagnosis::percent(cause.probability));
+      diagnosis::side_words(id),
+      diagnosis::in_workshop_units(id, {size, cause.parameters.at(size), cause.sigma}),
+      diagnosis::percent(cause.probability));
 }
 
 /// Causes more likely than not, except those that yield with the pull in every frame.
@@ -56,15 +50,15 @@ void say_what_else_acts(const BeltsFit& fit, Section& section) {
   constexpr double kLikely = 0.5;
   std::vector<std::string> causes;
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
-    const bool gives =
-        cause.effect == model::belts::anchor_flex.id || cause.effect == model::belts::belt_stretch.id;
+    const bool gives = cause.effect == model::belts::anchor_flex.id ||
+                       cause.effect == model::belts::belt_stretch.id;
     if (gives || !(cause.probability > kLikely)) continue;
     if (std::string text = sized(cause); !text.empty()) causes.push_back(std::move(text));
   }
   if (causes.empty()) return;
   say(section,
       fmt::format("Included in these anchors: {}. chaintrue diagnose shows what to inspect.",
-                  grid::diagnosis::joined(causes, "and")));
+                  diagnosis::joined(causes, "and")));
 }
 
 void say_what_acts(const BeltsFit& fit, Section& section) {
@@ -79,14 +73,14 @@ void say_what_acts(const BeltsFit& fit, Section& section) {
     }
     if (cause.effect != model::belts::belt_stretch.id) continue;
     say(section,
-        fmt::format("At the motors' pull belts are {} longer than they count; these anchors allow "
-                    "for it.",
-                    share_in_words(cause.parameters.at("elongation"), cause.sigma)));
+        fmt::format(
+            "At the motors' pull belts are {} longer than they count; these anchors allow for it.",
+            share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
   say_what_else_acts(fit, section);
   say(section,
-      "The sigmas of the anchors allow for other causes at their usual size, such as a belt with "
-      "a wrong zero.",
+      "The sigmas of the anchors allow for other causes at their usual size, such as a belt with a "
+      "wrong zero.",
       Detail::verbose);
 }
 
@@ -118,16 +112,16 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
     // To within a twentieth of a turn: a bad reading is that by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     say(section,
-        fmt::format("Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all "
-                    "others{}.",
-                    model::words(bad.belt),
-                    number_of(fitted, bad.point),
-                    std::abs(bad.residual_mm),
-                    bad.residual_mm > 0.0 ? "longer" : "shorter",
-                    is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
-                                           std::abs(std::round(turns)),
-                                           std::abs(turns) < 1.5 ? "" : "s")
-                             : ""));
+        fmt::format(
+            "Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all others{}.",
+            model::words(bad.belt),
+            number_of(fitted, bad.point),
+            std::abs(bad.residual_mm),
+            bad.residual_mm > 0.0 ? "longer" : "shorter",
+            is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
+                                   std::abs(std::round(turns)),
+                                   std::abs(turns) < 1.5 ? "" : "s")
+                     : ""));
   }
   for (const std::size_t point : fit.bad_points) {
     say(section,
@@ -157,8 +151,7 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
     say(section, "Scale: not known, because belts do not show it. " + what_tells_the_scale(fitted));
     say(section,
         fmt::format(
-            "Until then anchors and parts are as true as a turn of the encoder is {:g} mm of "
-            "belt.",
+            "Until then anchors and parts are as true as a turn of the encoder is {:g} mm of belt.",
             fit.machine.belt_turn_mm),
         Detail::verbose);
     return;
@@ -197,15 +190,13 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
     if (!distance.rejected) continue;
     say(section,
         fmt::format("Left out: the distance {}, taped {:.1f} mm {} than predicted by all others; "
-                    "tape "
-                    "it again.",
+                    "tape it again.",
                     distance.words,
                     std::abs(distance.left_out_mm),
                     distance.left_out_mm > 0.0 ? "longer" : "shorter"));
   }
   if (!holes.displacement) {
-    return say(section,
-               "The holes show no further displacement of the tool over the sheet.");
+    return say(section, "The holes show no further displacement of the tool over the sheet.");
   }
   double largest = 0.0;
   const auto& at = holes.displacement->at_mm;
@@ -231,18 +222,18 @@ double least_known_mm(const BeltsFit& fit) {
 
 }  // namespace
 
-std::string not_to_paste(const BeltsFit& fit, const std::optional<grid::BeltsError>& error) {
+std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& error) {
   const double left_mm = error ? error->expected.rms_mm : least_known_mm(fit);
   if (!(left_mm > kMostToCutWithMm)) return {};
   return fmt::format(
-      "Do not paste these anchors: {} {} mm, and {:g} mm are too much. Measure more places, farther "
-      "apart, and look at the readings that were left out.",
+      "Do not paste these anchors: {} {} mm, and {:g} mm are too much. Measure more places, "
+      "farther apart, and look at the readings that were left out.",
       error ? "with them the tool is still off by" : "they are known to",
       about_mm(left_mm),
       kMostToCutWithMm);
 }
 
-std::string headline_of(const BeltsFit& fit, const std::optional<grid::BeltsError>& error) {
+std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& error) {
   if (const std::string why = not_to_paste(fit, error); !why.empty()) return why;
   if (!error)
     return fmt::format("These anchors are accurate to about {} mm.", about_mm(least_known_mm(fit)));
@@ -252,8 +243,8 @@ std::string headline_of(const BeltsFit& fit, const std::optional<grid::BeltsErro
          (fit.scale ? "" : " The error of the scale, which only a tape shows, comes on top.");
 }
 
-std::vector<report::Figure> figures_of(const grid::BeltsError& error) {
-  std::vector<report::Figure> figures;
+std::vector<Figure> figures_of(const BeltsError& error) {
+  std::vector<Figure> figures;
   if (error.today)
     figures.push_back({fmt::format("{} mm", about_mm(error.today->rms_mm)), kToolTodayLabel});
   figures.push_back({fmt::format("{} mm", about_mm(error.expected.rms_mm)),
@@ -261,14 +252,13 @@ std::vector<report::Figure> figures_of(const grid::BeltsError& error) {
   return figures;
 }
 
-Section agreement_section(const FittedBelts& fitted, const std::optional<grid::BeltsError>& error) {
+Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsError>& error) {
   const BeltsFit& fit = fitted.fit;
   const std::size_t readings = 4 * fit.places.size();
   Section section{"How well the belts agree", {}};
   if (error) {
     say(section,
-        worst_sentence(
-            error->worst_at.x_mm, error->worst_at.y_mm, error->expected.maximum_mm));
+        worst_sentence(error->worst_at.x_mm, error->worst_at.y_mm, error->expected.maximum_mm));
   }
   say_what_acts(fit, section);
   if (fit.places.empty()) return section;
@@ -325,7 +315,7 @@ Section fitted_anchors_section(const BeltsFit& fit) {
                  " Rests on: the share of its variance that comes of each belt's readings.",
       .is_headed = true};
   for (const grid::AnchorCoordinate& c : fit.coordinates) {
-    report::Row& row = table.rows.emplace_back();
+    Row& row = table.rows.emplace_back();
     row.cells = {coordinate_title(c.name), c.fitted_mm, c.sigma_mm, c.stated_mm};
     row.cells.emplace_back(c.stated_mm ? std::optional(c.fitted_mm - *c.stated_mm) : std::nullopt);
     for (const Belt belt : kBelts)
@@ -358,7 +348,7 @@ Section places_section(const FittedBelts& fitted) {
       .is_headed = true};
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     const grid::FittedPlace& place = fit.places[k];
-    report::Row& row = table.rows.emplace_back();
+    Row& row = table.rows.emplace_back();
     row.cells = {static_cast<double>(number_of(fitted, k)), place.at.x_mm, place.at.y_mm};
     for (const Belt belt : kBelts) {
       const auto& residual = place.belts[belt];
@@ -382,7 +372,7 @@ Section taped_section(const grid::HolesWithBelts& holes) {
               .is_headed = true,
               .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {
-    report::Row& row = table.rows.emplace_back();
+    Row& row = table.rows.emplace_back();
     row.cells = {distance.words,
                  distance.measured_mm,
                  distance.residual_mm,

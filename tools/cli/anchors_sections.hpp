@@ -13,24 +13,22 @@
 namespace chaintrue::cli {
 
 /// The machine's error, today and with these anchors.
-[[nodiscard]] std::string headline_of(const grid::BeltsFit& fit,
-                                      const std::optional<grid::BeltsError>& error);
+[[nodiscard]] std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& error);
 /// Why these anchors must not be pasted: their error exceeds kMostToCutWithMm or, if it is unknown,
 /// their uncertainty does. Otherwise empty.
-[[nodiscard]] std::string not_to_paste(const grid::BeltsFit& fit,
-                                       const std::optional<grid::BeltsError>& error);
-[[nodiscard]] std::vector<report::Figure> figures_of(const grid::BeltsError& error);
+[[nodiscard]] std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& error);
+[[nodiscard]] std::vector<Figure> figures_of(const BeltsError& error);
 
 /// The least certain anchors, the causes, the error of one belt's reading, and the machine's figure
 /// for it.
-[[nodiscard]] report::Section agreement_section(const FittedBelts& fitted,
-                                                const std::optional<grid::BeltsError>& error);
-[[nodiscard]] report::Section fitted_anchors_section(const grid::BeltsFit& fit);
+[[nodiscard]] Section agreement_section(const FittedBelts& fitted,
+                                        const std::optional<BeltsError>& error);
+[[nodiscard]] Section fitted_anchors_section(const BeltsFit& fit);
 /// What was left out and predicted, what was rejected, the scale, the holes.
-[[nodiscard]] report::Section tests_section(const FittedBelts& fitted);
+[[nodiscard]] Section tests_section(const FittedBelts& fitted);
 /// Each place with the residuals of its belts.
-[[nodiscard]] report::Section places_section(const FittedBelts& fitted);
+[[nodiscard]] Section places_section(const FittedBelts& fitted);
 /// Each distance with its residual.
-[[nodiscard]] report::Section taped_section(const grid::HolesWithBelts& holes);
+[[nodiscard]] Section taped_section(const grid::HolesWithBelts& holes);
 
 }  // namespace chaintrue::cli

@@ -182,7 +182,7 @@ void Verb::refuse_what_does_nothing(Facts facts) const {
       if (rule.option != option || option == refused || (rule.acts_on & facts) != 0) continue;
       const std::string name = "--" + option->get_single_name();
       if (!is_given(name) || (!rule.harmless.empty() && value_of(name) == rule.harmless)) continue;
-      problems.add(name, value_of(name), rule.otherwise, grid::ProblemKind::option_without_use);
+      problems.add(name, value_of(name), rule.otherwise, ProblemKind::option_without_use);
       refused = option;
     }
   }

@@ -30,7 +30,7 @@ class Option;
 
 namespace chaintrue::cli {
 
-/// What a verb does; throws files::InputError for bad input.
+/// What a verb does; throws InputError for bad input.
 using Run = std::function<int()>;
 
 class Option {
@@ -128,7 +128,7 @@ class Verb {
   [[nodiscard]] std::string value_of(const std::string& name) const;
   /// In the verb's order; without positional arguments.
   [[nodiscard]] std::vector<GivenOption> given_options() const;
-  /// \throws files::InputError with a sentence for each option that was given and would do nothing
+  /// \throws InputError with a sentence for each option that was given and would do nothing
   /// with this.
   void refuse_what_does_nothing(Facts facts) const;
   /// As it is typed: "gcode check".

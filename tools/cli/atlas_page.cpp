@@ -17,12 +17,12 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::synthetic::Atlas;
-using grid::synthetic::AtlasFrame;
-using grid::synthetic::AtlasLine;
-using grid::synthetic::AtlasPicture;
 using model::ToolPosition;
 using report::escaped;
+using synthetic::Atlas;
+using synthetic::AtlasFrame;
+using synthetic::AtlasLine;
+using synthetic::AtlasPicture;
 
 // A picture, in its own units.
 constexpr double kPictureWidth = 300.0;
@@ -140,10 +140,10 @@ std::string paths(const View& view,
 
 std::string words_of_size(const AtlasPicture& picture, double size) {
   if (picture.effect != nullptr) {
-    return grid::diagnosis::in_workshop_units({picture.effect, picture.side},
-                                              {std::string(picture.parameter), size});
+    return diagnosis::in_workshop_units({picture.effect, picture.side},
+                                        {std::string(picture.parameter), size});
   }
-  const std::string unit = grid::diagnosis::parameter_words(picture.parameter).unit;
+  const std::string unit = diagnosis::parameter_words(picture.parameter).unit;
   return fmt::format("{} {}{}{} than set",
                      short_number(std::abs(size)),
                      unit,
@@ -155,7 +155,8 @@ std::string caption_of(const AtlasPicture& picture, double times) {
   std::string title;
   std::string id;
   if (picture.effect == nullptr) {
-    title = report::capitalised(grid::diagnosis::parameter_words(picture.parameter).name) + " is set wrong";
+    title =
+        report::capitalised(diagnosis::parameter_words(picture.parameter).name) + " is set wrong";
     id = picture.parameter;
   } else {
     const std::string side(name(picture.side));
@@ -163,12 +164,11 @@ std::string caption_of(const AtlasPicture& picture, double times) {
     if (!side.empty()) title += fmt::format(" ({})", side);
     id = fmt::format("{}{}{}", picture.effect->id, side.empty() ? "" : ":", side);
   }
-  const std::string drawn =
-      picture.largest_shift_mm < kNothingMm
-          ? "No line moves."
-          : fmt::format("Up to {} mm, errors drawn {} times as large.",
-                        short_number(picture.largest_shift_mm),
-                        short_number(times));
+  const std::string drawn = picture.largest_shift_mm < kNothingMm
+                                ? "No line moves."
+                                : fmt::format("Up to {} mm, errors drawn {} times as large.",
+                                              short_number(picture.largest_shift_mm),
+                                              short_number(times));
   return fmt::format("<figcaption><b>{}</b><br>{}<code>{}</code></figcaption>\n",
                      escaped(title),
                      drawn,
@@ -195,11 +195,11 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
                            ? 1.0
                            : report::round_down_125(wanted / picture.largest_shift_mm);
   const AtlasFrame straight = as_commanded(atlas.lines);
-  std::string svg = fmt::format(
-      "<figure>\n<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
-      kPictureWidth,
-      view.height,
-      escaped(words_of_size(picture, picture.frames[picture.usual].size)));
+  std::string svg =
+      fmt::format("<figure>\n<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
+                  kPictureWidth,
+                  view.height,
+                  escaped(words_of_size(picture, picture.frames[picture.usual].size)));
   svg += paths(view, atlas.lines, straight, 1.0, report::kNeutralColor);
   const std::size_t nothing = place_of_nothing(picture);
   const std::size_t shown = picture.usual + (picture.usual >= nothing ? 1 : 0);

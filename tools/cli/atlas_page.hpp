@@ -7,11 +7,11 @@
 #include <string>
 
 #include "grid/synthetic/atlas.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// \param machine its name. Same atlas, same bytes.
-[[nodiscard]] std::string atlas_page(const grid::synthetic::Atlas& atlas,
-                                     const std::string& machine);
+[[nodiscard]] std::string atlas_page(const synthetic::Atlas& atlas, const std::string& machine);
 
 }  // namespace chaintrue::cli

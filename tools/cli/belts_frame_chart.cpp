@@ -10,12 +10,10 @@
 
 namespace chaintrue::cli {
 
-using grid::diagnosis::BeltPlacePicture;
-using grid::diagnosis::BeltsFindings;
+using diagnosis::BeltPlacePicture;
+using diagnosis::BeltsFindings;
 using model::Belt;
 using model::kBelts;
-using report::Chart;
-using report::DataTable;
 
 namespace {
 

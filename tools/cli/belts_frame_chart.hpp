@@ -7,13 +7,14 @@
 #include <string>
 
 #include "grid/diagnosis/belts_findings.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 inline constexpr const char* kFrameCaption =
-    "A stroke lies along its belt, in that anchor's colour: towards the anchor where the belt reads "
-    "long, away from it where it reads short. Circled: left out.";
+    "A stroke lies along its belt, in that anchor's colour: towards the anchor where the belt "
+    "reads long, away from it where it reads short. Circled: left out.";
 
 inline constexpr const char* kAnchorsCaption =
     "From the bottom left anchor, x to the bottom right one: tl is the top left anchor. Sigma: one "
@@ -24,9 +25,8 @@ inline constexpr const char* kAnchorsCaption =
 }
 
 /// All strokes of the same findings have one scale.
-[[nodiscard]] report::Chart frame_chart(
-    const grid::diagnosis::BeltsFindings& found,
-    std::string title,
-    model::PerBelt<double> grid::diagnosis::BeltPlacePicture::*which);
+[[nodiscard]] Chart frame_chart(const diagnosis::BeltsFindings& found,
+                                std::string title,
+                                model::PerBelt<double> diagnosis::BeltPlacePicture::*which);
 
 }  // namespace chaintrue::cli

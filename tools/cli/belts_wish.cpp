@@ -21,12 +21,10 @@ constexpr std::size_t kMostTried = 400;
 /// A session simulated from the fit, with each place visited `times` times and the noise found.
 /// Points keep their indices, which distances refer to; further visits of them follow. Its noise is
 /// the same in every run.
-grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts,
-                                   const grid::BeltsFit& fit,
-                                   std::size_t times) {
+MeasuredBelts measured_again(const MeasuredBelts& belts, const BeltsFit& fit, std::size_t times) {
   constexpr std::uint64_t kSeed = 31;
   grid::Random random(kSeed, times);
-  grid::MeasuredBelts result = belts;
+  MeasuredBelts result = belts;
   result.points.clear();
   const int factor = static_cast<int>(times);
   for (int visit = 0; visit < factor; ++visit) {
@@ -44,19 +42,19 @@ grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts,
 }
 
 struct AnchorsAndError {
-  grid::BeltsFit fit;
-  std::optional<grid::BeltsError> error;
+  BeltsFit fit;
+  std::optional<BeltsError> error;
 };
 
-std::optional<AnchorsAndError> fit_again(const grid::MeasuredBelts& belts,
+std::optional<AnchorsAndError> fit_again(const MeasuredBelts& belts,
                                          const std::vector<grid::BeltHoles>& cut) {
   if (cut.empty()) {
-    auto fit = grid::diagnosis::fit_with_causes(belts);
+    auto fit = diagnosis::fit_with_causes(belts);
     if (!fit) return std::nullopt;
     const auto error = grid::error_of_belts(*fit);
     return AnchorsAndError{*std::move(fit), error};
   }
-  auto fit = grid::diagnosis::fit_with_causes_and_holes(belts, cut);
+  auto fit = diagnosis::fit_with_causes_and_holes(belts, cut);
   if (!fit) return std::nullopt;
   const auto error = grid::error_of_belts(fit->belts, &fit->holes);
   return AnchorsAndError{std::move(fit->belts), error};
@@ -64,7 +62,7 @@ std::optional<AnchorsAndError> fit_again(const grid::MeasuredBelts& belts,
 
 /// The error to expect of such a session. The noise that its fit finds is a sample of the simulated
 /// noise, and the error scales with it, so it is corrected for that. Empty without a fit.
-std::optional<double> expected_of_places(const grid::MeasuredBelts& belts,
+std::optional<double> expected_of_places(const MeasuredBelts& belts,
                                          const std::vector<grid::BeltHoles>& cut,
                                          double noise_mm) {
   const auto again = fit_again(belts, cut);
@@ -73,7 +71,7 @@ std::optional<double> expected_of_places(const grid::MeasuredBelts& belts,
 }
 
 /// After compensating the displacement that the holes show; empty if none was found.
-std::optional<double> expected_when_compensated(const grid::files::FittedAnchors& found) {
+std::optional<double> expected_when_compensated(const files::FittedAnchors& found) {
   if (!found.holes || !found.holes->displacement) return std::nullopt;
   grid::HolesWithBelts level = *found.holes;
   level.displacement.reset();
@@ -83,16 +81,16 @@ std::optional<double> expected_when_compensated(const grid::files::FittedAnchors
 
 }  // namespace
 
-std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
+std::string belts_wish_sentence(const MeasuredBelts& belts,
                                 const std::vector<grid::BeltHoles>& cut,
-                                const grid::files::FittedAnchors& found,
-                                const std::optional<grid::BeltsError>& error,
+                                const files::FittedAnchors& found,
+                                const std::optional<BeltsError>& error,
                                 double wish_mm) {
   const std::string wish = fmt::format("You wish for {:g} mm: ", wish_mm);
   if (!error) return wish + "these readings do not show whether that is reached.";
   if (error->expected.rms_mm <= wish_mm)
-    return wish + (found.fit.scale ? "reached." : "reached. Only a taped distance shows the "
-                                                  "scale.");
+    return wish +
+           (found.fit.scale ? "reached." : "reached. Only a taped distance shows the scale.");
   const auto compensated = expected_when_compensated(found);
   if (compensated && *compensated <= wish_mm)
     return wish +
@@ -104,11 +102,11 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
   const double noise_mm = found.fit.residual_sigma_mm;
   const auto once = expected_of_places(measured_again(belts, found.fit, 1), cut, noise_mm);
   if (!once || 2 * places > kMostTried)
-    return wish + "not reached. The number of places needed was not computed, because there are "
-                  "too many already.";
+    return wish +
+           "not reached. The number of places needed was not computed, because there are too many "
+           "already.";
   std::size_t tried = 0;
-  for (std::size_t times = 2; times <= kMostTimes && times * places <= kMostTried;
-       ++times) {
+  for (std::size_t times = 2; times <= kMostTimes && times * places <= kMostTried; ++times) {
     tried = times * places;
     const auto then = expected_of_places(measured_again(belts, found.fit, times), cut, noise_mm);
     if (then && error->expected.rms_mm * *then <= wish_mm * *once) {
@@ -117,11 +115,10 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
                          tried);
     }
   }
-  return wish +
-         fmt::format(
-             "not reached, and not by {} places measured as well as these. Look for other causes: "
-             "run chaintrue diagnose on the same belts.",
-             tried);
+  return wish + fmt::format(
+                    "not reached, and not by {} places measured as well as these. Look for other "
+                    "causes: run chaintrue diagnose on the same belts.",
+                    tried);
 }
 
 }  // namespace chaintrue::cli

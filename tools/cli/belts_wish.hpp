@@ -16,15 +16,16 @@
 
 #include "grid/belts/belts_error.hpp"
 #include "grid/files/anchors_file.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// `belts` (without points if only holes were fitted) and `cut` are the input of `found`; `error`
 /// is its error_of_belts(). `wish_mm` is the rms error of the tool over the measured part.
-[[nodiscard]] std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
+[[nodiscard]] std::string belts_wish_sentence(const MeasuredBelts& belts,
                                               const std::vector<grid::BeltHoles>& cut,
-                                              const grid::files::FittedAnchors& found,
-                                              const std::optional<grid::BeltsError>& error,
+                                              const files::FittedAnchors& found,
+                                              const std::optional<BeltsError>& error,
                                               double wish_mm);
 
 }  // namespace chaintrue::cli

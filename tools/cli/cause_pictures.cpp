@@ -18,9 +18,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Cause;
-using grid::diagnosis::Diagnosis;
-using report::Arrow;
+using diagnosis::Cause;
 
 /// The measured places, without a shift.
 struct Places {
@@ -32,7 +30,7 @@ struct Places {
 /// places.
 Places places_of(const Diagnosis& found) {
   Places places;
-  const auto add = [&places](const std::string& name, const model::MarkPoint& mark, int order) {
+  const auto add = [&places](const std::string& name, const MarkPoint& mark, int order) {
     places.visits.push_back({{mark.x_mm, mark.y_mm}, order});
     places.arrows.push_back({.name = name, .x_mm = mark.x_mm, .y_mm = mark.y_mm});
   };
@@ -50,9 +48,9 @@ Places places_of(const Diagnosis& found) {
 }
 
 /// The machine as found, but for this cause.
-model::Machine machine_without(const Diagnosis& found, const model::AppliedEffect& cause) {
-  model::Machine machine = found.extended_machine;
-  std::erase_if(machine.effects, [&](const model::AppliedEffect& effect) {
+Machine machine_without(const Diagnosis& found, const AppliedEffect& cause) {
+  Machine machine = found.extended_machine;
+  std::erase_if(machine.effects, [&](const AppliedEffect& effect) {
     return effect.effect == cause.effect && effect.side == cause.side;
   });
   return machine;
@@ -64,10 +62,9 @@ std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
                                                       const Cause& cause,
                                                       const std::vector<model::Visit>& visits) {
   try {
-    const model::AppliedEffect applied = grid::diagnosis::applied(cause);
+    const AppliedEffect applied = diagnosis::applied(cause);
     const auto shifts =
-        grid::synthetic::signature(machine_without(found, applied), {applied}, visits)
-            .tool_shift_mm();
+        synthetic::signature(machine_without(found, applied), {applied}, visits).tool_shift_mm();
     const bool finite = grid::all_of(shifts, [](const auto& shift) { return shift.allFinite(); });
     return finite ? std::optional(shifts) : std::nullopt;
   } catch (const std::invalid_argument&) {
@@ -75,10 +72,10 @@ std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
   }
 }
 
-report::Chart chart_of(const Diagnosis& found,
-                       const Cause& cause,
-                       const Places& places,
-                       const std::vector<Eigen::Vector2d>& shifts) {
+Chart chart_of(const Diagnosis& found,
+               const Cause& cause,
+               const Places& places,
+               const std::vector<Eigen::Vector2d>& shifts) {
   std::vector<Arrow> arrows = places.arrows;
   double largest_mm = 0.0;
   for (std::size_t i = 0; i < arrows.size(); ++i) {
@@ -87,24 +84,23 @@ report::Chart chart_of(const Diagnosis& found,
     largest_mm = std::max(largest_mm, shifts[i].norm());
   }
   const report::Outline sheet = bed_of(found);
-  report::Chart chart = report::arrows_chart(
+  Chart chart = report::arrows_chart(
       sheet, arrows, report::magnification_of(sheet, arrows), report::kBeforeColor);
   chart.title = fmt::format(
       "{}: {}", cause_title(cause.cause), sizes_in_words(cause.cause, cause.parameters));
   chart.caption = fmt::format(
-      "Where this alone puts the tool, from where it was sent: {:.1f} mm at most. Computed "
-      "for "
-      "the size found, without new settings.",
+      "Where this alone puts the tool, from where it was sent: {:.1f} mm at most. Computed for the "
+      "size found, without new settings.",
       largest_mm);
   return chart;
 }
 
 }  // namespace
 
-std::vector<report::Chart> cause_charts(const Diagnosis& found) {
+std::vector<Chart> cause_charts(const Diagnosis& found) {
   const Places places = places_of(found);
   if (found.belts || places.visits.empty()) return {};
-  std::vector<report::Chart> charts;
+  std::vector<Chart> charts;
   for (const Cause& cause : found.causes) {
     if (const auto shifts = shifts_by(found, cause, places.visits))
       charts.push_back(chart_of(found, cause, places, *shifts));

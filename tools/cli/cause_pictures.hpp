@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// In the order of the causes; without those that put a measured place out of reach or, in a file,
 /// have impossible numbers. Empty for belts.
-[[nodiscard]] std::vector<report::Chart> cause_charts(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] std::vector<Chart> cause_charts(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

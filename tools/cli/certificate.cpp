@@ -14,15 +14,13 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::MapContents;
-
 /// Within this many times the root of the summed variances lie 95 % of cuts, where x and y err
 /// equally: sqrt(-2 ln 0.05) / sqrt(2).
 constexpr double k95PerCent = 1.7308;
 
-report::Section measured_section(const grid::CompensationMap& map) {
+Section measured_section(const CompensationMap& map) {
   const MapContents& contents = map.contents();
-  report::Table table{.columns = {{"what"}, {"how much, how well"}}, .rows = {}, .caption = {}};
+  Table table{.columns = {{"what"}, {"how much, how well"}}, .rows = {}, .caption = {}};
   const auto row = [&table](std::string what, std::string value) {
     table.rows.push_back({{std::move(what), std::move(value)}});
   };
@@ -58,52 +56,52 @@ report::Section measured_section(const grid::CompensationMap& map) {
                         ? std::string("as given")
                         : fmt::format("from {}", name(contents.noise.source))));
   }
-  report::Section section{"What was measured", {}};
+  Section section{"What was measured", {}};
   section.blocks.push_back(std::move(table));
   return section;
 }
 
-report::Section named_section(const grid::CompensationMap& map) {
+Section named_section(const CompensationMap& map) {
   std::vector<SettingRow> rows = settings_rows(map);
   std::erase_if(rows, [](const SettingRow& row) { return !row.stated_sigma; });
-  report::Section section{"The machine's settings", {}};
+  Section section{"The machine's settings", {}};
   if (rows.empty()) {
     section.blocks.push_back(
-        report::Paragraph{"None: the map interpolates the readings, without a machine."});
+        Paragraph{"None: the map interpolates the readings, without a machine."});
   } else {
     section.blocks.push_back(settings_table(rows));
   }
   return section;
 }
 
-report::Section remaining_section(const MapContents& contents) {
+Section remaining_section(const MapContents& contents) {
   constexpr std::size_t kMostNotes = 3;
-  report::Section section{"What remains", {}};
+  Section section{"What remains", {}};
   for (std::size_t i = 0; i < contents.notes.size() && i < kMostNotes; ++i) {
-    section.blocks.push_back(report::Paragraph{contents.notes[i]});
+    section.blocks.push_back(Paragraph{contents.notes[i]});
   }
   if (contents.notes.size() > kMostNotes) {
-    section.blocks.push_back(report::Paragraph{fmt::format(
-        "{} more remarks are in the full report.", contents.notes.size() - kMostNotes)});
+    section.blocks.push_back(Paragraph{fmt::format("{} more remarks are in the full report.",
+                                                   contents.notes.size() - kMostNotes)});
   }
-  section.blocks.push_back(report::Paragraph{
-      "After the chains were taken off, or a month of work, measure three to five points and ask "
-      "chaintrue check."});
+  section.blocks.push_back(
+      Paragraph{"After the chains were taken off, or a month of work, measure three to five points "
+                "and ask chaintrue check."});
   return section;
 }
 
 }  // namespace
 
-report::Document certificate(const grid::CompensationMap& map, std::string_view source) {
+Document certificate(const CompensationMap& map, std::string_view source) {
   const MapContents& contents = map.contents();
   const grid::ErrorSummary& expected = contents.accuracy.expected_tool;
-  report::Document page;
+  Document page;
   page.title = "Certificate: " + (contents.name.empty() ? std::string("map") : contents.name);
   page.subtitle = map.machine() != nullptr ? map.machine()->name : "no machine model";
-  page.verdict = {fmt::format(
-      "The tool is within {:.2f} mm of where it should be, 95 times in 100, over the measured "
-      "part of the bed.",
-      k95PerCent * expected.rms_mm)};
+  page.verdict = {
+      fmt::format("The tool is within {:.2f} mm of where it should be, 95 times in 100, over the "
+                  "measured part of the bed.",
+                  k95PerCent * expected.rms_mm)};
   page.tone = tone_of(contents);
   page.is_one_sheet = true;
   page.figures = {
@@ -116,9 +114,9 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
   page.not_proved = {
       "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
       "is moved."};
-  report::Chart chart = report::error_map_chart(map_pictures(map));
+  Chart chart = report::error_map_chart(map_pictures(map));
   chart.caption.clear();  // it is in the legend
-  report::Section error_section{"Where to expect which error", {}};
+  Section error_section{"Where to expect which error", {}};
   error_section.blocks.push_back(std::move(chart));
   page.sections.push_back(std::move(error_section));
   page.sections.push_back(measured_section(map));

@@ -7,11 +7,12 @@
 #include <string_view>
 
 #include "grid/map/compensation_map.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// `source` is the map's file, for the footer.
-[[nodiscard]] report::Document certificate(const grid::CompensationMap& map, std::string_view source);
+[[nodiscard]] Document certificate(const CompensationMap& map, std::string_view source);
 
 }  // namespace chaintrue::cli

@@ -33,7 +33,7 @@ namespace {
 struct CheckCommand {
   std::string map;
   GridInput input;
-  grid::files::TapeOptions tape;
+  files::TapeOptions tape;
   /// The controller's settings when the new points were commanded.
   std::string settings;
   /// Further files of new points.
@@ -68,20 +68,19 @@ void say_next_of_map(const grid::Check& check, const CheckCommand& command, bool
 
 /// For a file with a machine whose controller has settings other than the map's: its commands used
 /// these.
-void say_other_settings(const grid::CompensationMap& map, const grid::Measured& measured) {
-  namespace files = grid::files;
+void say_other_settings(const CompensationMap& map, const grid::Measured& measured) {
   if (map.machine() == nullptr) return;
-  const model::ControllerKind kind = map.machine()->controller.kind;
+  const ControllerKind kind = map.machine()->controller.kind;
   // Others have none: they depend on the motors, which a fit changes.
-  if (kind != model::ControllerKind::maslow_classic && kind != model::ControllerKind::holey) return;
+  if (kind != ControllerKind::maslow_classic && kind != ControllerKind::holey) return;
   for (const grid::MeasuredFile& file : measured.files()) {
     if (!file.machine() || file.machine()->controller.kind != kind) continue;
     const auto changes = files::changed_settings(files::settings_in_force(*map.machine()),
                                                  files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
     fmt::print(stderr,
-               "In {} the machine's settings differ from the map's ({}): these are used. State "
-               "the controller's settings with --settings.\n",
+               "In {} the machine's settings differ from the map's ({}): these are used. State the "
+               "controller's settings with --settings.\n",
                file.name.empty() ? "the new points" : file.name,
                files::in_words(changes));
   }
@@ -93,7 +92,7 @@ CheckResult check_of_map(const CheckCommand& command,
                          const std::vector<InputFile>& files,
                          const InputFile& map,
                          bool& is_after) {
-  const grid::CompensationMap as_measured = load_map(map);
+  const CompensationMap as_measured = load_map(map);
   std::optional<model::ControllerSettings> before = settings_before(command.map);
   is_after = before.has_value();
   if (!command.settings.empty() && as_measured.machine() != nullptr)
@@ -103,7 +102,7 @@ CheckResult check_of_map(const CheckCommand& command,
     measured.add(load_measured(
         file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
   if (command.settings.empty()) say_other_settings(as_measured, measured);
-  const grid::CompensationMap in_force =
+  const CompensationMap in_force =
       command.settings.empty()
           ? as_measured
           : with_settings_of(command.settings, command.map, as_measured, measured);
@@ -115,25 +114,24 @@ CheckResult check_of_map(const CheckCommand& command,
 }
 
 CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
-  const grid::files::FittedAnchors loaded = load_anchors(anchors);
+  const files::FittedAnchors loaded = load_anchors(anchors);
   require_kind(belts,
                {FileKind::belts},
                "anchors are checked by new belt lengths only; fit holes and belts together "
                "(chaintrue fit BELTS --with HOLES)");
-  const grid::files::ReadBelts read = load_belts(belts, "a check");
+  const files::ReadBelts read = load_belts(belts, "a check");
   return grid::check_anchors(loaded.fit, read.belts);
 }
 
 void write_check(const grid::Check& check, const CheckCommand& command, bool of_belts) {
-  const report::Document document =
-      of_belts ? anchors_check_document(check) : map_check_document(check);
+  const Document document = of_belts ? anchors_check_document(check) : map_check_document(check);
   std::string text;
   if (!command.json) {
     text = report::render_text(document);
   } else {
-    text = of_belts ? grid::files::write_anchors_check(check) : grid::files::write_map_check(check);
+    text = of_belts ? files::write_anchors_check(check) : files::write_map_check(check);
   }
-  std::vector<grid::files::OutputFile> outputs = {{command.output, text}};
+  std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (!command.report.empty()) outputs.push_back({command.report, report::render_html(document)});
   write_outputs(outputs);
 }
@@ -172,10 +170,9 @@ int run_check(Verb verb, const CheckCommand& command) {
 
 void add_check(Verb app) {
   auto command = std::make_shared<CheckCommand>();
-  Verb verb =
-      app.add_verb("check",
-                   "Check with a few new points whether a map is still valid, or valid after "
-                   "re-zeroing");
+  Verb verb = app.add_verb(
+      "check",
+      "Check with a few new points whether a map is still valid, or valid after re-zeroing");
   add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);

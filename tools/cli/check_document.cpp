@@ -6,9 +6,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using report::Paragraph;
-using report::Table;
-
 /// `what` is the table's heading.
 Table table_of(std::string what, bool has_sign) {
   return {.columns = {{.heading = std::move(what), .width = 30},
@@ -17,20 +14,20 @@ Table table_of(std::string what, bool has_sign) {
           .is_headed = true};
 }
 
-report::Document document_of(const grid::Check& check, Table table) {
-  report::Document document;
+Document document_of(const grid::Check& check, Table table) {
+  Document document;
   document.title = "Check";
   document.verdict = {check.sentence};
   document.remarks = {"What the readings do not show", {Paragraph{check.not_separable}}};
   document.sections = {
       {"How sure",
-       {Paragraph{fmt::format("Still valid {:.1f} %, valid after re-zeroing {:.1f} %, no longer "
-                              "valid {:.1f} %.",
-                              100.0 * check.probability[0],
-                              100.0 * check.probability[1],
-                              100.0 * check.probability[2])}},
+       {Paragraph{fmt::format(
+           "Still valid {:.1f} %, valid after re-zeroing {:.1f} %, no longer valid {:.1f} %.",
+           100.0 * check.probability[0],
+           100.0 * check.probability[1],
+           100.0 * check.probability[2])}},
        false,
-       report::Detail::always,
+       Detail::always,
        /*is_titled=*/false},
       {"What was measured", {std::move(table)}}};
   return document;
@@ -38,16 +35,16 @@ report::Document document_of(const grid::Check& check, Table table) {
 
 }  // namespace
 
-report::Document map_check_document(const grid::Check& check) {
+Document map_check_document(const grid::Check& check) {
   Table table = table_of("Measured less map", true);
   for (const grid::CheckResidual& one : check.residuals)
     table.rows.push_back({{one.name, one.residual_mm, one.sigma_mm}});
-  report::Document document = document_of(check, std::move(table));
+  Document document = document_of(check, std::move(table));
   for (const std::string& note : check.notes) document.remarks.blocks.emplace_back(Paragraph{note});
   return document;
 }
 
-report::Document anchors_check_document(const grid::Check& check) {
+Document anchors_check_document(const grid::Check& check) {
   Table table = table_of("Error of one belt", false);
   for (const grid::CheckUnit& place : check.units) {
     table.rows.push_back(

@@ -4,13 +4,14 @@
 #pragma once
 
 #include "grid/map/check.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// Each residual.
-[[nodiscard]] report::Document map_check_document(const grid::Check& check);
+[[nodiscard]] Document map_check_document(const grid::Check& check);
 /// Each place with the rms residual of its belts.
-[[nodiscard]] report::Document anchors_check_document(const grid::Check& check);
+[[nodiscard]] Document anchors_check_document(const grid::Check& check);
 
 }  // namespace chaintrue::cli

@@ -6,6 +6,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/problems.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -53,7 +54,7 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
   }
   const std::string verb_name = verb == &app ? "chaintrue" : "chaintrue " + verb->get_name();
   if (!verbs_of(*verb).empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
-    const std::string near = grid::files::nearest(words[at], verbs_of(*verb));
+    const std::string near = files::nearest(words[at], verbs_of(*verb));
     const std::string list = fmt::format("{} --help lists what there is.\n", verb_name);
     if (near.empty()) return fmt::format("There is no {} {}. {}", verb_name, words[at], list);
     return fmt::format(
@@ -66,7 +67,7 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
     const std::string option = words[at].substr(0, words[at].find('='));
     if (option.rfind("--", 0) != 0 || option == "--") continue;
     if (grid::contains(known, option)) continue;
-    const std::string near = grid::files::nearest(option, known);
+    const std::string near = files::nearest(option, known);
     if (near.empty()) {
       return fmt::format(
           "{} has no option {}. {} --help lists what there is.\n", verb_name, option, verb_name);

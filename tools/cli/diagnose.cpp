@@ -31,16 +31,13 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-using grid::diagnosis::Diagnosis;
-
 /// The page if there is none; what to measure next if that helps; else a map.
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next({"report", command.output, "-o", page_alongside(command.output)});
   std::vector<std::string> words;
   const bool parts_causes = grid::any_of(found.next_measurements, [&](const auto& next) {
-    return !found.belts || next.kind != grid::diagnosis::MeasurementKind::distance;
+    return !found.belts || next.kind != diagnosis::MeasurementKind::distance;
   });
   if (found.belts && (command.output.empty() || !parts_causes || !command.without.empty())) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
@@ -98,16 +95,16 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
     if (!path.empty()) outputs.push_back({path, text()});
   };
   add(command.output, [&] { return written; });
-  report::Document document = diagnosis_document(
-      found, source, command.report.empty() ? report::Detail::verbose : report::Detail::page);
+  Document document =
+      diagnosis_document(found, source, command.report.empty() ? Detail::verbose : Detail::page);
   add_made_by(origin, document.sections);
   add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(found, source); });
   add(command.corrected_grid, [&] {
     const auto ordered = found.visiting_order
-                             ? grid::diagnosis::visited_in(input, found.visiting_order->order)
+                             ? diagnosis::visited_in(input, found.visiting_order->order)
                              : std::nullopt;
-    grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
+    MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
     return corrected_grid_text(
         found, std::move(corrected), ordered || !command.assume_order.empty());
   });
@@ -156,12 +153,12 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              "cause; the input for fit")
       .acts_on(facts::one_grid, "to be left out: a corrected grid is of one grid alone");
   // A file of an effect is edited by hand, and replaced with --force alone.
-  add_output(verb,
-             "--law",
-             command.law,
-             {Origin::list},
-             "The most probable law of what no cause explains (90 % or more), as a file for "
-             "--effects")
+  add_output(
+      verb,
+      "--law",
+      command.law,
+      {Origin::list},
+      "The most probable law of what no cause explains (90 % or more), as a file for --effects")
       .acts_on(facts::chains, "to be left out: a cause of your own acts on chains");
   verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
@@ -170,9 +167,9 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
 
 void add_diagnose(Verb app) {
   auto command = std::make_shared<DiagnoseCommand>();
-  Verb verb = app.add_verb("diagnose",
-                           "Find what the machine does wrong and why, and how much knowing the "
-                           "cause improves the map");
+  Verb verb = app.add_verb(
+      "diagnose",
+      "Find what the machine does wrong and why, and how much knowing the cause improves the map");
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
@@ -187,11 +184,11 @@ void add_diagnose(Verb app) {
             command->held_out,
             "Another grid of the same machine, to test how well the result predicts it")
       .acts_on(facts::one_grid, "to be left out: it is of one grid, which is held against another");
-  verb.add_option("--assume-order",
-                  command->assume_order,
-                  "Assumed order of visits where the points state none, in lines from the top "
-                  "left. Drift, skips and hysteresis need an order; the verdict says that it was "
-                  "assumed")
+  verb.add_option(
+          "--assume-order",
+          command->assume_order,
+          "Assumed order of visits where the points state none, in lines from the top left. Drift, "
+          "skips and hysteresis need an order; the verdict says that it was assumed")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"})
       .acts_on(facts::grid, "to be left out: it is of the points of a grid, which was not given");
   add_without_option(verb, command->without);

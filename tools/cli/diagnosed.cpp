@@ -22,32 +22,28 @@
 
 namespace chaintrue::cli {
 
-namespace files = grid::files;
-using grid::diagnosis::Diagnosis;
-
 namespace {
 
-void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) {
+void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
   if (command.assume_order.empty()) return;
   OptionProblems problems;
   if (grid::any_of(measured.points, [](const auto& point) { return point.order.has_value(); })) {
     problems.add("--assume-order",
                  command.assume_order,
                  "to be left out, because these points have the order of their visits",
-                 grid::ProblemKind::contradiction);
+                 ProblemKind::contradiction);
     problems.throw_if_any();
   }
   const auto numbers = grid::visit_numbers(measured.points, *order_from_word(command.assume_order));
   if (!numbers) {
-    problems.add(
-        "--assume-order", command.assume_order, numbers.error(), grid::ProblemKind::bad_syntax);
+    problems.add("--assume-order", command.assume_order, numbers.error(), ProblemKind::bad_syntax);
     problems.throw_if_any();
   }
   for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
 }
 
 template <class T>
-T value_of(tl::expected<T, grid::diagnosis::DiagnosisFailure> result, const std::string& path) {
+T value_of(tl::expected<T, diagnosis::DiagnosisFailure> result, const std::string& path) {
   if (result) return *std::move(result);
   throw Failed(files::name_in_messages(path), result.error());
 }
@@ -75,11 +71,10 @@ void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::stri
   throw Failed(
       files::name_in_messages(path),
       "too_many",
-      fmt::format(
-          "{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
-          "those that were measured twice; chaintrue fit takes them all",
-          counted(measured),
-          kMostDiagnosed));
+      fmt::format("{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, "
+                  "and keep those that were measured twice; chaintrue fit takes them all",
+                  counted(measured),
+                  kMostDiagnosed));
 }
 
 /// Readings more accurate than the simulation over a bed.
@@ -88,15 +83,15 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   for (const auto* own : measured.grids()) {
     if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
     found.notes.push_back(
-        fmt::format("Your error of the readings, {} mm, is below the accuracy of the "
-                    "simulation over a bed; {} mm was used instead.",
+        fmt::format("Your error of the readings, {} mm, is below the accuracy of the simulation "
+                    "over a bed; {} mm was used instead.",
                     own->noise->length_mm,
                     kFinestMm));
   }
 }
 
-grid::diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
-  grid::diagnosis::DiagnosisOptions options;
+diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
+  diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
@@ -106,7 +101,7 @@ grid::diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& comma
 }
 
 /// With the file's name where the readings have none.
-Diagnosis named(tl::expected<Diagnosis, grid::diagnosis::DiagnosisFailure> result,
+Diagnosis named(tl::expected<Diagnosis, diagnosis::DiagnosisFailure> result,
                 const DiagnoseCommand& command) {
   Diagnosis found = value_of(std::move(result), command.input.grid);
   if (found.grid_name.empty()) found.grid_name = file_name(command.input.grid);
@@ -114,21 +109,21 @@ Diagnosis named(tl::expected<Diagnosis, grid::diagnosis::DiagnosisFailure> resul
 }
 
 /// How well what was found predicts the grid of --held-out.
-grid::diagnosis::Transfer held_out(const DiagnoseCommand& command,
-                                   const grid::MeasuredGrid& measured,
-                                   const Diagnosis& found) {
+diagnosis::Transfer held_out(const DiagnoseCommand& command,
+                             const MeasuredGrid& measured,
+                             const Diagnosis& found) {
   GridInput other = command.input;
   other.grid = command.held_out;
-  const grid::MeasuredGrid to = read_grid_input(other);
-  auto transferred = value_of(grid::diagnosis::transfer(measured, found, to), command.held_out);
+  const MeasuredGrid to = read_grid_input(other);
+  auto transferred = value_of(diagnosis::transfer(measured, found, to), command.held_out);
   if (transferred.to.empty())
     transferred.to = to.name.empty() ? file_name(command.held_out) : to.name;
   return transferred;
 }
 
 /// The number that a fit of the same belts begins with.
-std::optional<grid::ErrorSummary> tool_today(const grid::MeasuredBelts& belts) {
-  const auto fit = grid::diagnosis::fit_with_causes(belts);
+std::optional<grid::ErrorSummary> tool_today(const MeasuredBelts& belts) {
+  const auto fit = diagnosis::fit_with_causes(belts);
   const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
   return error ? error->today : std::nullopt;
 }
@@ -140,16 +135,16 @@ std::string file_name(const std::string& path) {
 }
 
 Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
-  if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
+  if (MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
   refuse_too_many_to_diagnose(measured, command.input.grid);
   grid::keep_freed_memory();
-  Diagnosis found = named(grid::diagnosis::diagnose(measured, diagnosis_options(command)), command);
+  Diagnosis found = named(diagnosis::diagnose(measured, diagnosis_options(command)), command);
   note_fine_readings(measured, found);
   if (!command.assume_order.empty()) {
-    found.notes.insert(found.notes.begin(),
-                       fmt::format("The visiting order was not measured but assumed: {}, lines "
-                                   "from the top left.",
-                                   command.assume_order));
+    found.notes.insert(
+        found.notes.begin(),
+        fmt::format("The visiting order was not measured but assumed: {}, lines from the top left.",
+                    command.assume_order));
   }
   if (!command.held_out.empty())
     found.transferred = held_out(command, *measured.first_grid(), found);
@@ -162,27 +157,26 @@ Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file)
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
-    throw Failed(
-        file.name,
-        "too_many",
-        fmt::format("{} places are more than a diagnosis takes ({}): leave some out, evenly over "
-                    "the sheet; chaintrue fit takes them all",
-                    read.belts.points.size(),
-                    kMostPlaces));
+    throw Failed(file.name,
+                 "too_many",
+                 fmt::format("{} places are more than a diagnosis takes ({}): leave some out, "
+                             "evenly over the sheet; chaintrue fit takes them all",
+                             read.belts.points.size(),
+                             kMostPlaces));
   }
   Diagnosis found =
-      named(grid::diagnosis::diagnose(read.belts,
-                                      diagnosis_options(command),
-                                      files::indices_without(read.belts.points.size(), without)),
+      named(diagnosis::diagnose(read.belts,
+                                diagnosis_options(command),
+                                files::indices_without(read.belts.points.size(), without)),
             command);
   found.tool_today = tool_today(read.belts);
   return found;
 }
 
 Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
-  return named(grid::diagnosis::diagnose(files::parse_drawing(file.text, file.name),
-                                         diagnosis_options(command)),
-               command);
+  return named(
+      diagnosis::diagnose(files::parse_drawing(file.text, file.name), diagnosis_options(command)),
+      command);
 }
 
 }  // namespace chaintrue::cli

@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 
 struct DiagnoseCommand {
   GridInput input;
-  grid::files::TapeOptions tape;
+  files::TapeOptions tape;
   std::vector<std::string> with;
   std::string output;
   std::string report;
@@ -34,14 +34,11 @@ struct DiagnoseCommand {
 // Each throws Failed where there is no diagnosis.
 
 /// Grids and holes; an order that was assumed is put into `measured`.
-[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const DiagnoseCommand& command,
-                                                   grid::Measured& measured);
+[[nodiscard]] Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured);
 /// Belts are diagnosed by themselves, on the machine in their own file.
-[[nodiscard]] grid::diagnosis::Diagnosis diagnosed_belts(const DiagnoseCommand& command,
-                                                         const InputFile& file);
+[[nodiscard]] Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file);
 /// A test drawing is diagnosed by itself, on the plotter in its own file.
-[[nodiscard]] grid::diagnosis::Diagnosis diagnosed_drawing(const DiagnoseCommand& command,
-                                                           const InputFile& file);
+[[nodiscard]] Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file);
 
 /// Without its folders.
 [[nodiscard]] std::string file_name(const std::string& path);

@@ -15,13 +15,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using report::Detail;
-using report::List;
-using report::Paragraph;
-using report::Section;
-using report::Table;
-
 std::string_view where_it_goes(const Diagnosis& found) {
   constexpr std::string_view kGoes[] = {
       "Points go into the grid's file, readings into its \"readings\"",
@@ -43,20 +36,20 @@ std::string noise_in_words(const Diagnosis& found) {
                     found.stated_noise->dof));
   }
   if (found.stated_tape) {
-    stated.push_back(fmt::format(
-        "{:g} mm a reading of the tape and {:g} mm a hole on either axis (one sigma, {:g} degrees "
-        "of freedom); ",
-        found.stated_tape->tape_sigma_mm,
-        found.stated_tape->hole_sigma_mm,
-        found.stated_tape->dof));
+    stated.push_back(
+        fmt::format("{:g} mm a reading of the tape and {:g} mm a hole on either axis (one sigma, "
+                    "{:g} degrees of freedom); ",
+                    found.stated_tape->tape_sigma_mm,
+                    found.stated_tape->hole_sigma_mm,
+                    found.stated_tape->dof));
   }
   if (stated.empty()) return "The error of the readings is not given; ";
   return fmt::format("Error of the readings, as you gave it: {}", fmt::join(stated, ""));
 }
 
-std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outlier& bad) {
-  if (bad.of == grid::diagnosis::Observations::belts) return capitalised(bad_belt_in_words(bad));
-  const bool is_drawn = bad.of == grid::diagnosis::Observations::drawing;
+std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& bad) {
+  if (bad.of == diagnosis::Observations::belts) return capitalised(bad_belt_in_words(bad));
+  const bool is_drawn = bad.of == diagnosis::Observations::drawing;
   if (is_drawn || is_distance(found, bad)) {
     return fmt::format(
         "{}: read {} ({:.1f} sigmas)",
@@ -91,7 +84,7 @@ Section next_section(const Diagnosis& found) {
       grid::any_of(found.next_measurements, [](const auto& next) { return next.mark.has_value(); });
   if (found.belts) return section;
   if (has_places && !is_of_distances(found)) section.blocks.emplace_back(next_points_chart(found));
-  if (proposes(found, grid::diagnosis::MeasurementKind::distance))
+  if (proposes(found, diagnosis::MeasurementKind::distance))
     section.blocks.emplace_back(next_distances_chart(found));
   return section;
 }

@@ -12,10 +12,7 @@
 
 namespace chaintrue::cli {
 
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::Hypothesis;
-using report::Chart;
-using report::DataTable;
+using diagnosis::Hypothesis;
 
 namespace {
 
@@ -38,8 +35,7 @@ Chart probability_chart(const Diagnosis& found) {
               .title = "How probable each explanation is",
               .caption =
                   "Each probability stands alone: causes can act together, so these need not add "
-                  "up to 100 %. "
-                  "Below 0.2 % is left out. Blue: what the verdict names."};
+                  "up to 100 %. Below 0.2 % is left out. Blue: what the verdict names."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
   for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);
@@ -64,7 +60,7 @@ Chart improvement_chart(const Diagnosis& found) {
               .caption = "The thin line on a bar is its 90 % interval. Left out: " +
                          found.improvement->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
-  const auto color_of = [&](const grid::diagnosis::HeldOut* row) {
+  const auto color_of = [&](const diagnosis::HeldOut* row) {
     if (row == &found.improvement->extended || row == &found.improvement->extended_and_surface)
       return report::kAfterColor;
     return row == &found.improvement->surface_only ? report::kNeutralColor : report::kBeforeColor;

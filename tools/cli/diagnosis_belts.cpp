@@ -8,13 +8,8 @@
 
 namespace chaintrue::cli {
 
-using grid::diagnosis::BeltPlacePicture;
-using grid::diagnosis::BeltsFindings;
-using grid::diagnosis::Diagnosis;
-using report::Chart;
-using report::Section;
-using report::Table;
-using report::Tone;
+using diagnosis::BeltPlacePicture;
+using diagnosis::BeltsFindings;
 
 Section frame_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
@@ -35,14 +30,13 @@ Section frame_section(const Diagnosis& found) {
 }
 
 Section anchors_section(const Diagnosis& found) {
-  Table table{
-      .columns = {{.heading = "Anchor", .width = 6},
-                  {.heading = "alone", .is_number = true, .width = 12},
-                  {.heading = "with the causes", .is_number = true, .width = 17},
-                  {.heading = "sigma", .is_number = true, .width = 8},
-                  {.heading = "until now", .is_number = true, .digits = 1, .width = 10}},
-      .caption = kAnchorsCaption,
-      .is_headed = true};
+  Table table{.columns = {{.heading = "Anchor", .width = 6},
+                          {.heading = "alone", .is_number = true, .width = 12},
+                          {.heading = "with the causes", .is_number = true, .width = 17},
+                          {.heading = "sigma", .is_number = true, .width = 8},
+                          {.heading = "until now", .is_number = true, .digits = 1, .width = 10}},
+              .caption = kAnchorsCaption,
+              .is_headed = true};
   for (const auto& c : found.belts->coordinates) {
     table.rows.push_back({{coordinate_title(c.name), c.before_mm, c.fitted_mm, c.sigma_mm}});
     if (c.stated_mm) table.rows.back().cells.emplace_back(*c.stated_mm);
@@ -68,23 +62,23 @@ Section belts_improvement_section(const Diagnosis& found) {
   }
   row("the tool, over the measured places", belts.tool.before_mm, belts.tool.after_mm);
   std::string text =
-      "The tool's error is against the causes named, the frame's place and turn left free. What the readings leave "
-      "uncertain counts in both columns";
+      "The tool's error is against the causes named, the frame's place and turn left free. What "
+      "the readings leave uncertain counts in both columns";
   text += belts.tool.scale_mm_per_m
               ? fmt::format("; with the tape the scale is uncertain by {:.2f} mm per metre.",
                             *belts.tool.scale_mm_per_m)
               : ". It is in the belts' own millimetres, whose true length belts do not show.";
-  return {"What naming it gains", {std::move(table), report::Paragraph{std::move(text)}}};
+  return {"What naming it gains", {std::move(table), Paragraph{std::move(text)}}};
 }
 
-report::Light scale_light(const Diagnosis& found) {
+Light scale_light(const Diagnosis& found) {
   const bool known = found.belts->scale.has_value();
   return {known ? Tone::good : Tone::caution,
           "Scale known?",
           known ? "yes, by the tape" : "not without a tape"};
 }
 
-std::vector<report::Figure> figures_of_belts(const Diagnosis& found) {
+std::vector<Figure> figures_of_belts(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
   return {{fmt::format("{:.2f} mm", belts.spread_before_mm), "error of one belt, anchors alone"},
           {fmt::format("{:.2f} mm", belts.residual_sigma_mm), "with what is named"}};

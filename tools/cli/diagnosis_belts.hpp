@@ -6,17 +6,18 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// The frame with its residuals, before and with the causes.
-[[nodiscard]] report::Section frame_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section frame_section(const Diagnosis& found);
 /// The anchors before and with the causes.
-[[nodiscard]] report::Section anchors_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section anchors_section(const Diagnosis& found);
 /// Errors of the belts and of the tool, before and with the causes.
-[[nodiscard]] report::Section belts_improvement_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Light scale_light(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] std::vector<report::Figure> figures_of_belts(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section belts_improvement_section(const Diagnosis& found);
+[[nodiscard]] Light scale_light(const Diagnosis& found);
+[[nodiscard]] std::vector<Figure> figures_of_belts(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

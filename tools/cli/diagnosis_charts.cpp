@@ -11,11 +11,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::PointPicture;
-using report::Arrow;
-using report::Chart;
-using report::DataTable;
+using diagnosis::PointPicture;
 using report::Outline;
 
 constexpr const char* kChains[] = {"left", "right"};
@@ -132,7 +128,7 @@ Chart strip_chart(const Diagnosis& found,
 }  // namespace
 
 Outline bed_of(const Diagnosis& found) {
-  const model::Bed& bed = found.extended_machine.bed;
+  const Bed& bed = found.extended_machine.bed;
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
@@ -149,7 +145,7 @@ Arrow arrow_of(const PointPicture& point, const Eigen::Vector2d& shift_mm) {
 
 std::string title_of_causes(const Diagnosis& found) {
   const bool act_together =
-      found.causes.size() > 1 && found.verdict != grid::diagnosis::Verdict::named_set;
+      found.causes.size() > 1 && found.verdict != diagnosis::Verdict::named_set;
   return act_together ? fmt::format("The {} causes named", found.causes.size())
                       : cause_title(found.causes.front().cause);
 }
@@ -158,7 +154,7 @@ std::string title_of_rival(const Diagnosis& found) {
   return fmt::format("Rival: {}", cause_title(*found.causes.front().rival));
 }
 
-std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
+std::vector<ChartRow> arrow_charts(const Diagnosis& found) {
   return report::arrow_rows(
       bed_of(found),
       arrows_of(found, &PointPicture::before_mm),

@@ -12,10 +12,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::Removal;
-using report::Section;
-using report::Table;
+using diagnosis::Removal;
 
 std::string left_out_name(const Diagnosis& found, const Removal& removal) {
   switch (removal.what) {

@@ -4,11 +4,12 @@
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// Which readings influence the name. Precondition: the diagnosis has a stability.
-[[nodiscard]] report::Section stability_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section stability_section(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

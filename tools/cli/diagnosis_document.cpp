@@ -7,8 +7,8 @@
 
 #include "tools/cli/diagnosis_belts.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_drawing.hpp"
 #include "tools/cli/diagnosis_checks.hpp"
+#include "tools/cli/diagnosis_drawing.hpp"
 #include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
@@ -17,12 +17,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::Verdict;
-using report::Detail;
-using report::Light;
-using report::Section;
-using report::Tone;
+using diagnosis::Verdict;
 
 /// A verdict at a glance.
 struct VerdictLights {
@@ -87,7 +82,7 @@ Light data_light(const Diagnosis& found) {
   return {Tone::good, "Enough data?", "yes"};
 }
 
-void put_the_verdict(const Diagnosis& found, report::Document& document) {
+void put_the_verdict(const Diagnosis& found, Document& document) {
   const VerdictLights& lights = lights_of(found.verdict);
   const bool left = is_something_left(found);
   // The error comes first, the same number as a fit begins with.
@@ -184,10 +179,8 @@ const std::string& machine_name(const Diagnosis& found) {
 
 }  // namespace
 
-report::Document diagnosis_document(const Diagnosis& found,
-                                    std::string_view source,
-                                    Detail detail) {
-  report::Document document;
+Document diagnosis_document(const Diagnosis& found, std::string_view source, Detail detail) {
+  Document document;
   document.title = fmt::format("Diagnosis: {}", found.grid_name);
   document.subtitle = fmt::format("{}, {}", machine_name(found), readings_counted(found));
   put_the_verdict(found, document);

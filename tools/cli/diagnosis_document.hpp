@@ -6,14 +6,15 @@
 #include <string_view>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// `source` is the input file's name, for the page's last line. Pictures are made if `detail` is
 /// page.
-[[nodiscard]] report::Document diagnosis_document(const grid::diagnosis::Diagnosis& diagnosis,
-                                                  std::string_view source,
-                                                  report::Detail detail = report::Detail::page);
+[[nodiscard]] Document diagnosis_document(const Diagnosis& diagnosis,
+                                          std::string_view source,
+                                          Detail detail = Detail::page);
 
 }  // namespace chaintrue::cli

@@ -4,14 +4,15 @@
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// The settings as they are set and as they are found with the causes at work.
-[[nodiscard]] report::Section drawn_settings_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section drawn_settings_section(const Diagnosis& found);
 /// The measures, and their prediction by settings and causes.
-[[nodiscard]] report::Section drawn_measures_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Light drawn_settings_light(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section drawn_measures_section(const Diagnosis& found);
+[[nodiscard]] Light drawn_settings_light(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

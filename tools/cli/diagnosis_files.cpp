@@ -16,17 +16,11 @@
 
 namespace chaintrue::cli {
 
-namespace files = grid::files;
-using grid::diagnosis::Diagnosis;
-
-std::string corrected_grid_text(const Diagnosis& found,
-                                grid::MeasuredGrid measured,
-                                bool order_assumed) {
+std::string corrected_grid_text(const Diagnosis& found, MeasuredGrid measured, bool order_assumed) {
   measured.machine = found.extended_machine;
   grid::append_all(measured.machine->effects, found.data_corrections);
   auto corrected = grid::corrected_data(measured);
-  if (!corrected)
-    throw files::InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});
+  if (!corrected) throw InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});
   for (auto& point : corrected->grid.points) {
     if (order_assumed) point.order.reset();
   }
@@ -52,8 +46,8 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
 }
 
 tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
-  const std::vector<grid::diagnosis::Law> none;
-  const auto declaration = grid::diagnosis::declaration_of(
+  const std::vector<diagnosis::Law> none;
+  const auto declaration = diagnosis::declaration_of(
       found.unexplained ? found.unexplained->laws : none, found.extended_machine.bed);
   if (!declaration) return tl::unexpected(declaration.error());
   return files::write_effect(*declaration);

@@ -8,21 +8,20 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// The grid for a fit on the extended machine: true positions of marks, readings without effects of
 /// the visit. An assumed order is not written.
-[[nodiscard]] std::string corrected_grid_text(const grid::diagnosis::Diagnosis& found,
-                                              grid::MeasuredGrid measured,
+[[nodiscard]] std::string corrected_grid_text(const Diagnosis& found,
+                                              MeasuredGrid measured,
                                               bool order_assumed);
 
 /// The machine with its settings calibrated and what was named in it.
-[[nodiscard]] std::string extended_machine_text(const grid::diagnosis::Diagnosis& found,
-                                                const std::string& source);
+[[nodiscard]] std::string extended_machine_text(const Diagnosis& found, const std::string& source);
 
 /// The likeliest law as a file of a declared effect, or the sentence why there is none.
-[[nodiscard]] tl::expected<std::string, std::string> law_text(
-    const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] tl::expected<std::string, std::string> law_text(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

@@ -11,16 +11,8 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using report::Cell;
-using report::Light;
-using report::Paragraph;
-using report::Section;
-using report::Table;
-using report::Tone;
-
-std::vector<ImprovementRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis) {
-  const grid::diagnosis::Transfer& transfer = *diagnosis.transferred;
+std::vector<ImprovementRow> transfer_rows(const Diagnosis& diagnosis) {
+  const diagnosis::Transfer& transfer = *diagnosis.transferred;
   std::vector<ImprovementRow> rows = {{"uncorrected, at these points", &transfer.uncalibrated},
                                       {"calibrated", &transfer.calibrated}};
   if (!diagnosis.causes.empty()) {
@@ -44,7 +36,7 @@ Table error_table(const std::vector<ImprovementRow>& rows,
                    .page_heading = fmt::format("95 % of {} below", readings),
                    .width = 9}}};
   for (const ImprovementRow& row : rows) {
-    const grid::diagnosis::HeldOut& error = *row.held_out;
+    const diagnosis::HeldOut& error = *row.held_out;
     table.rows.push_back({{row.what,
                            error.rms_mm,
                            fmt::format("{:.2f} to {:.2f}", error.low_mm, error.high_mm),
@@ -56,12 +48,12 @@ Table error_table(const std::vector<ImprovementRow>& rows,
 
 }  // namespace
 
-bool is_improvement_of_distances(const grid::diagnosis::HeldOutImprovement& improvement) {
+bool is_improvement_of_distances(const diagnosis::HeldOutImprovement& improvement) {
   return improvement.scheme.find("distances") != std::string::npos;
 }
 
-std::vector<ImprovementRow> improvement_rows(const grid::diagnosis::Diagnosis& diagnosis) {
-  const grid::diagnosis::HeldOutImprovement& improvement = *diagnosis.improvement;
+std::vector<ImprovementRow> improvement_rows(const Diagnosis& diagnosis) {
+  const diagnosis::HeldOutImprovement& improvement = *diagnosis.improvement;
   std::vector<ImprovementRow> rows = {
       {is_improvement_of_distances(improvement) ? "uncorrected" : "uncorrected, at these points",
        &improvement.uncalibrated}};
@@ -91,10 +83,10 @@ Light corrected_light(const Diagnosis& found) {
               : fmt::format("{:.2f} to {:.2f} mm, noise {:.2f}", before_mm, after_mm, floor_mm)};
 }
 
-std::vector<report::Figure> figures_of_improvement(const Diagnosis& found) {
+std::vector<Figure> figures_of_improvement(const Diagnosis& found) {
   if (!found.improvement) return {};
   const auto& improvement = *found.improvement;
-  std::vector<report::Figure> figures;
+  std::vector<Figure> figures;
   if (found.tool_today) {
     figures.push_back({fmt::format("{} mm", about_mm(found.tool_today->rms_mm)), kToolTodayLabel});
   } else {

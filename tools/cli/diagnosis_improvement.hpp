@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
@@ -14,20 +15,20 @@ namespace chaintrue::cli {
 /// A line of the table.
 struct ImprovementRow {
   std::string_view what;
-  const grid::diagnosis::HeldOut* held_out = nullptr;
+  const diagnosis::HeldOut* held_out = nullptr;
 };
 /// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
 /// where nothing was named.
-[[nodiscard]] std::vector<ImprovementRow> improvement_rows(const grid::diagnosis::Diagnosis& diagnosis);
+[[nodiscard]] std::vector<ImprovementRow> improvement_rows(const Diagnosis& diagnosis);
 /// Distances were held out: no points were read, or too few.
-[[nodiscard]] bool is_improvement_of_distances(const grid::diagnosis::HeldOutImprovement& improvement);
+[[nodiscard]] bool is_improvement_of_distances(const diagnosis::HeldOutImprovement& improvement);
 
 /// Precondition: the diagnosis has a gain.
-[[nodiscard]] report::Section improvement_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section improvement_section(const Diagnosis& found);
 /// On the points of another grid. Precondition: there is one.
-[[nodiscard]] report::Section transfer_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section transfer_section(const Diagnosis& found);
 /// For both; empty if there is no gain.
-[[nodiscard]] report::Light corrected_light(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] std::vector<report::Figure> figures_of_improvement(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Light corrected_light(const Diagnosis& found);
+[[nodiscard]] std::vector<Figure> figures_of_improvement(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

@@ -14,12 +14,10 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::Law;
-using grid::diagnosis::LawResidual;
-using grid::diagnosis::LawShape;
-using grid::diagnosis::PointPicture;
-using report::Arrow;
+using diagnosis::Law;
+using diagnosis::LawResidual;
+using diagnosis::LawShape;
+using diagnosis::PointPicture;
 
 constexpr int kCurvePoints = 200;
 /// With more waves than this only one is drawn, with all points on it.
@@ -30,7 +28,7 @@ bool is_folded(const Law& law) {
 }
 
 double degrees_of(const Law& law, double at) {
-  return grid::diagnosis::unit_of(law.of) == "rad" ? at * 180.0 / std::numbers::pi : at;
+  return diagnosis::unit_of(law.of) == "rad" ? at * 180.0 / std::numbers::pi : at;
 }
 
 /// x of a point.
@@ -41,8 +39,11 @@ double drawn(const Law& law, double at) {
 }
 
 std::string axis_title(const Law& law) {
-  const std::string_view unit = grid::diagnosis::unit_of(law.of);
-  const std::string_view words = unit == "rad" ? "degrees" : unit == "n" ? "N" : unit == "mm" ? "mm" : "visits";
+  const std::string_view unit = diagnosis::unit_of(law.of);
+  const std::string_view words = unit == "rad"  ? "degrees"
+                                 : unit == "n"  ? "N"
+                                 : unit == "mm" ? "mm"
+                                                : "visits";
   const std::string variable = variable_in_words(law);
   if (is_folded(law)) {
     return fmt::format("{}, {} past a full period of {:.4g}",
@@ -74,12 +75,12 @@ std::vector<std::pair<double, double>> curve_of(const Law& law) {
   return curve;
 }
 
-report::Chart law_chart(const Law& law, bool is_likeliest) {
+Chart law_chart(const Law& law, bool is_likeliest) {
   ResidualScatter chart{
       .title = is_likeliest ? "The likeliest" : "Its best rival",
       .caption = fmt::format("{}: {}. {}",
                              capitalised(in_words(law)),
-                             grid::diagnosis::percent(law.probability),
+                             diagnosis::percent(law.probability),
                              is_likeliest ? "The dots are the readings minus everything else that "
                                             "is known; the right curve goes through them."
                                           : "The same readings, if it were this."),
@@ -94,15 +95,15 @@ report::Chart law_chart(const Law& law, bool is_likeliest) {
 
 }  // namespace
 
-report::ChartRow law_charts(const Diagnosis& found) {
+ChartRow law_charts(const Diagnosis& found) {
   const std::vector<Law>& laws = found.unexplained->laws;
-  report::ChartRow row;
+  ChartRow row;
   for (std::size_t k = 0; k < std::min<std::size_t>(laws.size(), 2); ++k)
     row.charts.push_back(law_chart(laws[k], k == 0));
   return row;
 }
 
-std::vector<report::ChartRow> law_rest_charts(const Diagnosis& found) {
+std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
   const Law& law = found.unexplained->laws.front();
   std::vector<Arrow> before, after;
   for (const PointPicture& point : found.points) {
@@ -118,8 +119,8 @@ std::vector<report::ChartRow> law_rest_charts(const Diagnosis& found) {
       bed_of(found),
       before,
       after,
-      {found.causes.empty() ? "Without it: the machine calibrated" :
-          "Without it: the residual with the causes",
+      {found.causes.empty() ? "Without it: the machine calibrated"
+                            : "Without it: the residual with the causes",
        "From where the tool should be to where it was. Grey: one sigma of the noise at that mark.",
        "With it, same scale",
        "Neighbours that still point the same way are an error that it does not explain either."});

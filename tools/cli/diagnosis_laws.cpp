@@ -13,78 +13,76 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Law;
-using report::Item;
+using diagnosis::Law;
 
 /// Hints are worded as hints, and not given for a law that is only possible.
-std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
+std::vector<Item> details_of(const Law& law, const Diagnosis& found) {
   std::vector<Item> details;
-  if (law.probability < grid::diagnosis::kLawLikely) return details;
+  if (law.probability < diagnosis::kLawLikely) return details;
   details.push_back({fmt::format("on average it {}: {} of the residual of the {}",
                                  average_in_words(law, found.observations),
-                                 grid::diagnosis::percent(law.share),
+                                 diagnosis::percent(law.share),
                                  found.belts ? "anchors" : "settings")});
   if (law.held_out) {
     const auto& [inside, outside] = *law.held_out;
-    details.push_back({fmt::format(
-        "every fourth place left out: predicted within {:.2f} mm with it, {:.2f} without; a quarter of the bed "
-        "left out: {:.2f} with it, {:.2f} without",
-        inside.with_mm,
-        inside.without_mm,
-        outside.with_mm,
-        outside.without_mm)});
+    details.push_back(
+        {fmt::format("every fourth place left out: predicted within {:.2f} mm with it, {:.2f} "
+                     "without; a quarter of the bed left out: {:.2f} with it, {:.2f} without",
+                     inside.with_mm,
+                     inside.without_mm,
+                     outside.with_mm,
+                     outside.without_mm)});
   }
-  if (law.shape_probability < grid::diagnosis::kLawClaimed) {
+  if (law.shape_probability < diagnosis::kLawClaimed) {
     details.push_back({fmt::format("that it looks like this and not otherwise: {}",
-                                   grid::diagnosis::percent(law.shape_probability))});
+                                   diagnosis::percent(law.shape_probability))});
   }
-  const std::vector<std::string> hints =
-      found.belts ? grid::diagnosis::hints_of(law, found.belts->machine)
-                  : grid::diagnosis::hints_of(law, found.extended_machine);
-  for (const std::string& hint : hints)
-    details.push_back({"a hint: " + hint});
+  const std::vector<std::string> hints = found.belts
+                                             ? diagnosis::hints_of(law, found.belts->machine)
+                                             : diagnosis::hints_of(law, found.extended_machine);
+  for (const std::string& hint : hints) details.push_back({"a hint: " + hint});
   return details;
 }
 
 }  // namespace
 
-report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
+Section laws_section(const Diagnosis& found) {
   const std::vector<Law>& laws = found.unexplained->laws;
-  report::List list;
+  List list;
   for (const Law& law : laws) {
     Item& item = list.items.emplace_back(Item{
-        fmt::format("{}: {}", capitalised(in_words(law)), grid::diagnosis::percent(law.probability))});
+        fmt::format("{}: {}", capitalised(in_words(law)), diagnosis::percent(law.probability))});
     item.items = details_of(law, found);
   }
-  report::Section section{"What the rest may depend on", {std::move(list)}};
+  Section section{"What the rest may depend on", {std::move(list)}};
   if (!laws.front().points.empty()) {
     section.blocks.emplace_back(law_charts(found));
     if (!found.points.empty())
-      for (report::ChartRow& row : law_rest_charts(found)) section.blocks.emplace_back(std::move(row));
+      for (ChartRow& row : law_rest_charts(found)) section.blocks.emplace_back(std::move(row));
   }
-  const bool is_claimed = laws.front().probability >= grid::diagnosis::kLawClaimed;
-  section.blocks.emplace_back(report::Paragraph{
-      is_claimed && found.belts ? "No listed cause explains this."
-      : is_claimed ? "No listed cause explains this. --law writes it as a cause of your own, to be named, "
-                   "edited and given back with --effects."
-                 : fmt::format("These {} do not show which of these it is, if any.",
-                               name(found.observations))});
+  const bool is_claimed = laws.front().probability >= diagnosis::kLawClaimed;
+  section.blocks.emplace_back(
+      Paragraph{is_claimed && found.belts ? "No listed cause explains this."
+                : is_claimed ? "No listed cause explains this. --law writes it as a cause of your "
+                               "own, to be named, edited and given back with --effects."
+                             : fmt::format("These {} do not show which of these it is, if any.",
+                                           name(found.observations))});
   return section;
 }
 
-report::Section declared_section(const grid::diagnosis::Diagnosis& found) {
-  using Says = grid::diagnosis::DeclaredAnswer::Says;
-  report::Table table{{{.width = 34}, {}, {.gap = 2}}, {}, ""};
+Section declared_section(const Diagnosis& found) {
+  using Says = diagnosis::DeclaredAnswer::Says;
+  Table table{{{.width = 34}, {}, {.gap = 2}}, {}, ""};
   for (const auto& [cause, says, probability] : found.declared) {
     const char* words = says == Says::confirmed ? "confirmed: it acts here"
-                        : says == Says::denied  ? "denied: with the values in the file it would "
-                                                  "have shown"
-                        : says == Says::open    ? "left open: measure more points"
-                                                : "not testable with these readings";
-    table.rows.push_back({{cause_title(cause),
-                           words,
-                           says == Says::not_testable ? report::Cell{}
-                                                      : report::Cell(grid::diagnosis::percent(probability))}});
+                        : says == Says::denied
+                            ? "denied: with the values in the file it would have shown"
+                        : says == Says::open ? "left open: measure more points"
+                                             : "not testable with these readings";
+    table.rows.push_back(
+        {{cause_title(cause),
+          words,
+          says == Says::not_testable ? Cell{} : Cell(diagnosis::percent(probability))}});
   }
   return {"Effects of your own", {std::move(table)}};
 }

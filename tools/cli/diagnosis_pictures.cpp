@@ -6,24 +6,20 @@
 
 namespace chaintrue::cli {
 
-using grid::diagnosis::Diagnosis;
-using report::Paragraph;
-using report::Section;
-
 Section arrows_section(const Diagnosis& found) {
   if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
   Section section{"What it does to the tool", {}};
-  for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
+  for (ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_chart(found));
   return section;
 }
 
 Section signature_section(const Diagnosis& found) {
   Section section{"Why this cause", {}};
-  section.blocks.emplace_back(Paragraph{
-      "What was measured, next to the effect of the cause, both after refitting the settings. The "
-      "cause is right if both pictures agree and only noise remains."});
-  for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
+  section.blocks.emplace_back(
+      Paragraph{"What was measured, next to the effect of the cause, both after refitting the "
+                "settings. The cause is right if both pictures agree and only noise remains."});
+  for (Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
   return section;
 }
@@ -37,14 +33,14 @@ Section residuals_section(const Diagnosis& found) {
                   "so drift, skipped links and friction cannot be looked for."});
     return section;
   }
-  for (report::ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));
+  for (ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));
   section.blocks.emplace_back(angle_charts(found));
   if (has_order(found)) {
     section.blocks.emplace_back(order_charts(found));
   } else {
-    section.blocks.emplace_back(Paragraph{
-        "The points do not say in which order they were visited, so drift, skipped links and "
-        "friction cannot be looked for."});
+    section.blocks.emplace_back(
+        Paragraph{"The points do not say in which order they were visited, so drift, skipped links "
+                  "and friction cannot be looked for."});
   }
   if (!found.distances.empty()) section.blocks.emplace_back(distance_scatter_charts(found));
   return section;

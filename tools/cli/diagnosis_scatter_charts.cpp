@@ -17,11 +17,9 @@
 namespace chaintrue::cli {
 namespace {
 
+using diagnosis::PointPicture;
 using grid::row_of;
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::PointPicture;
 using model::Side;
-using report::Chart;
 
 constexpr const char* kPaidOutColor = report::kThirdColor;
 constexpr const char* kTakenInColor = report::kFourthColor;
@@ -105,10 +103,10 @@ double length_mm(const PointPicture& point, Side chain) { return point.lengths[c
 
 }  // namespace
 
-std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
+std::vector<ChartRow> length_charts(const Diagnosis& found) {
   const model::Sprocket& sprocket = found.extended_machine.sprocket;
   const double turn_mm = sprocket.teeth * sprocket.pitch_mm;
-  std::vector<report::ChartRow> rows;
+  std::vector<ChartRow> rows;
   for (const Side chain : model::kSides) {
     Scatter plain{.title = fmt::format("Against the {} chain's length", chain_name(chain)),
                   .caption = "",
@@ -135,8 +133,8 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
   return rows;
 }
 
-report::ChartRow angle_charts(const Diagnosis& found) {
-  report::ChartRow row;
+ChartRow angle_charts(const Diagnosis& found) {
+  ChartRow row;
   for (const Side chain : model::kSides) {
     row.charts.push_back(scatter_chart(
         found,
@@ -161,24 +159,23 @@ bool has_order(const Diagnosis& found) {
   });
 }
 
-report::ChartRow order_charts(const Diagnosis& found) {
+ChartRow order_charts(const Diagnosis& found) {
   // A cause of the visit shows before it is removed; without one, other causes would only hide the
   // remainder.
   const bool of_the_visit = grid::any_of(found.causes, [](const auto& cause) {
     return model::effects::depends_on_visit(*cause.cause.effect);
   });
   const bool shows_rest = !of_the_visit && !found.causes.empty();
-  report::ChartRow row;
+  ChartRow row;
   for (const Side chain : model::kSides) {
     row.charts.push_back(scatter_chart(
         found,
         {.title = fmt::format("The {} chain, visit by visit{}",
                               chain_name(chain),
                               shows_rest ? ": what is left" : ""),
-         .caption = chain == Side::left
-                        ? "Two layers of colour are friction or play; a slope is drift; a "
-                          "step is a skipped link."
-                        : "",
+         .caption = chain == Side::left ? "Two layers of colour are friction or play; a slope is "
+                                          "drift; a step is a skipped link."
+                                        : "",
          .x_title = "number of the visit",
          .x = [](const PointPicture& point, Side) { return static_cast<double>(*point.order); },
          .chain = chain,

@@ -13,16 +13,10 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::BudgetLine;
-using grid::diagnosis::Cause;
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::Verdict;
+using diagnosis::BudgetLine;
+using diagnosis::Cause;
+using diagnosis::Verdict;
 using report::Column;
-using report::Item;
-using report::List;
-using report::Paragraph;
-using report::Section;
-using report::Table;
 
 /// Improbable hypotheses are not listed.
 constexpr double kWorthALine = 0.001;
@@ -59,10 +53,10 @@ std::string changes_words(const BudgetLine& line) {
 
 std::string budget_words(const Diagnosis& found) {
   const bool of_distances = is_of_distances(found);
-  const std::string today =
-      found.tool_today ? fmt::format("Over the measured part the error is {} mm. ",
-                                     about_mm(found.tool_today->rms_mm))
-                       : "";
+  const std::string today = found.tool_today
+                                ? fmt::format("Over the measured part the error is {} mm. ",
+                                              about_mm(found.tool_today->rms_mm))
+                                : "";
   return fmt::format(
       "{}The parts are counted at these {} alone: there the {} {:.2f} mm rms, uncorrected. The "
       "second number is what would be left with this part alone taken away.{}",
@@ -123,7 +117,7 @@ Section causes_section(const Diagnosis& found) {
                                                       : "Cause",
                   {std::move(list)}};
   if (auto charts = cause_charts(found); !charts.empty())
-    section.blocks.emplace_back(report::ChartRow{std::move(charts)});
+    section.blocks.emplace_back(ChartRow{std::move(charts)});
   return section;
 }
 
@@ -133,7 +127,7 @@ Section probabilities_section(const Diagnosis& found) {
     if (hypothesis.probability < kWorthALine) continue;
     table.rows.push_back({{percent(hypothesis.probability), hypothesis_title(hypothesis)}});
   }
-  report::Chart chart = probability_chart(found);
+  Chart chart = probability_chart(found);
   chart.alternative = std::move(table);
   Section section{"Probabilities, each for itself: causes can act together", {std::move(chart)}};
   if (!found.belts && !found.drawing)

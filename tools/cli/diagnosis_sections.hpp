@@ -4,28 +4,29 @@
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// The parts of the error. Precondition: the diagnosis has a budget.
-[[nodiscard]] report::Section budget_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section budget_section(const Diagnosis& found);
 /// The named causes with size, probability and remedy. Precondition: a cause is named.
-[[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section causes_section(const Diagnosis& found);
 /// Possible variables of the rest. Precondition: some law is reported.
-[[nodiscard]] report::Section laws_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section laws_section(const Diagnosis& found);
 /// The result for each declared effect. Precondition: there are some.
-[[nodiscard]] report::Section declared_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section declared_section(const Diagnosis& found);
 /// The next measurements, numbered. Precondition: there are some.
-[[nodiscard]] report::Section next_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section next_section(const Diagnosis& found);
 /// The relevant hypotheses, and the remainder.
-[[nodiscard]] report::Section probabilities_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Section settings_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Section outliers_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section probabilities_section(const Diagnosis& found);
+[[nodiscard]] Section settings_section(const Diagnosis& found);
+[[nodiscard]] Section outliers_section(const Diagnosis& found);
 /// What was looked for and is absent.
-[[nodiscard]] report::Section bounds_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Section not_testable_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section bounds_section(const Diagnosis& found);
+[[nodiscard]] Section not_testable_section(const Diagnosis& found);
 /// Assumptions, noise and corrections of the data.
-[[nodiscard]] report::Section remarks_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Section remarks_section(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

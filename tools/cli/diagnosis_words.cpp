@@ -13,10 +13,9 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Hypothesis;
-using grid::diagnosis::MeasurementKind;
-using grid::diagnosis::NextMeasurement;
-using grid::diagnosis::ParameterEstimate;
+using diagnosis::Hypothesis;
+using diagnosis::MeasurementKind;
+using diagnosis::ParameterEstimate;
 
 struct Words {
   std::string_view word;
@@ -53,7 +52,7 @@ std::string title(std::string_view id, std::string_view side) {
   return side.empty() ? spaced(id) : fmt::format("{}, {}", spaced(id), side);
 }
 
-bool same_place(const model::MarkPoint& a, const model::MarkPoint& b) {
+bool same_place(const MarkPoint& a, const MarkPoint& b) {
   return a.x_mm == b.x_mm && a.y_mm == b.y_mm;
 }
 
@@ -69,8 +68,7 @@ std::string share_percent(double share) {
 }
 
 std::string reading_in_words(const NextMeasurement& next) {
-  std::string text =
-      fmt::format("Measure {}", grid::diagnosis::reading_words(*next.reading, next.side));
+  std::string text = fmt::format("Measure {}", diagnosis::reading_words(*next.reading, next.side));
   const auto* known = std::find_if(std::begin(kReadings),
                                    std::end(kReadings),
                                    [&](const auto& one) { return one.what == *next.reading; });
@@ -94,19 +92,17 @@ std::string follow_up_in_words(const NextMeasurement& next, bool again, bool by_
 
 }  // namespace
 
-std::string cause_title(const grid::diagnosis::CauseId& cause) {
+std::string cause_title(const diagnosis::CauseId& cause) {
   return title(cause.effect->id, name(cause.side));
 }
 
-std::string cause_title(const model::AppliedEffect& effect) {
-  return title(effect.effect, effect.side);
-}
+std::string cause_title(const AppliedEffect& effect) { return title(effect.effect, effect.side); }
 
-std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagnosis& found) {
-  std::vector<grid::diagnosis::Cause> left_out = found.causes;
-  std::erase_if(left_out, [&](const grid::diagnosis::Cause& cause) {
+std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found) {
+  std::vector<diagnosis::Cause> left_out = found.causes;
+  std::erase_if(left_out, [&](const diagnosis::Cause& cause) {
     // Effects stated in the machine file have no probability.
-    const auto is_it = [&](const model::AppliedEffect& one) {
+    const auto is_it = [&](const AppliedEffect& one) {
       return one.probability && one.effect == cause.cause.effect->id &&
              one.side == name(cause.cause.side);
     };
@@ -125,57 +121,57 @@ std::string hypothesis_title(const Hypothesis& hypothesis) {
 
 std::string point_name(std::size_t index) { return fmt::format("point {}", index + 1); }
 
-bool is_of_distances(const grid::diagnosis::Diagnosis& found) {
-  return found.observations == grid::diagnosis::Observations::distances;
+bool is_of_distances(const Diagnosis& found) {
+  return found.observations == diagnosis::Observations::distances;
 }
 
-std::string_view files_in_words(const grid::diagnosis::Diagnosis& found) {
+std::string_view files_in_words(const Diagnosis& found) {
   constexpr std::string_view kFiles[] = {
       "GRID", "HOLES", "GRID --with HOLES", "BELTS", "DRAWING"};  // by Observations
   return kFiles[static_cast<std::size_t>(found.observations)];
 }
 
-std::string readings_counted(const grid::diagnosis::Diagnosis& found) {
+std::string readings_counted(const Diagnosis& found) {
   const std::string points = fmt::format("{} points", found.points.size());
   const std::string distances = fmt::format("{} distances", found.distances.size());
   switch (found.observations) {
-    case grid::diagnosis::Observations::points:
+    case diagnosis::Observations::points:
       return points;
-    case grid::diagnosis::Observations::distances:
+    case diagnosis::Observations::distances:
       return distances;
-    case grid::diagnosis::Observations::belts:
+    case diagnosis::Observations::belts:
       return fmt::format("{} places", found.belts ? found.belts->places.size() : 0);
-    case grid::diagnosis::Observations::drawing:
+    case diagnosis::Observations::drawing:
       return fmt::format("{} measures", found.drawing ? found.drawing->measures.size() : 0);
-    case grid::diagnosis::Observations::both:
+    case diagnosis::Observations::both:
       break;
   }
   return points + " and " + distances;
 }
 
-bool is_distance(const grid::diagnosis::Diagnosis& found, const grid::diagnosis::Outlier& bad) {
-  return is_of_distances(found) || bad.of == grid::diagnosis::Observations::distances;
+bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad) {
+  return is_of_distances(found) || bad.of == diagnosis::Observations::distances;
 }
 
-std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index) {
+std::string distance_name(const Diagnosis& found, std::size_t index) {
   for (const auto& distance : found.distances) {
     if (distance.index == index) return "distance " + words_of_ends(distance);
   }
   return fmt::format("distance {}", index + 1);
 }
 
-std::string bound_in_words(const grid::diagnosis::Bound& bound) {
+std::string bound_in_words(const diagnosis::Bound& bound) {
   if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
   if (bound.parameter == "teeth" && bound.upper_95 == 0.0) return "not one tooth";
-  return grid::diagnosis::in_workshop_units(bound.cause, {bound.parameter, bound.upper_95, 0.0});
+  return diagnosis::in_workshop_units(bound.cause, {bound.parameter, bound.upper_95, 0.0});
 }
 
-bool is_surprising(const grid::diagnosis::LeftOver& left_over) {
+bool is_surprising(const diagnosis::LeftOver& left_over) {
   constexpr double kSurprising = 0.01;
   return left_over.p_value < kSurprising;
 }
 
-std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
+std::string left_over_sentence(const diagnosis::LeftOver& left_over) {
   if (!is_surprising(left_over)) {
     return fmt::format("The residual looks like noise: noise alone gives as much in {} of cases.",
                        share_percent(left_over.p_value));
@@ -187,13 +183,13 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
     text += fmt::format(" It follows {} best ({} of its square): look there.",
-                        grid::diagnosis::coordinate_words(left_over.follows),
+                        diagnosis::coordinate_words(left_over.follows),
                         share_percent(left_over.share));
   }
   return text;
 }
 
-std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis, std::size_t position) {
+std::string chance_then(const Diagnosis& diagnosis, std::size_t position) {
   const NextMeasurement& next = diagnosis.next_measurements.at(position);
   if (diagnosis.belts && next.kind == MeasurementKind::distance) return "";
   return fmt::format(" {} then has probability {}.",
@@ -201,7 +197,7 @@ std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis, std::size_t
                      percent(next.raises_probability_to));
 }
 
-std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& diagnosis) {
+std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis) {
   std::vector<std::string> sentences;
   const auto& list = diagnosis.next_measurements;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -214,7 +210,7 @@ std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& d
   return sentences;
 }
 
-std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& diagnosis) {
+std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis) {
   std::vector<FollowUpPlace> places;
   const auto& list = diagnosis.next_measurements;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -233,7 +229,7 @@ std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& di
   return places;
 }
 
-std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
+std::string bad_belt_in_words(const diagnosis::Outlier& bad) {
   if (!bad.belt)
     return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index + 1);
   std::string text = fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)",

@@ -10,61 +10,58 @@
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/coordinates.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/typeset.hpp"
 
 namespace chaintrue::cli {
 
 /// "chain pitch error, left"
-[[nodiscard]] std::string cause_title(const grid::diagnosis::CauseId& cause);
-[[nodiscard]] std::string cause_title(const model::AppliedEffect& effect);
+[[nodiscard]] std::string cause_title(const diagnosis::CauseId& cause);
+[[nodiscard]] std::string cause_title(const AppliedEffect& effect);
 /// Named causes that are neither in the diagnosis' machine nor in the corrected data: rivals of
 /// those that are, and causes that may be the tape's.
-[[nodiscard]] std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found);
 /// Also accepts nothing, unknown, noise and bad_points.
-[[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
+[[nodiscard]] std::string hypothesis_title(const diagnosis::Hypothesis& hypothesis);
 
 /// "point 17", counted from 1.
 [[nodiscard]] std::string point_name(std::size_t index);
 /// "distance A-B", by its position in the file.
-[[nodiscard]] std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index);
+[[nodiscard]] std::string distance_name(const Diagnosis& found, std::size_t index);
 /// Whether distances between holes were measured instead of points.
-[[nodiscard]] bool is_of_distances(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] bool is_of_distances(const Diagnosis& found);
 /// A bound in a workshop unit.
-[[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
+[[nodiscard]] std::string bound_in_words(const diagnosis::Bound& bound);
 /// Noise alone gives as much in less than one of a hundred cases.
-[[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
+[[nodiscard]] bool is_surprising(const diagnosis::LeftOver& left_over);
 /// A sentence on the residual with the named causes.
-[[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
+[[nodiscard]] std::string left_over_sentence(const diagnosis::LeftOver& left_over);
 /// The files of a diagnosis as a command names them: GRID, HOLES, both, or BELTS.
-[[nodiscard]] std::string_view files_in_words(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] std::string_view files_in_words(const Diagnosis& found);
 
 /// The data: "34 points", "20 distances", "34 points and 20 distances", "99 places".
-[[nodiscard]] std::string readings_counted(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] std::string readings_counted(const Diagnosis& found);
 /// A bad one is a distance, and no point.
-[[nodiscard]] bool is_distance(const grid::diagnosis::Diagnosis& found,
-                               const grid::diagnosis::Outlier& bad);
+[[nodiscard]] bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad);
 /// " A single right name then has probability 95 %." of the next measurement with that position;
 /// empty if it determines the scale of belts, which does not discriminate between causes.
-[[nodiscard]] std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis,
-                                      std::size_t position);
+[[nodiscard]] std::string chance_then(const Diagnosis& diagnosis, std::size_t position);
 /// The next measurements as sentences: what to do, where, and how well.
-[[nodiscard]] std::vector<std::string> follow_ups_in_words(
-    const grid::diagnosis::Diagnosis& diagnosis);
+[[nodiscard]] std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis);
 /// Their places, each once: "3, 6" where the third and the sixth are at one mark.
 struct FollowUpPlace {
   std::string numbers;
-  model::MarkPoint mark;
+  MarkPoint mark;
   std::string what;
   double raises_probability_to = 0.0;
 };
-[[nodiscard]] std::vector<FollowUpPlace> follow_up_places(
-    const grid::diagnosis::Diagnosis& diagnosis);
+[[nodiscard]] std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis);
 
-using grid::diagnosis::off_in_words;
-using grid::diagnosis::percent;
-using grid::diagnosis::sizes_in_words;
+using diagnosis::off_in_words;
+using diagnosis::percent;
+using diagnosis::sizes_in_words;
 /// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
-[[nodiscard]] std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad);
+[[nodiscard]] std::string bad_belt_in_words(const diagnosis::Outlier& bad);
 using report::capitalised;
 using report::fixed;
 

@@ -15,12 +15,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::DistancePicture;
-using grid::diagnosis::NextMeasurement;
-using model::MarkPoint;
-using report::Chart;
-using report::DataTable;
+using diagnosis::DistancePicture;
 
 constexpr double kWidestPx = 9.0;
 constexpr double kThinPx = 1.2;
@@ -35,7 +30,7 @@ MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPo
   for (const auto& hole : found.holes) {
     if (hole.name == name) return hole.mark;
   }
-  const model::Bed& bed = found.extended_machine.bed;
+  const Bed& bed = found.extended_machine.bed;
   if (name == "left") return {-0.5 * bed.width_mm, alongside.y_mm};
   if (name == "right") return {0.5 * bed.width_mm, alongside.y_mm};
   if (name == "top") return {alongside.x_mm, 0.5 * bed.height_mm};
@@ -48,8 +43,8 @@ Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
   return {from, place_of(found, distance.to, from)};
 }
 
-std::vector<report::Arrow> marks_of(const Diagnosis& found) {
-  std::vector<report::Arrow> marks;
+std::vector<Arrow> marks_of(const Diagnosis& found) {
+  std::vector<Arrow> marks;
   for (const auto& hole : found.holes)
     marks.push_back({.name = hole.name, .x_mm = hole.mark.x_mm, .y_mm = hole.mark.y_mm});
   return marks;
@@ -105,7 +100,7 @@ class Panels {
   }
   Chart finish(Chart chart) {
     chart.specification = "hole_distances";
-    std::vector<report::Arrow> marks = marks_of(found_);
+    std::vector<Arrow> marks = marks_of(found_);
     grid::append_all(marks, marks_);
     chart.signals = report::bed_signals(bed_of(found_), marks);
     chart.signals.push_back({"panels", static_cast<double>(heads_.rows.size())});
@@ -116,7 +111,7 @@ class Panels {
  private:
   const Diagnosis& found_;
   double number_ = 0.0;
-  std::vector<report::Arrow> marks_;
+  std::vector<Arrow> marks_;
   DataTable heads_{"heads", {"panel", "title", "note"}, {}};
   DataTable lines_{
       "lines",
@@ -210,7 +205,7 @@ Chart distance_strip_chart(const Diagnosis& found) {
   return residual_panels(found, panels, "Distance by distance");
 }
 
-report::ChartRow distance_scatter_charts(const Diagnosis& found) {
+ChartRow distance_scatter_charts(const Diagnosis& found) {
   return {{scatter_chart(found,
                          {"Against the distance's length",
                           "A slope is a scale: a tape, or both chains, long or short.",

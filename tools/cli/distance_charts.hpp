@@ -6,17 +6,18 @@
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 /// The calibrated machine next to the machine with the named causes.
-[[nodiscard]] report::Chart distance_chart(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Chart distance_chart(const Diagnosis& found);
 /// Measured, best cause, rival, remainder. Precondition: a cause is named.
-[[nodiscard]] report::Chart distance_strip_chart(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Chart distance_strip_chart(const Diagnosis& found);
 /// Residuals against the distance's length, and against the way it was measured.
-[[nodiscard]] report::ChartRow distance_scatter_charts(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] ChartRow distance_scatter_charts(const Diagnosis& found);
 /// What was measured, in grey, and what to measure next.
-[[nodiscard]] report::Chart next_distances_chart(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] Chart next_distances_chart(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

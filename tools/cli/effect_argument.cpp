@@ -23,31 +23,29 @@ std::string_view take_until(std::string_view& text, char mark) {
   return taken;
 }
 
-std::optional<model::AppliedEffect> parse_form(const std::string& argument,
-                                               OptionProblems& problems) {
+std::optional<AppliedEffect> parse_form(const std::string& argument, OptionProblems& problems) {
   std::string_view rest = argument;
-  model::AppliedEffect effect;
+  AppliedEffect effect;
   effect.effect = take_until(rest, ':');
   effect.side = take_until(rest, ':');
   if (effect.side == "-") effect.side.clear();
   if (rest.empty()) {
-    problems.add("--effect", argument, std::string(kForm), grid::ProblemKind::bad_syntax);
+    problems.add("--effect", argument, std::string(kForm), ProblemKind::bad_syntax);
     return std::nullopt;
   }
   while (!rest.empty()) {
     std::string_view value = take_until(rest, ',');
     const std::string key(take_until(value, '='));
-    const auto number = grid::files::number_of(value);
+    const auto number = files::number_of(value);
     if (!number) {
       problems.add("--effect",
                    argument,
                    fmt::format("a number after {}=, as in {}", key, kForm),
-                   grid::ProblemKind::not_a_number);
+                   ProblemKind::not_a_number);
       return std::nullopt;
     }
     if (!effect.parameters.emplace(key, *number).second) {
-      problems.add(
-          "--effect", argument, fmt::format("{} once", key), grid::ProblemKind::repeated_key);
+      problems.add("--effect", argument, fmt::format("{} once", key), ProblemKind::repeated_key);
       return std::nullopt;
     }
   }
@@ -59,7 +57,7 @@ std::optional<model::AppliedEffect> parse_form(const std::string& argument,
 void OptionProblems::add(std::string_view option,
                          std::string value,
                          std::string expected,
-                         grid::ProblemKind kind) {
+                         ProblemKind kind) {
   problems_.push_back(
       {"command line", std::string(option), std::move(value), std::move(expected), {}, kind});
 }
@@ -69,35 +67,35 @@ void OptionProblems::require(std::string_view option, double value, double least
   add(option,
       fmt::format("{}", value),
       fmt::format("a number from {} to {}", least, most),
-      grid::ProblemKind::out_of_range);
+      ProblemKind::out_of_range);
 }
 
 void OptionProblems::take_from(const std::function<void()>& check) {
   try {
     check();
-  } catch (const grid::files::InputError& error) {
+  } catch (const InputError& error) {
     grid::append_all(problems_, error.problems());
   }
 }
 
 void OptionProblems::throw_if_any() const {
-  if (!problems_.empty()) throw grid::files::InputError(problems_);
+  if (!problems_.empty()) throw InputError(problems_);
 }
 
-std::vector<model::AppliedEffect> parse_effect_words(const std::vector<std::string>& arguments,
-                                                     OptionProblems& problems) {
-  std::vector<model::AppliedEffect> effects;
+std::vector<AppliedEffect> parse_effect_words(const std::vector<std::string>& arguments,
+                                              OptionProblems& problems) {
+  std::vector<AppliedEffect> effects;
   for (const std::string& argument : arguments) {
-    effects.push_back(parse_form(argument, problems).value_or(model::AppliedEffect{}));
+    effects.push_back(parse_form(argument, problems).value_or(AppliedEffect{}));
   }
   return effects;
 }
 
-std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
-                                                const model::Machine& machine,
-                                                OptionProblems& problems) {
-  std::vector<model::AppliedEffect> effects;
-  model::Machine with = machine;
+std::vector<AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
+                                         const Machine& machine,
+                                         OptionProblems& problems) {
+  std::vector<AppliedEffect> effects;
+  Machine with = machine;
   std::vector<const std::string*> origin(machine.effects.size(), nullptr);
   for (const std::string& argument : arguments) {
     const auto effect = parse_form(argument, problems);
@@ -119,7 +117,7 @@ std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& 
                    problem.value.empty() ? *origin[index]
                                          : fmt::format("{} in {}", problem.value, *origin[index]),
                    problem.expected + what,
-                   grid::ProblemKind::impossible);
+                   ProblemKind::impossible);
     }
   }
   return effects;
@@ -128,7 +126,7 @@ std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& 
 std::optional<NamedNumber> named_number(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) return std::nullopt;
-  const auto value = grid::files::number_of(text.substr(equals + 1));
+  const auto value = files::number_of(text.substr(equals + 1));
   if (!value) return std::nullopt;
   return NamedNumber{std::string(text.substr(0, equals)), *value};
 }

@@ -11,37 +11,34 @@
 
 #include "grid/files/input_error.hpp"
 #include "model/machine.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// Collects all problems of a command's values and throws them together.
 class OptionProblems {
  public:
-  void add(std::string_view option,
-           std::string value,
-           std::string expected,
-           grid::ProblemKind kind);
+  void add(std::string_view option, std::string value, std::string expected, ProblemKind kind);
   /// `value` is finite and within [least, most].
   void require(std::string_view option, double value, double least, double most);
-  /// Adds the problems of a files::InputError thrown by `check`.
+  /// Adds the problems of a InputError thrown by `check`.
   void take_from(const std::function<void()>& check);
   void throw_if_any() const;
 
  private:
-  std::vector<grid::files::InputProblem> problems_;
+  std::vector<files::InputProblem> problems_;
 };
 
 /// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
 /// argument of another form is a problem, as is an effect without a name.
-[[nodiscard]] std::vector<model::AppliedEffect> parse_effect_words(
+[[nodiscard]] std::vector<AppliedEffect> parse_effect_words(
     const std::vector<std::string>& arguments, OptionProblems& problems);
 
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` in addition to
 /// its own.
-[[nodiscard]] std::vector<model::AppliedEffect> parse_effects(
-    const std::vector<std::string>& arguments,
-    const model::Machine& machine,
-    OptionProblems& problems);
+[[nodiscard]] std::vector<AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
+                                                       const Machine& machine,
+                                                       OptionProblems& problems);
 
 struct NamedNumber {
   std::string name;

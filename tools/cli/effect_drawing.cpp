@@ -12,9 +12,9 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::synthetic::EffectPicture;
-using grid::synthetic::ShiftedMark;
-using grid::synthetic::ShiftedSquare;
+using synthetic::EffectPicture;
+using synthetic::ShiftedMark;
+using synthetic::ShiftedSquare;
 
 // The sheet of paper, in its own units (pixels at 100 %).
 constexpr double kWidth = 960.0, kMargin = 30.0, kCaption = 26.0;
@@ -53,7 +53,7 @@ void add_arrow(Svg& svg, double x, double y, double dx, double dy, std::string_v
            look);
 }
 
-void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const model::Bed& bed) {
+void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const Bed& bed) {
   double largest = 0.0;
   for (const ShiftedMark& mark : picture.marks)
     largest = std::max({largest, mark.as_stated_mm.norm(), mark.calibrated_mm.norm()});
@@ -108,8 +108,8 @@ void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) 
 
 }  // namespace
 
-std::string draw_effect(const model::Machine& machine, const EffectPicture& picture) {
-  const model::Bed& bed = machine.bed;
+std::string draw_effect(const Machine& machine, const EffectPicture& picture) {
+  const Bed& bed = machine.bed;
   const BedView view(
       bed.width_mm, bed.height_mm, {kMargin, 3.0 * kCaption}, kWidth - 2.0 * kMargin);
   const double squares_top = view.y(-0.5 * bed.height_mm) + 3.0 * kCaption;
@@ -120,11 +120,10 @@ std::string draw_effect(const model::Machine& machine, const EffectPicture& pict
   Svg svg(kWidth, squares_top + kSquareSize + 3.0 * kCaption, "font-size=\"14\"", title);
   svg.fill();
   svg.text(kMargin, 22.0, title);
-  svg.text(
-      kMargin,
-      42.0,
-      "The tool's error: with the machine file as it is (orange), and after calibrating motors "
-      "and zeros (blue)");
+  svg.text(kMargin,
+           42.0,
+           "The tool's error: with the machine file as it is (orange), and after calibrating "
+           "motors and zeros (blue)");
   add_bed(svg, view, picture, bed);
   for (std::size_t i = 0; i < picture.squares.size(); ++i)
     add_square(

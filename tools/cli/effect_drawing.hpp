@@ -8,12 +8,13 @@
 
 #include "grid/synthetic/effect_picture.hpp"
 #include "model/machine.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// Same picture, same bytes.
-[[nodiscard]] std::string draw_effect(const model::Machine& machine,
-                                      const grid::synthetic::EffectPicture& picture);
+[[nodiscard]] std::string draw_effect(const Machine& machine,
+                                      const synthetic::EffectPicture& picture);
 
 /// `3`, `0.17`, `6e-06`: three digits, without trailing zeros.
 [[nodiscard]] std::string short_number(double value);

@@ -31,8 +31,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace synthetic = grid::synthetic;
 using model::effects::Effect;
 using model::effects::EffectParameter;
 using model::effects::EffectSide;
@@ -42,8 +40,8 @@ struct EffectsOptions {
   std::string machine;
   std::string side;
   std::vector<std::string> values;
-  double length_noise_mm = grid::StatedNoise{}.length_mm;
-  double position_noise_mm = grid::StatedNoise{}.position_mm;
+  double length_noise_mm = StatedNoise{}.length_mm;
+  double position_noise_mm = StatedNoise{}.position_mm;
   std::string drawing;
   /// A machine to draw every cause on, and the page.
   std::string atlas;
@@ -55,9 +53,8 @@ struct EffectsOptions {
 };
 
 /// The machine to show an effect on, or any, with what is declared.
-model::Machine machine_of(const EffectsOptions& options) {
-  model::Machine machine =
-      options.machine.empty() ? model::Machine{} : read_machine_input(options.machine);
+Machine machine_of(const EffectsOptions& options) {
+  Machine machine = options.machine.empty() ? Machine{} : read_machine_input(options.machine);
   files::declare_effects(options.declared, machine);
   return machine;
 }
@@ -73,7 +70,7 @@ std::string sides_of(const Effect& effect) {
 
 /// Of a machine what may act on it.
 std::vector<const Effect*> listed(const EffectsOptions& options) {
-  const model::Machine machine = machine_of(options);
+  const Machine machine = machine_of(options);
   return options.machine.empty() ? model::effects::listed_effects(machine)
                                  : model::effects::effects_of(machine);
 }
@@ -148,8 +145,7 @@ void print_bed(const synthetic::EffectPicture& picture, Member member) {
 void print_square(const synthetic::ShiftedSquare& square) {
   fmt::print(
       "  at ({:.0f}, {:.0f}): sides {:.3f} (bottom), {:.3f} (right), {:.3f} (top), {:.3f} (left); "
-      "diagonals "
-      "{:.3f} / and {:.3f} \\ (square: {:.3f})\n",
+      "diagonals {:.3f} / and {:.3f} \\ (square: {:.3f})\n",
       square.centre.x_mm,
       square.centre.y_mm,
       square.side_mm[0],
@@ -205,7 +201,7 @@ std::map<std::string, double> parse_values(const EffectsOptions& options,
     if (named) {
       values[named->name] = named->value;
     } else {
-      problems.add("--set", argument, "parameter=number", grid::ProblemKind::bad_syntax);
+      problems.add("--set", argument, "parameter=number", ProblemKind::bad_syntax);
     }
   }
   return values;
@@ -214,15 +210,15 @@ std::map<std::string, double> parse_values(const EffectsOptions& options,
 std::vector<double> chosen_values(const Effect& effect,
                                   EffectSide side,
                                   const EffectsOptions& options,
-                                  const model::Machine& machine) {
+                                  const Machine& machine) {
   OptionProblems problems;
-  model::AppliedEffect wanted = applied(effect, side, nominal_values(effect));
+  AppliedEffect wanted = applied(effect, side, nominal_values(effect));
   for (const auto& [parameter, value] : parse_values(options, problems))
     wanted.parameters[parameter] = value;
-  model::Machine with = machine;
+  Machine with = machine;
   with.effects.push_back(wanted);
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
-    problems.add("--set", problem.value, problem.expected, grid::ProblemKind::impossible);
+    problems.add("--set", problem.value, problem.expected, ProblemKind::impossible);
   }
   problems.throw_if_any();
   std::vector<double> values;
@@ -238,7 +234,7 @@ EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProb
     if (name(side) == word || (word == "-" && side == EffectSide::none)) return side;
   }
   problems.add(
-      "--side", word, fmt::format("one of {}", sides_of(effect)), grid::ProblemKind::unknown_word);
+      "--side", word, fmt::format("one of {}", sides_of(effect)), ProblemKind::unknown_word);
   return EffectSide::none;
 }
 
@@ -258,16 +254,15 @@ void check_options(const EffectsOptions& options, OptionProblems& problems) {
     problems.add("effect",
                  options.id,
                  "an effect that `chaintrue effects` lists",
-                 grid::ProblemKind::unknown_word);
+                 ProblemKind::unknown_word);
   }
 }
 
 /// Marks over the bed where the machine, with or without the effect, cannot hold the sled.
-std::optional<std::string> unreachable(const model::Machine& machine,
-                                       const model::AppliedEffect& effect) {
-  model::Machine with = machine;
+std::optional<std::string> unreachable(const Machine& machine, const AppliedEffect& effect) {
+  Machine with = machine;
   with.effects.push_back(effect);
-  for (const model::Machine* one : {&machine, static_cast<const model::Machine*>(&with)}) {
+  for (const Machine* one : {&machine, static_cast<const Machine*>(&with)}) {
     const model::ReadingModel model(*one);
     for (const auto& [columns, rows] : {std::pair{7, 4}, std::pair{10, 6}, std::pair{20, 10}}) {
       for (const model::Visit& visit : synthetic::regular_session(machine, columns, rows)) {
@@ -290,14 +285,12 @@ std::optional<std::string> unreachable(const model::Machine& machine,
   return std::nullopt;
 }
 
-int show_picture(const Effect& effect,
-                 const EffectsOptions& options,
-                 const model::Machine& machine) {
+int show_picture(const Effect& effect, const EffectsOptions& options, const Machine& machine) {
   OptionProblems sound;  // check_options has checked the catalogue's effects
   const EffectSide side = chosen_side(effect, options.side, sound);
   sound.throw_if_any();
   const std::vector<double> values = chosen_values(effect, side, options, machine);
-  grid::StatedNoise noise;
+  StatedNoise noise;
   noise.length_mm = options.length_noise_mm;
   noise.position_mm = options.position_noise_mm;
   if (const auto why = unreachable(machine, model::effects::applied(effect, side, values))) {
@@ -344,14 +337,14 @@ int run_effects(const EffectsOptions& options) {
     fmt::print("{}", files::write_catalogue(listed(options)));
     return kDone;
   }
-  const model::Machine machine = machine_of(options);
+  const Machine machine = machine_of(options);
   const Effect* effect = model::effects::find_effect(machine, options.id);
   if (effect == nullptr) {
     OptionProblems problems;
     problems.add("effect",
                  options.id,
                  "an effect that `chaintrue effects` lists, or that --effects declares",
-                 grid::ProblemKind::unknown_word);
+                 ProblemKind::unknown_word);
     problems.throw_if_any();
   }
   if (!options.machine.empty()) return show_picture(*effect, options, machine);
@@ -368,22 +361,16 @@ void add_effects(Verb app) {
   Verb verb = app.add_verb(
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
   verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
-  auto machine = add_input(verb,
-                           "--machine",
-                           options->machine,
-                           "chaintrue_machine file of the machine to "
-                           "show it on");
-  verb.add_option("--side",
-                  options->side,
-                  "left, right, both, x or y; by default the effect's "
-                  "first")
+  auto machine = add_input(
+      verb, "--machine", options->machine, "chaintrue_machine file of the machine to show it on");
+  verb.add_option(
+          "--side", options->side, "left, right, both, x or y; by default the effect's first")
       .needs(machine);
   verb.add_option("--set", options->values, "Size as parameter=number instead of the usual one")
       .needs(machine);
   add_number(verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma")
       .needs(machine);
-  add_number(
-      verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma")
+  add_number(verb, "--position-noise-mm", options->position_noise_mm, files::kNoiseMm, "One sigma")
       .needs(machine);
   add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also write it as an SVG picture")
       .needs(machine);
@@ -395,15 +382,15 @@ void add_effects(Verb app) {
             options->declared,
             "chaintrue_effect files: effects of your own, in addition to the catalogue's")
       .excludes(markdown);
-  auto atlas = add_input(verb,
-                         "--atlas",
-                         options->atlas,
-                         "Write a page with a picture of each cause for a machine with two "
-                         "chains, four belts or a pen; with an effect's or a setting's name, of "
-                         "that one only")
-                   .excludes(machine)
-                   .excludes(json)
-                   .excludes(markdown);
+  auto atlas =
+      add_input(verb,
+                "--atlas",
+                options->atlas,
+                "Write a page with a picture of each cause for a machine with two chains, four "
+                "belts or a pen; with an effect's or a setting's name, of that one only")
+          .excludes(machine)
+          .excludes(json)
+          .excludes(markdown);
   auto output = add_output(
       verb, "-o,--output", options->output, {Origin::page}, "The page (HTML) of --atlas");
   output.needs(atlas);

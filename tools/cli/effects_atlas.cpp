@@ -21,9 +21,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace synthetic = grid::synthetic;
-
 struct NamedAtlas {
   synthetic::Atlas atlas;
   std::string machine;
@@ -40,7 +37,7 @@ void refuse_declared(const InputFile& file, const std::vector<std::string>& decl
       "--effects",
       declared.front(),
       fmt::format("to be left out: declared effects are of two chains, and {} is not", file.name),
-      grid::ProblemKind::contradiction);
+      ProblemKind::contradiction);
   problems.throw_if_any();
 }
 
@@ -60,14 +57,14 @@ NamedAtlas atlas_of_file(const InputFile& file,
                 FileKind::plotter,
                 FileKind::drawing});
   if (file.kind == FileKind::machine) {
-    model::Machine machine = load_machine(file);
+    Machine machine = load_machine(file);
     files::declare_effects(declared, machine);
     return {synthetic::atlas_of(*model::make_chain_mechanism(machine), cause), machine.name};
   }
   refuse_declared(file, declared);
   if (file.kind == FileKind::drawing)
     return of_plotter(files::parse_drawing(file.text, file.name).machine, cause);
-  const model::BeltMachine machine = load_belt_machine(file);
+  const BeltMachine machine = load_belt_machine(file);
   return {synthetic::atlas_of(machine, cause), machine.name};
 }
 
@@ -83,7 +80,7 @@ int write_atlas(const std::string& machine,
     problems.add("effect",
                  cause,
                  fmt::format("a cause or a setting of {}: without a name all are drawn", machine),
-                 grid::ProblemKind::unknown_word);
+                 ProblemKind::unknown_word);
     problems.throw_if_any();
   }
   end_progress();
@@ -91,11 +88,12 @@ int write_atlas(const std::string& machine,
   fmt::print(stderr,
              "{}: {} of possible causes; find the one that looks like your sheet\n",
              output,
-             named.atlas.pictures.size() == 1 ? "a picture"
-                                              : fmt::format("{} pictures", named.atlas.pictures.size()));
+             named.atlas.pictures.size() == 1
+                 ? "a picture"
+                 : fmt::format("{} pictures", named.atlas.pictures.size()));
   for (const std::string& missing : named.atlas.not_drawn)
-    fmt::print(stderr, "No picture of {}: at its usual size this machine cannot work with "
-                       "it.\n", missing);
+    fmt::print(
+        stderr, "No picture of {}: at its usual size this machine cannot work with it.\n", missing);
   return kDone;
 }
 

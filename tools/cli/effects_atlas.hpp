@@ -10,7 +10,7 @@
 namespace chaintrue::cli {
 
 /// Only for one cause if `cause` is not empty. `declared` are files of the owner's effects, for two
-/// chains only. \throws files::InputError with every problem.
+/// chains only. \throws InputError with every problem.
 int write_atlas(const std::string& machine,
                 const std::string& cause,
                 const std::vector<std::string>& declared,

@@ -36,8 +36,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct ExportCommand {
   std::string input;
   std::string output = "-";
@@ -51,7 +49,7 @@ struct Exported {
   std::string words;
   std::vector<std::string> next;
   /// For a map: the map with a controller that has the numbers.
-  std::optional<grid::CompensationMap> map_after = std::nullopt;
+  std::optional<CompensationMap> map_after = std::nullopt;
   bool is_refused = false;  ///< the reason was printed
 };
 
@@ -60,10 +58,10 @@ std::vector<std::string> settings_page(const std::string& path) {
 }
 
 /// The controller in force or, if it has no settings, one with the machine's dimensions.
-model::Controller controller_of(const model::Machine& machine) {
+model::Controller controller_of(const Machine& machine) {
   if (machine.controller.settings.motor_spacing_mm) return machine.controller;
-  const bool is_holey = machine.controller.kind == model::ControllerKind::holey;
-  return {is_holey ? model::ControllerKind::holey : model::ControllerKind::maslow_classic,
+  const bool is_holey = machine.controller.kind == ControllerKind::holey;
+  return {is_holey ? ControllerKind::holey : ControllerKind::maslow_classic,
           files::measures_as_settings(machine)};
 }
 
@@ -76,21 +74,18 @@ std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typ
 }
 
 /// Causes without a setting in the firmware, with their contribution to the error.
-std::string words_of(const grid::Lacking& lacking, const model::Machine& machine) {
+std::string words_of(const grid::Lacking& lacking, const Machine& machine) {
   if (lacking.what == "top_beam_tilt") {
     return fmt::format(
         "The tilt of the beam has no number in GroundControl's own firmware, which costs {:.2f} mm "
-        "of "
-        "that: level the beam. The holey firmware has topbeamtilt; where yours is that, say "
-        "\"kind\": "
-        "\"holey\" of the machine's /controller.\n",
+        "of that: level the beam. The holey firmware has topbeamtilt; where yours is that, say "
+        "\"kind\": \"holey\" of the machine's /controller.\n",
         lacking.costs_mm);
   }
   if (lacking.what == "chain_stretch") {
     return fmt::format(
         "The stretch of the chains has no number in GroundControl's own firmware, which costs "
-        "{:.2f} mm "
-        "of that.\n",
+        "{:.2f} mm of that.\n",
         lacking.costs_mm);
   }
   const model::effects::Effect* effect = model::effects::find_effect(machine, lacking.what);
@@ -102,7 +97,7 @@ std::string words_of(const grid::Lacking& lacking, const model::Machine& machine
 
 /// Before and after, from one evaluation; what remains and why.
 std::string words_of(const std::string& today,
-                     const model::Machine& machine,
+                     const Machine& machine,
                      const grid::SettingsToType& typed,
                      bool holds_numbers) {
   std::string words =
@@ -118,7 +113,7 @@ std::string words_of(const std::string& today,
 
 /// For a map the error today is the same as in every verb; the placement of a hand-laid sheet does
 /// not depend on the numbers.
-std::string today_in_words(const grid::CompensationMap& map, const grid::SettingsToType& typed) {
+std::string today_in_words(const CompensationMap& map, const grid::SettingsToType& typed) {
   const grid::ErrorSummary today = grid::error_in_use(map).value_or(typed.as_it_is);
   return fmt::format(
       "With today's settings the tool is {:.2f} mm rms off over the measured part, {:.2f} mm at "
@@ -136,18 +131,16 @@ std::string today_in_words(const grid::CompensationMap& map, const grid::Setting
 std::string map_after_in_words(const ExportCommand& command) {
   if (command.map_after.empty())
     return "The rest is corrected by gcode compensate with the map. Once the numbers are typed in, "
-           "this "
-           "map is out of date; --map-after writes the one to use then.\n";
+           "this map is out of date; --map-after writes the one to use then.\n";
   return fmt::format(
       "Type them in, measure five marks and check them with {0}. From then on run programs "
-      "unchanged or, "
-      "for better accuracy, compensate them with {0}. Do not use {1} again.\n",
+      "unchanged or, for better accuracy, compensate them with {0}. Do not use {1} again.\n",
       command.map_after,
       command.input);
 }
 
 /// Old values are given for numbers in force.
-files::GroundcontrolText text_of(const model::Machine& machine,
+files::GroundcontrolText text_of(const Machine& machine,
                                  const grid::SettingsToType& typed,
                                  const std::string& by,
                                  bool holds_numbers) {
@@ -157,13 +150,13 @@ files::GroundcontrolText text_of(const model::Machine& machine,
 }
 
 /// The map of the machine with its numbers typed in.
-grid::CompensationMap map_after_of(const grid::CompensationMap& map,
-                                   const model::Machine& before,
-                                   const model::Controller& now,
-                                   bool holds_numbers) {
+CompensationMap map_after_of(const CompensationMap& map,
+                             const Machine& before,
+                             const model::Controller& now,
+                             bool holds_numbers) {
   std::string numbers;
   if (holds_numbers) {
-    model::Machine after = before;
+    Machine after = before;
     after.controller = now;
     numbers = fmt::format(" ({})",
                           files::in_words(files::changed_settings(
@@ -176,17 +169,14 @@ grid::CompensationMap map_after_of(const grid::CompensationMap& map,
 }
 
 /// The best fit of the controller's formulas to the map.
-Exported of_map(const grid::CompensationMap& map,
-                const std::string& file,
-                const ExportCommand& command) {
+Exported of_map(const CompensationMap& map, const std::string& file, const ExportCommand& command) {
   const auto fail = [&file](const grid::SettingsFailure& why) {
-    throw files::InputError({{file, "", "", "", why.sentence()}});
+    throw InputError({{file, "", "", "", why.sentence()}});
   };
   if (map.machine() == nullptr) fail(grid::settings_to_type(map).error());
-  model::Machine machine = *map.machine();
+  Machine machine = *map.machine();
   const bool holds_numbers = machine.controller.settings.motor_spacing_mm.has_value();
-  const bool is_wall_plotter =
-      machine.controller.kind == model::ControllerKind::fluidnc_wallplotter;
+  const bool is_wall_plotter = machine.controller.kind == ControllerKind::fluidnc_wallplotter;
   machine.controller = controller_of(machine);
   const auto typed = grid::settings_to_type(map, machine.controller);
   Exported result;
@@ -213,20 +203,20 @@ Exported of_map(const grid::CompensationMap& map,
 }
 
 /// The corners of the bed.
-std::vector<model::BedPoint> corners_of(const model::Bed& bed) {
+std::vector<BedPoint> corners_of(const Bed& bed) {
   const double x = 0.5 * bed.width_mm, y = 0.5 * bed.height_mm;
   return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
 /// A machine that agrees with its controller's settings changes none of them.
-Exported of_machine(const model::Machine& stated,
+Exported of_machine(const Machine& stated,
                     const std::string& file,
-                    const std::vector<model::BedPoint>& area,
+                    const std::vector<BedPoint>& area,
                     std::vector<std::string> next) {
   const bool holds_numbers = stated.controller.settings.motor_spacing_mm.has_value();
   if (!files::says_more_than_its_settings(stated))
     return {files::write_groundcontrol(stated), "", std::move(next)};
-  model::Machine machine = stated;
+  Machine machine = stated;
   machine.controller = controller_of(stated);
   const auto typed = grid::settings_to_type(machine, area);
   // If none can be found, the machine's own dimensions are the settings.
@@ -245,17 +235,16 @@ Exported of_machine(const model::Machine& stated,
 
 /// True, with a message, where numbers would depend on an effect that a diagnosis put in and that may not
 /// act.
-bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects,
-                         const std::string& name) {
+bool refuses_weak_causes(const std::vector<AppliedEffect>& effects, const std::string& name) {
   std::vector<std::string> weak;
-  for (const model::AppliedEffect& one : effects) {
-    if (one.probability.value_or(1.0) >= grid::diagnosis::kSureOfCause) continue;
+  for (const AppliedEffect& one : effects) {
+    if (one.probability.value_or(1.0) >= diagnosis::kSureOfCause) continue;
     const model::effects::Effect* effect = model::effects::find_effect(one.effect);
     weak.push_back(fmt::format("{}{}{} ({})",
                                effect != nullptr ? effect->cause : std::string_view(one.effect),
                                one.side.empty() ? "" : ", ",
                                one.side,
-                               grid::diagnosis::percent(*one.probability)));
+                               diagnosis::percent(*one.probability)));
   }
   if (weak.empty()) return false;
   fmt::print(
@@ -263,39 +252,38 @@ bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects,
       "{}: this machine rests on {}; to type numbers in, a cause must be at least {} certain. "
       "Measure what the diagnosis proposes next and diagnose again; --force continues anyway.\n",
       name,
-      grid::diagnosis::joined(weak, "and"),
-      grid::diagnosis::percent(grid::diagnosis::kSureOfCause));
+      diagnosis::joined(weak, "and"),
+      diagnosis::percent(diagnosis::kSureOfCause));
   return true;
 }
 
 /// Named causes that may be the paper's are not in the machine.
-std::string left_out_in_words(const grid::diagnosis::Diagnosis& found) {
+std::string left_out_in_words(const Diagnosis& found) {
   std::string words;
   const auto is_of_paper = [](const auto& same) {
     return same.cause.effect->station == model::effects::Station::paper;
   };
-  for (const grid::diagnosis::Cause& cause : causes_left_out(found)) {
+  for (const diagnosis::Cause& cause : causes_left_out(found)) {
     if (grid::none_of(cause.same_as, is_of_paper)) continue;
     words += fmt::format(
         "These numbers leave out what may be {}{} or the tape that the marks were measured with. A "
-        "map "
-        "corrects it either way: export its numbers instead.\n",
+        "map corrects it either way: export its numbers instead.\n",
         cause.cause.effect->cause,
-        grid::diagnosis::side_words(cause.cause));
+        diagnosis::side_words(cause.cause));
   }
   return words;
 }
 
 /// Where the marks or the holes are, or the whole bed.
-std::vector<model::BedPoint> area_of(const grid::diagnosis::Diagnosis& found) {
-  std::vector<model::BedPoint> area;
+std::vector<BedPoint> area_of(const Diagnosis& found) {
+  std::vector<BedPoint> area;
   for (const auto& point : found.points) area.push_back({point.mark.x_mm, point.mark.y_mm});
   for (const auto& hole : found.holes) area.push_back({hole.mark.x_mm, hole.mark.y_mm});
   constexpr std::size_t kFewest = 3;
   return area.size() < kFewest ? corners_of(found.extended_machine.bed) : area;
 }
 
-Exported of_diagnosis(const InputFile& file, const grid::diagnosis::Diagnosis& found) {
+Exported of_diagnosis(const InputFile& file, const Diagnosis& found) {
   Exported exported =
       of_machine(found.extended_machine, file.name, area_of(found), settings_page(file.path));
   exported.words += left_out_in_words(found);
@@ -303,7 +291,7 @@ Exported of_diagnosis(const InputFile& file, const grid::diagnosis::Diagnosis& f
 }
 
 Exported of_machine_file(const InputFile& file, bool forced, std::vector<std::string> next) {
-  const model::Machine machine = load_machine(file);
+  const Machine machine = load_machine(file);
   if (!forced && refuses_weak_causes(machine.effects, file.name))
     return Exported{{}, "", {}, std::nullopt, true};
   return of_machine(machine, file.name, corners_of(machine.bed), std::move(next));
@@ -316,12 +304,11 @@ bool is_untyped_json(const InputFile& file) {
 }
 
 [[noreturn]] void refuse_drawing(const InputFile& file) {
-  throw files::InputError({{file.name,
-                            "/observations",
-                            "a diagnosis of a test drawing",
-                            "one of another machine; of a V-plotter export plotter has the lines, "
-                            "from what fit makes of "
-                            "the drawing"}});
+  throw InputError({{file.name,
+                     "/observations",
+                     "a diagnosis of a test drawing",
+                     "one of another machine; of a V-plotter export plotter has the lines, from "
+                     "what fit makes of the drawing"}});
 }
 
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
@@ -331,20 +318,20 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
       {FileKind::machine, FileKind::map, FileKind::diagnosis},
       file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4" : "");
   if (file.kind == FileKind::map) {
-    const grid::CompensationMap map = load_map(file);
+    const CompensationMap map = load_map(file);
     if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, std::nullopt, true};
     return of_map(map, file.name, command);
   }
   if (file.kind == FileKind::diagnosis) {
-    const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+    const Diagnosis found = load_diagnosis(file);
     if (found.drawing) refuse_drawing(file);
     if (found.belts) {
-      throw files::InputError({{file.name,
-                                "/observations",
-                                "a diagnosis of four belts",
-                                "one of a machine on chains; for belts use export maslow4"}});
+      throw InputError({{file.name,
+                         "/observations",
+                         "a diagnosis of four belts",
+                         "one of a machine on chains; for belts use export maslow4"}});
     }
-    std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
+    std::vector<AppliedEffect> taken = found.extended_machine.effects;
     grid::append_all(taken, found.data_corrections);
     if (!forced && refuses_weak_causes(taken, file.name))
       return Exported{{}, "", {}, std::nullopt, true};
@@ -358,16 +345,15 @@ Facts facts_of(const InputFile& file) {
   return file.kind == FileKind::diagnosis ? facts::diagnosis : facts::machine;
 }
 
-/// \throws files::InputError if there is no such map.
+/// \throws InputError if there is no such map.
 std::string written_map_after(Verb verb, const Exported& exported, const ExportCommand& command) {
   if (command.map_after.empty()) return "";
   if (exported.map_after) return files::write_map(*exported.map_after, made_by(verb));
-  throw files::InputError(
-      {{command.input,
-        "",
-        "a map of a controller that takes none of GroundControl's numbers",
-        "--map-after to be left out: put the machine's anchors into FluidNC's config.yaml, and "
-        "compensate with this map and --settings config.yaml"}});
+  throw InputError({{command.input,
+                     "",
+                     "a map of a controller that takes none of GroundControl's numbers",
+                     "--map-after to be left out: put the machine's anchors into FluidNC's "
+                     "config.yaml, and compensate with this map and --settings config.yaml"}});
 }
 
 int export_groundcontrol(Verb verb, const ExportCommand& command) {
@@ -396,13 +382,13 @@ std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file,
     fmt::print(stderr, "{} --force continues anyway.\n", why);
     return std::nullopt;
   }
-  const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+  const Diagnosis found = load_diagnosis(file);
   if (found.drawing) refuse_drawing(file);
   if (!found.belts) {
-    throw files::InputError({{file.name,
-                              "/observations",
-                              "a diagnosis of a machine on chains",
-                              "one of four belts; for chains use export groundcontrol"}});
+    throw InputError({{file.name,
+                       "/observations",
+                       "a diagnosis of a machine on chains",
+                       "one of four belts; for chains use export groundcontrol"}});
   }
   return files::write_maslow4_settings(found);
 }
@@ -431,8 +417,7 @@ void add_maslow4(Verb verb) {
       .shows_default();
   maslow4.footer(
       "The anchors as fitted, in the belts' own millimetres; with a taped distance the scales, "
-      "where "
-      "they change.\n\n"
+      "where they change.\n\n"
       "Example:\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
       "  build/chaintrue export maslow4 anchors.json");
@@ -443,8 +428,7 @@ void add_maslow4(Verb verb) {
 
 void add_export(Verb app) {
   Verb verb = app.add_verb("export",
-                           "Convert a map, machine or diagnosis into settings for other "
-                           "programs");
+                           "Convert a map, machine or diagnosis into settings for other programs");
   verb.require_verb();
   constexpr const char* kExample =
       "Example:\n  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json";
@@ -473,15 +457,12 @@ void add_export(Verb app) {
                "typed in");
   groundcontrol.footer(fmt::format(
       "The numbers that bring the controller nearest to the map, to the machine, or to the one "
-      "that a "
-      "diagnosis found, and how near; what the firmware has no number for, and what that costs. "
-      "All "
-      "others stay as they were, and all where the machine says no more than its settings. No "
-      "number "
-      "rests on a cause that is less than 90 % sure: the exit code is 1 then, and nothing is "
-      "written.\n\nOnce the numbers are typed in, stop using "
-      "the old map: it corrects again what the numbers have mended, and parts come out wrong. Use "
-      "the map of --map-after: it is for the same machine with these numbers, and corrects what is "
+      "that a diagnosis found, and how near; what the firmware has no number for, and what that "
+      "costs. All others stay as they were, and all where the machine says no more than its "
+      "settings. No number rests on a cause that is less than 90 % sure: the exit code is 1 then, "
+      "and nothing is written.\n\nOnce the numbers are typed in, stop using the old map: it "
+      "corrects again what the numbers have mended, and parts come out wrong. Use the map of "
+      "--map-after: it is for the same machine with these numbers, and corrects what is "
       "left.\n\n{}\n  build/chaintrue fit fixtures/start/marks.csv --machine "
       "fixtures/machines/groundcontrol.json -o map.json\n  build/chaintrue export groundcontrol "
       "map.json -o settings.ini --map-after map.after.json",

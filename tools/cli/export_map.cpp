@@ -30,7 +30,7 @@ struct MapCommand {
 
 /// A map with its name in what is written.
 struct NamedMap {
-  const grid::CompensationMap& map;
+  const CompensationMap& map;
   std::string name;
 };
 
@@ -49,7 +49,7 @@ std::string without_table(const grid::MapFailure& failure) {
 WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
   const auto nearest = grid::straight_settings(named.map, grid::Anchors::free);
   if (!nearest) return tl::unexpected(nearest.error().sentence());
-  auto module = grid::files::klipper_kinematics(
+  auto module = files::klipper_kinematics(
       grid::MapInFrame(named.map), {nearest->anchors, nearest->longer_mm}, named.name);
   if (!module) return tl::unexpected(without_table(module.error()));
   return Written{
@@ -57,8 +57,8 @@ WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
       fmt::format(
           "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
           "{:.4f} mm of the map, and moves go in pieces of at most {:g} mm.\nCopy it as "
-          "chaintrue.py into klippy/kinematics, and say kinematics: chaintrue in printer.cfg, "
-          "with a [stepper_left] and a [stepper_right]. The file's first lines say the rest.",
+          "chaintrue.py into klippy/kinematics, and say kinematics: chaintrue in printer.cfg, with "
+          "a [stepper_left] and a [stepper_right]. The file's first lines say the rest.",
           module->columns,
           module->rows,
           module->spacing_mm,
@@ -80,35 +80,33 @@ void check_module_name(const std::string& output, OptionProblems& problems) {
         return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
       });
   if (!is_identifier) {
-    problems.add(
-        "--output",
-        output,
-        "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of letters, "
-        "digits and _",
-        grid::ProblemKind::output_place);
+    problems.add("--output",
+                 output,
+                 "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of "
+                 "letters, digits and _",
+                 ProblemKind::output_place);
   }
 }
 
 WrittenOrWhy linuxcnc_module(const NamedMap& named, const std::string& output) {
   const std::string name = module_name(output);
-  auto module = grid::files::linuxcnc_kinematics(grid::MapInFrame(named.map), {name, named.name});
+  auto module = files::linuxcnc_kinematics(grid::MapInFrame(named.map), {name, named.name});
   if (!module) return tl::unexpected(without_table(module.error()));
   return Written{
       std::move(module->source),
-      fmt::format(
-          "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
-          "{:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or later) runs: "
-          "halcompile --install {}.c. In the machine's INI file: [KINS] KINEMATICS = {} and "
-          "JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.",
-          module->columns,
-          module->rows,
-          module->spacing_mm,
-          module->largest_error_mm,
-          module->largest_error_mm > grid::files::kTableErrorMm
-              ? ", more than it should be: this map bends within millimetres"
-              : "",
-          name,
-          name)};
+      fmt::format("{} x {} lengths of both chains, {:.0f} mm apart; between them the table is "
+                  "within {:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or "
+                  "later) runs: halcompile --install {}.c. In the machine's INI file: [KINS] "
+                  "KINEMATICS = {} and JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.",
+                  module->columns,
+                  module->rows,
+                  module->spacing_mm,
+                  module->largest_error_mm,
+                  module->largest_error_mm > files::kTableErrorMm
+                      ? ", more than it should be: this map bends within millimetres"
+                      : "",
+                  name,
+                  name)};
 }
 
 std::string fluidnc_lines(const grid::StraightSettings& s) {
@@ -150,17 +148,15 @@ template <grid::Anchors kAnchors, auto kLines>
 WrittenOrWhy straight_lines(const NamedMap& named, const std::string&) {
   const auto nearest = grid::straight_settings(named.map, kAnchors);
   if (!nearest) return tl::unexpected(nearest.error().sentence());
-  return Written{
-      kLines(*nearest),
-      fmt::format(
-          "With these numbers the tool is still off by {:.2f} mm rms over the measured part, "
-          "{:.2f} mm at worst: straight lines do not sag. {}",
-          nearest->left_over.rms_mm,
-          nearest->left_over.maximum_mm,
-          kAnchors == grid::Anchors::free
-              ? "Switch it on with the tool at 0, 0 of the sheet."
-              : "It draws Y downwards: mirror a program, and move it by the place in the "
-                "last line.")};
+  return Written{kLines(*nearest),
+                 fmt::format("With these numbers the tool is still off by {:.2f} mm rms over the "
+                             "measured part, {:.2f} mm at worst: straight lines do not sag. {}",
+                             nearest->left_over.rms_mm,
+                             nearest->left_over.maximum_mm,
+                             kAnchors == grid::Anchors::free
+                                 ? "Switch it on with the tool at 0, 0 of the sheet."
+                                 : "It draws Y downwards: mirror a program, and move it by the "
+                                   "place in the last line.")};
 }
 
 struct Controller {
@@ -202,7 +198,7 @@ constexpr Controller kControllers[] = {
 int export_map(Verb verb, const MapCommand& command, const Controller& controller) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map});
-  const grid::CompensationMap map = load_map(file);
+  const CompensationMap map = load_map(file);
   if (!verb.is_given("--force") && refuses_to_cut_with(map)) return kCheckFailed;
   const auto written =
       controller.write({map, std::filesystem::path(file.name).filename().string()}, command.output);

@@ -12,8 +12,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct ExportPlotterCommand {
   std::string input;
   std::string output = "-";
@@ -24,11 +22,11 @@ int export_plotter(const ExportPlotterCommand& command) {
   require_kind(file, {FileKind::plotter});
   const grid::KnownPlotter plotter = load_plotter(file).plotter;
   if (!plotter.found) {
-    throw files::InputError({{file.name,
-                              "/found",
-                              "",
-                              "what a test drawing found; chaintrue fit drawing.json -o found.json "
-                              "writes a plotter with it"}});
+    throw InputError({{file.name,
+                       "/found",
+                       "",
+                       "what a test drawing found; chaintrue fit drawing.json -o found.json writes "
+                       "a plotter with it"}});
   }
   std::string text;
   for (const std::string& line :

@@ -22,9 +22,12 @@ std::string_view name_in(const Names& names, decltype(kLast) reason) {
 }  // namespace
 
 std::string_view name_of(grid::BeltsFitReason reason) {
-  static constexpr std::array<std::string_view, 6> kNames = {
-      "too_few_points",       "not_determined",     "no_frame",
-      "hole_without_anchors", "too_many_distances", "tape_contradicts"};
+  static constexpr std::array<std::string_view, 6> kNames = {"too_few_points",
+                                                             "not_determined",
+                                                             "no_frame",
+                                                             "hole_without_anchors",
+                                                             "too_many_distances",
+                                                             "tape_contradicts"};
   return name_in<grid::BeltsFitReason::tape_contradicts>(kNames, reason);
 }
 
@@ -35,9 +38,13 @@ std::string_view name_of(grid::CheckReason reason) {
 }
 
 std::string_view name_of(grid::FitReason reason) {
-  static constexpr std::array<std::string_view, 7> kNames = {
-      "no_machine",     "not_a_grid",          "no_lengths",   "point_unreachable",
-      "rank_deficient", "impossible_readings", "not_converged"};
+  static constexpr std::array<std::string_view, 7> kNames = {"no_machine",
+                                                             "not_a_grid",
+                                                             "no_lengths",
+                                                             "point_unreachable",
+                                                             "rank_deficient",
+                                                             "impossible_readings",
+                                                             "not_converged"};
   return name_in<grid::FitReason::not_converged>(kNames, reason);
 }
 
@@ -47,11 +54,14 @@ std::string_view name_of(grid::PlanReason reason) {
   return name_in<grid::PlanReason::no_map>(kNames, reason);
 }
 
-std::string_view name_of(grid::diagnosis::DiagnosisReason reason) {
-  static constexpr std::array<std::string_view, 6> kNames = {
-      "no_machine", "no_lengths",        "too_few_points",
-      "no_noise",   "point_unreachable", "contradictory_settings"};
-  return name_in<grid::diagnosis::DiagnosisReason::contradictory_settings>(kNames, reason);
+std::string_view name_of(diagnosis::DiagnosisReason reason) {
+  static constexpr std::array<std::string_view, 6> kNames = {"no_machine",
+                                                             "no_lengths",
+                                                             "too_few_points",
+                                                             "no_noise",
+                                                             "point_unreachable",
+                                                             "contradictory_settings"};
+  return name_in<diagnosis::DiagnosisReason::contradictory_settings>(kNames, reason);
 }
 
 }  // namespace chaintrue::cli

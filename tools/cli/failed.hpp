@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "tools/cli/names.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::grid {
@@ -31,12 +32,15 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string_view name_of(grid::CheckReason reason);
 [[nodiscard]] std::string_view name_of(grid::FitReason reason);
 [[nodiscard]] std::string_view name_of(grid::PlanReason reason);
-[[nodiscard]] std::string_view name_of(grid::diagnosis::DiagnosisReason reason);
+[[nodiscard]] std::string_view name_of(diagnosis::DiagnosisReason reason);
 
 class Failed : public std::runtime_error {
  public:
   /// \param about the file, or the command, that the message begins with; empty: it was printed
-  Failed(std::string about, std::string_view reason, const std::string& sentence, int code = kBadInput)
+  Failed(std::string about,
+         std::string_view reason,
+         const std::string& sentence,
+         int code = kBadInput)
       : std::runtime_error(sentence), about_(std::move(about)), reason_(reason), code_(code) {}
   /// \param failure a Failure of one of the reasons above
   template <class Failure>

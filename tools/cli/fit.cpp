@@ -39,7 +39,7 @@ namespace {
 
 struct FitCommand {
   GridInput input;
-  grid::files::TapeOptions tape;
+  files::TapeOptions tape;
   /// Further files of the same machine.
   std::vector<std::string> with;
   std::string output;
@@ -73,7 +73,7 @@ constexpr std::size_t kMostHoles = 150;
 constexpr const char* kNoMachine =
     "to be left out of a direct surface, which has no machine that could err";
 
-constexpr grid::files::Range kWishMm{"mm", 0.001, 50.0};
+constexpr files::Range kWishMm{"mm", 0.001, 50.0};
 
 /// \throws Failed
 void refuse_too_many(const grid::Measured& measured) {
@@ -81,10 +81,10 @@ void refuse_too_many(const grid::Measured& measured) {
   std::size_t distances = 0;
   std::size_t holes = 0;
   for (const grid::MeasuredFile& file : measured.files()) {
-    if (const auto* grid = std::get_if<grid::MeasuredGrid>(&file.measured)) {
+    if (const auto* grid = std::get_if<MeasuredGrid>(&file.measured)) {
       points += grid->points.size();
     } else {
-      const auto& set = std::get<grid::MeasuredHoles>(file.measured);
+      const auto& set = std::get<MeasuredHoles>(file.measured);
       distances += set.distances.size();
       holes += set.holes.size();
     }
@@ -107,8 +107,8 @@ void refuse_too_many(const grid::Measured& measured) {
 /// \throws Failed for a map that its reader does not take
 void check_as_read(const std::string& text, const std::string& measured) {
   try {
-    (void)grid::files::parse_map(text, "the map");
-  } catch (const grid::files::InputError& error) {
+    (void)files::parse_map(text, "the map");
+  } catch (const InputError& error) {
     throw Failed(measured,
                  name_of(grid::FitReason::impossible_readings),
                  "no machine can be as these points say, so no map is written: " +
@@ -119,16 +119,16 @@ void check_as_read(const std::string& text, const std::string& measured) {
 /// The map goes to its file, the words to standard error.
 int finish(Verb verb,
            const FitCommand& command,
-           const grid::CompensationMap& map,
-           std::vector<report::Section> more) {
-  std::string text = grid::files::write_map(map, made_by(verb));
-  check_as_read(text, grid::files::name_in_messages(command.input.grid));
-  std::vector<grid::files::OutputFile> outputs = {{command.output, std::move(text)}};
+           const CompensationMap& map,
+           std::vector<Section> more) {
+  std::string text = files::write_map(map, made_by(verb));
+  check_as_read(text, files::name_in_messages(command.input.grid));
+  std::vector<files::OutputFile> outputs = {{command.output, std::move(text)}};
   if (command.json)
-    outputs.push_back({"-", grid::files::write_fit(map, fit_sentence(map), command.wish_mm)});
+    outputs.push_back({"-", files::write_fit(map, fit_sentence(map), command.wish_mm)});
   write_outputs(outputs);
-  const report::Detail detail = command.verbose ? report::Detail::verbose : report::Detail::always;
-  report::Document document = map_document(map, command.output, detail, command.wish_mm);
+  const Detail detail = command.verbose ? Detail::verbose : Detail::always;
+  Document document = map_document(map, command.output, detail, command.wish_mm);
   std::move(more.begin(), more.end(), std::back_inserter(document.sections));
   fmt::print(stderr, "{}", report::render_text(document, detail));
   if (const std::string why = not_to_cut_with(map); !why.empty()) {
@@ -136,7 +136,7 @@ int finish(Verb verb,
     say_next({"diagnose", command.input.grid});
     return kCheckFailed;
   }
-  const model::Machine* machine = map.machine();
+  const Machine* machine = map.machine();
   const bool typed = machine != nullptr && machine->controller.settings.motor_spacing_mm;
   if (typed) {
     say_next({"export", "groundcontrol", command.output});
@@ -147,10 +147,9 @@ int finish(Verb verb,
 }
 
 /// The tables of distances, each under its file's name where there are several.
-std::vector<report::Section> distances_of(const grid::Measured& measured,
-                                          const grid::JointFit& fit) {
+std::vector<Section> distances_of(const grid::Measured& measured, const grid::JointFit& fit) {
   const std::vector<grid::MeasuredFile>& files = measured.files();
-  std::vector<report::Section> sections;
+  std::vector<Section> sections;
   for (const grid::FittedDistances& one : fit.distances) {
     const grid::MeasuredFile& file = files[one.file];
     sections.push_back(
@@ -167,8 +166,8 @@ tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
   const grid::JointFitOptions options{.outside = rule_of(command.outside, {}),
                                       .progress = shown_progress()};
   if (command.plain) return grid::joint_fit(measured, options);
-  auto found = grid::diagnosis::fit_with_causes(
-      measured, {.fit = options, .accept_class = command.accept_class});
+  auto found =
+      diagnosis::fit_with_causes(measured, {.fit = options, .accept_class = command.accept_class});
   if (!found) return tl::unexpected(found.error());
   return std::move(found->fit);
 }
@@ -177,9 +176,9 @@ tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
 int fit_jointly(Verb verb, const FitCommand& command, const grid::Measured& measured) {
   const auto fit = fit_of(command, measured);
   if (fit) return finish(verb, command, fit->map, distances_of(measured, *fit));
-  throw Failed(measured.files().size() == 1 ? grid::files::name_in_messages(command.input.grid)
-                                            : "chaintrue fit",
-               fit.error());
+  throw Failed(
+      measured.files().size() == 1 ? files::name_in_messages(command.input.grid) : "chaintrue fit",
+      fit.error());
 }
 
 /// Splines through the lengths of one grid; the options' rules refuse anything else.
@@ -191,7 +190,7 @@ int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile&
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
   const auto map = grid::fit(*file.grid(), options);
-  if (!map) throw Failed(grid::files::name_in_messages(command.input.grid), map.error());
+  if (!map) throw Failed(files::name_in_messages(command.input.grid), map.error());
   return finish(verb, command, *map, {});
 }
 

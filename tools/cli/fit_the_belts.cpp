@@ -25,14 +25,12 @@
 
 namespace chaintrue::cli {
 
-namespace files = grid::files;
-
 namespace {
 
 /// The measurements of one four-belt machine.
 struct BeltFiles {
   grid::PointIndices indices;  ///< of the points of `belts` in their file
-  std::optional<grid::MeasuredBelts> belts;
+  std::optional<MeasuredBelts> belts;
   std::vector<grid::BeltHoles> holes;
 };
 
@@ -40,17 +38,17 @@ void read_belts_file(const InputFile& file,
                      const std::vector<std::size_t>& without,
                      BeltFiles& all) {
   if (all.belts) {
-    throw files::InputError({{file.name,
-                              "",
-                              "a second file of belts",
-                              "one file of belts and any number of chaintrue_holes: anchors of two "
-                              "sessions are two fits"}});
+    throw InputError({{file.name,
+                       "",
+                       "a second file of belts",
+                       "one file of belts and any number of chaintrue_holes: anchors of two "
+                       "sessions are two fits"}});
   }
   all.belts = load_belts(file, "a fit", without).belts;
   all.indices = files::indices_without(all.belts->points.size(), without);
 }
 
-void read_holes_file(const InputFile& file, const grid::files::TapeOptions& tape, BeltFiles& all) {
+void read_holes_file(const InputFile& file, const files::TapeOptions& tape, BeltFiles& all) {
   require_kind(file,
                {FileKind::belts, FileKind::holes, FileKind::belt_holes},
                "only one file of belts is measured on one machine");
@@ -59,11 +57,11 @@ void read_holes_file(const InputFile& file, const grid::files::TapeOptions& tape
   if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)
     read.belt_machine = all.belts->machine;
   if (!read.belt_machine) {
-    throw files::InputError({{file.name,
-                              "/machine",
-                              read.holes.machine ? "a machine on two chains" : "",
-                              "the machine on four belts that cut the holes, with x_mm and y_mm of "
-                              "the anchors in force at the time"}});
+    throw InputError({{file.name,
+                       "/machine",
+                       read.holes.machine ? "a machine on two chains" : "",
+                       "the machine on four belts that cut the holes, with x_mm and y_mm of the "
+                       "anchors in force at the time"}});
   }
   all.holes.push_back({*std::move(read.belt_machine), std::move(read.holes)});
 }
@@ -82,15 +80,15 @@ BeltFiles read_all(const BeltsFitCommand& command) {
 
 tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles& all) {
   if (all.holes.empty()) {
-    return grid::diagnosis::fit_with_causes(*all.belts).map([&](grid::BeltsFit fit) {
+    return diagnosis::fit_with_causes(*all.belts).map([&](BeltsFit fit) {
       return files::FittedAnchors{all.belts->name, std::move(fit)};
     });
   }
-  grid::MeasuredBelts belts;
+  MeasuredBelts belts;
   belts.machine = all.holes.front().machine;
   belts.name = all.holes.front().set.name;
   if (all.belts) belts = *all.belts;
-  return grid::diagnosis::fit_with_causes_and_holes(belts, all.holes)
+  return diagnosis::fit_with_causes_and_holes(belts, all.holes)
       .map([&](grid::BeltsAndHolesFit fit) {
         return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
       });
@@ -119,21 +117,20 @@ int fit_the_belts(const BeltsFitCommand& command) {
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);
-  const grid::MeasuredBelts belts = all.belts.value_or(grid::MeasuredBelts{});
+  const MeasuredBelts belts = all.belts.value_or(MeasuredBelts{});
   const grid::HolesWithBelts* holes = found->holes ? &*found->holes : nullptr;
   const auto error = grid::error_of_belts(found->fit, holes);
-  report::Document document =
+  Document document =
       anchors_document({found->fit, holes, &belts, all.indices}, found->name, command.output);
   if (command.wish_mm) {
     auto& remarks = document.remarks.blocks;
     remarks.insert(
         remarks.begin(),
-        report::Paragraph{belts_wish_sentence(belts, all.holes, *found, error, *command.wish_mm)});
+        Paragraph{belts_wish_sentence(belts, all.holes, *found, error, *command.wish_mm)});
   }
   fmt::print(stderr,
              "{}",
-             report::render_text(
-                 document, command.verbose ? report::Detail::verbose : report::Detail::always));
+             report::render_text(document, command.verbose ? Detail::verbose : Detail::always));
   if (!not_to_paste(found->fit, error).empty()) return kCheckFailed;
   say_next({"export", "maslow4", command.output});
   return kDone;

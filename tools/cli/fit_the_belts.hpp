@@ -15,7 +15,7 @@ struct BeltsFitCommand {
   Verb verb;
   /// The chaintrue_belts file, and the holes that join it; or holes alone.
   std::vector<InputFile> files;
-  grid::files::TapeOptions tape;
+  files::TapeOptions tape;
   std::string output;
   bool verbose = false;
   bool json = false;

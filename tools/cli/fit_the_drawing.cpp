@@ -20,12 +20,10 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
 using grid::DrawingFit;
 using grid::FittedMeasure;
 using grid::PlotterSetting;
 using grid::TestDrawing;
-using report::Detail;
 
 struct PlotterSettingWords {
   std::string_view noun;
@@ -73,62 +71,61 @@ std::string sentence_of_settings(const DrawingFit& fit) {
   return fmt::format("Off by more than chance: {}.", named);
 }
 
-report::Table table_of_settings(const DrawingFit& fit) {
-  report::Table table{.columns = {{.heading = "setting", .width = 46},
-                                  {.heading = "as set", .is_number = true, .width = 10},
-                                  {.heading = "found", .is_number = true, .width = 10},
-                                  {.heading = "+-", .is_number = true, .width = 8},
-                                  {.heading = "", .gap = 2}}};
+Table table_of_settings(const DrawingFit& fit) {
+  Table table{.columns = {{.heading = "setting", .width = 46},
+                          {.heading = "as set", .is_number = true, .width = 10},
+                          {.heading = "found", .is_number = true, .width = 10},
+                          {.heading = "+-", .is_number = true, .width = 8},
+                          {.heading = "", .gap = 2}}};
   for (std::size_t k = 0; k < fit.settings.size(); ++k) {
     const PlotterSetting& own = fit.settings[k];
     const PlotterSettingWords words = plotter_setting_words(k);
-    report::Row row{
-        {fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
-        own.is_off};
+    Row row{{fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
+            own.is_off};
     if (own.is_off) row.cells.emplace_back("off");
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-report::Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
-  report::Table table{.columns = {{.heading = "measure, mm", .width = 22},
-                                  {.heading = "measured", .is_number = true, .width = 10},
-                                  {.heading = "fitted", .is_number = true, .width = 10},
-                                  {.heading = "next page", .is_number = true, .width = 11},
-                                  {.heading = "", .gap = 2}}};
+Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
+  Table table{.columns = {{.heading = "measure, mm", .width = 22},
+                          {.heading = "measured", .is_number = true, .width = 10},
+                          {.heading = "fitted", .is_number = true, .width = 10},
+                          {.heading = "next page", .is_number = true, .width = 11},
+                          {.heading = "", .gap = 2}}};
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     const FittedMeasure& own = fit.measures[i];
-    report::Row row{{grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
-                    own.rejected};
+    Row row{{grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
+            own.rejected};
     if (own.rejected) row.cells.emplace_back("left out");
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-report::Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
-  report::Document document;
+Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
+  Document document;
   document.title = fmt::format("Test drawing: {}", drawing.name);
   document.verdict = {
       fmt::format("The lines bow by up to {:.1f} mm. With the numbers found typed in, those of the "
                   "next page bow by up to {:.1f} mm.",
                   largest_bow(drawing, fit, &FittedMeasure::measured_mm),
                   largest_bow(drawing, fit, &FittedMeasure::after_mm))};
-  document.remarks.blocks.emplace_back(report::Paragraph{sentence_of_settings(fit)});
+  document.remarks.blocks.emplace_back(Paragraph{sentence_of_settings(fit)});
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     if (!fit.measures[i].rejected) continue;
-    document.remarks.blocks.emplace_back(report::Paragraph{
-        fmt::format("{} was left out: {:.1f} mm was read, but the rest gives {:.1f} mm. Measure it "
-                    "again.",
-                    grid::words_of(drawing, i),
-                    fit.measures[i].measured_mm,
-                    fit.measures[i].found_mm),
+    document.remarks.blocks.emplace_back(Paragraph{
+        fmt::format(
+            "{} was left out: {:.1f} mm was read, but the rest gives {:.1f} mm. Measure it again.",
+            grid::words_of(drawing, i),
+            fit.measures[i].measured_mm,
+            fit.measures[i].found_mm),
         Detail::always,
         true});
   }
   document.sections.push_back({"Settings", {table_of_settings(fit)}});
-  report::Section measures{"Measures", {table_of_measures(drawing, fit)}};
+  Section measures{"Measures", {table_of_measures(drawing, fit)}};
   measures.detail = Detail::verbose;
   document.sections.push_back(std::move(measures));
   return document;
@@ -145,7 +142,8 @@ int fit_the_drawing(const DrawingFitCommand& command) {
       say_next({"diagnose", command.file.path});
     return kBadInput;
   }
-  const std::string text = files::write_plotter({drawing, grid::found_by(*fit)}, {}, made_by(command.verb));
+  const std::string text =
+      files::write_plotter({drawing, grid::found_by(*fit)}, {}, made_by(command.verb));
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);

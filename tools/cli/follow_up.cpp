@@ -13,10 +13,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::MeasuredGrid;
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::MeasurementKind;
-using grid::diagnosis::NextMeasurement;
+using diagnosis::MeasurementKind;
 
 /// The number of the next visit; empty where visits are not numbered.
 std::optional<int> next_visit(const MeasuredGrid& measured) {

@@ -13,10 +13,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::MeasuredHoles;
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::NextMeasurement;
-
 struct Lines {
   std::vector<grid::Hole> holes;
   std::vector<std::pair<std::string, std::string>> distances;
@@ -61,7 +57,7 @@ Lines lines_of(const Diagnosis& found,
   Lines lines;
   FreeNames names(set);
   for (const NextMeasurement& next : found.next_measurements) {
-    if (next.kind != grid::diagnosis::MeasurementKind::distance) continue;
+    if (next.kind != diagnosis::MeasurementKind::distance) continue;
     // A new hole has no name yet; its set follows from the holes to which it is measured.
     std::string from = name_in_file(set, position, next.mark ? next.to.front() : next.from);
     if (from.empty()) continue;

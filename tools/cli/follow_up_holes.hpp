@@ -11,21 +11,21 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/observation/measured_holes.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// Whether the diagnosis used exactly these holes and distances.
-[[nodiscard]] bool is_of_these(const grid::diagnosis::Diagnosis& found,
-                               const std::vector<grid::MeasuredHoles>& sets);
+[[nodiscard]] bool is_of_these(const Diagnosis& found, const std::vector<MeasuredHoles>& sets);
 
 /// Holes to cut, with unused names, and distances without values, for the set at this position;
 /// empty if none is in this set.
-[[nodiscard]] std::string distances_json(const grid::diagnosis::Diagnosis& found,
-                                         const std::vector<grid::MeasuredHoles>& sets,
+[[nodiscard]] std::string distances_json(const Diagnosis& found,
+                                         const std::vector<MeasuredHoles>& sets,
                                          std::size_t position);
 /// As above; only the two headers if none is in this set.
-[[nodiscard]] std::string distances_csv(const grid::diagnosis::Diagnosis& found,
-                                        const std::vector<grid::MeasuredHoles>& sets,
+[[nodiscard]] std::string distances_csv(const Diagnosis& found,
+                                        const std::vector<MeasuredHoles>& sets,
                                         std::size_t position);
 
 }  // namespace chaintrue::cli

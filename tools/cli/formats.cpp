@@ -14,8 +14,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct FormatsCommand {
   std::string name;
   bool schema = false;
@@ -51,10 +49,9 @@ int run_formats(Verb verb, const FormatsCommand& command) {
 
 void add_formats(Verb app) {
   auto command = std::make_shared<FormatsCommand>();
-  Verb verb =
-      app.add_verb("formats",
-                   "Print every key of a file format with its unit, range and default, or its JSON "
-                   "Schema");
+  Verb verb = app.add_verb(
+      "formats",
+      "Print every key of a file format with its unit, range and default, or its JSON Schema");
   verb.add_option("name", command->name, "The format; without it all formats are listed")
       .one_of(files::described_formats());
   verb.add_flag("--schema", command->schema, "Print the JSON Schema");

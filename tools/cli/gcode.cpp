@@ -18,24 +18,23 @@ using Action = int (*)(const GcodeOptions&);
 constexpr const char* kNothingIsWritten =
     "to be left out without --map: it is of what compensating would write";
 
-constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
+constexpr files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
 Facts facts_of_map(FileKind kind) {
   if (kind == FileKind::map) return facts::map;
   return kind == FileKind::anchors ? facts::anchors : facts::plotter;
 }
 
-/// \throws files::InputError for a plotter that takes pictures.
+/// \throws InputError for a plotter that takes pictures.
 void require_gcode(const InputFile& file) {
   const model::PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
   if (gcode::firmware(plotter).reads_gcode) return;
-  throw grid::files::InputError(
+  throw InputError(
       {{file.name,
         "/set/firmware",
         std::string(model::name(plotter)),
         "a plotter that takes G-code, \"fluidnc\" or \"marlin\": this one is sent pictures, and "
-        "draws "
-        "them true once the lines of chaintrue export plotter are typed in"}});
+        "draws them true once the lines of chaintrue export plotter are typed in"}});
 }
 
 void open_map(Verb verb, GcodeOptions& options) {
@@ -128,15 +127,10 @@ void add_limits(Verb verb, GcodeOptions& options) {
              "--tolerance-mm",
              options.tolerance_mm,
              kToleranceMm,
-             "Largest permitted error of the "
-             "tool")
+             "Largest permitted error of the tool")
       .acts_on(facts::target, kNothingIsWritten);
-  add_number(verb,
-             "--decimals",
-             options.decimals,
-             {"", 2.0, 6.0},
-             "Decimals of the output's "
-             "coordinates")
+  add_number(
+      verb, "--decimals", options.decimals, {"", 2.0, 6.0}, "Decimals of the output's coordinates")
       .acts_on(facts::target, kNothingIsWritten);
   add_number(verb,
              "--steepest-correction",
@@ -234,18 +228,14 @@ void add_gcode(Verb app) {
       "  build/chaintrue gcode compensate fixtures/gcode/bracket.nc --map map.json -o "
       "bracket.true.nc");
 
-  Verb verify =
-      add(gcode,
-          options,
-          "verify",
-          "Run a program on a simulated controller and machine; exit code 1 if the tool strays "
-          "too far",
-          run_gcode_verify);
-  add_input(verify,
-            "original",
-            options->program,
-            "The program that states where the tool should "
-            "go")
+  Verb verify = add(
+      gcode,
+      options,
+      "verify",
+      "Run a program on a simulated controller and machine; exit code 1 if the tool strays too far",
+      run_gcode_verify);
+  add_input(
+      verify, "original", options->program, "The program that states where the tool should go")
       .required();
   add_input(verify, "run", options->other, "The program that the controller runs").required();
   add_machine_options(verify, *options, true);

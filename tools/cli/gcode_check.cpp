@@ -31,9 +31,8 @@ void print_survey(const gcode::Survey& survey, bool json) {
   if (json) {
     fmt::print(
         "{{\"lines\": {}, \"rapids\": {}, \"feeds\": {}, \"arcs\": {}, \"probes\": {}, "
-        "\"path_mm\": {:.3f}, "
-        "\"x_mm\": [{:.3f}, {:.3f}], \"y_mm\": [{:.3f}, {:.3f}], \"z_mm\": [{:.3f}, {:.3f}], "
-        "\"feed_mm_per_min\": [{:.3f}, {:.3f}]}}\n",
+        "\"path_mm\": {:.3f}, \"x_mm\": [{:.3f}, {:.3f}], \"y_mm\": [{:.3f}, {:.3f}], \"z_mm\": "
+        "[{:.3f}, {:.3f}], \"feed_mm_per_min\": [{:.3f}, {:.3f}]}}\n",
         survey.program.lines,
         survey.rapids,
         survey.feeds,
@@ -78,12 +77,11 @@ constexpr double kMostRows = 2e7;
 double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open({"the length of the path", 1, 2});
   Findings ignored;
-  const auto survey =
-      gcode::survey(source, options.dialect(), {}, ignored);
+  const auto survey = gcode::survey(source, options.dialect(), {}, ignored);
   if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
   if (rows <= kMostRows) return rows;
-  throw grid::files::InputError(
+  throw InputError(
       {{"command line",
         "--every-mm",
         fmt::format("{}", options.every_mm),
@@ -115,8 +113,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   const gcode::Sheet sheet = machine == nullptr
                                  ? gcode::Sheet{sheet_of(options), options.machine.empty()}
                                  : gcode::Sheet{machine->controller().sheet};
-  const auto survey =
-      gcode::survey(source, options.dialect(), sheet, findings);
+  const auto survey = gcode::survey(source, options.dialect(), sheet, findings);
   if (!survey) {
     report(options.program, findings);
     return report(options.program, survey.error());
@@ -168,7 +165,7 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
   const double rows = rows_of_lengths(options, text);
   auto source = text.open();
   shown_progress()({"chain lengths", 2, 2});
-  grid::files::PendingFile output(options.output);
+  files::PendingFile output(options.output);
   if (!options.json) {
     output.write(
         "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,feed_mm_per_min\n");
@@ -182,23 +179,22 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
     const double right = place.answer.lengths_mm[1];
     const auto& [left_sigma, right_sigma] = place.answer.sigma;
     if (options.json) {
-      fmt::format_to(std::back_inserter(row),
-                     "{{\"line\": {}, \"kind\": \"{}\", \"x_mm\": {:.6f}, \"y_mm\": {:.6f}, "
-                     "\"z_mm\": {:.6f}, \"left_mm\": {:.6f}, "
-                     "\"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, \"right_sigma_mm\": {:.4f}, "
-                     "\"feed_mm_per_min\": {}}}\n",
-                     place.line,
-                     gcode::name(place.kind),
-                     place.place.x_mm,
-                     place.place.y_mm,
-                     place.place.z_mm,
-                     left,
-                     right,
-                     left_sigma,
-                     right_sigma,
-                     place.kind == gcode::MoveKind::rapid
-                         ? std::string("null")
-                         : fmt::format("{:.3f}", place.feed_mm_per_min));
+      fmt::format_to(
+          std::back_inserter(row),
+          "{{\"line\": {}, \"kind\": \"{}\", \"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"z_mm\": {:.6f}, "
+          "\"left_mm\": {:.6f}, \"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, "
+          "\"right_sigma_mm\": {:.4f}, \"feed_mm_per_min\": {}}}\n",
+          place.line,
+          gcode::name(place.kind),
+          place.place.x_mm,
+          place.place.y_mm,
+          place.place.z_mm,
+          left,
+          right,
+          left_sigma,
+          right_sigma,
+          place.kind == gcode::MoveKind::rapid ? std::string("null")
+                                               : fmt::format("{:.3f}", place.feed_mm_per_min));
     } else {
       fmt::format_to(std::back_inserter(row),
                      "{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{}\n",
@@ -218,12 +214,8 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
     output.write(row);
   };
   Findings findings;
-  const auto outcome = gcode::path_lengths(source,
-                                           options.dialect(),
-                                           *target.lengths,
-                                           options.every_mm,
-                                           write,
-                                           findings);
+  const auto outcome = gcode::path_lengths(
+      source, options.dialect(), *target.lengths, options.every_mm, write, findings);
   if (!outcome) return report(options.program, outcome.error());
   const int code = report(options.program, findings);
   if (code != kDone) {

@@ -32,7 +32,7 @@ struct Proof {
 Proof prove(const GcodeOptions& options,
             const GcodeMachine& machine,
             const GcodeText& text,
-            grid::files::PendingFile& output) {
+            files::PendingFile& output) {
   auto original = text.open({"the result on the simulated machine", 2, 2});
   auto written = written_so_far(output);
   const auto outcome = gcode::verify(
@@ -64,8 +64,7 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
   }
   return fmt::format(
       "The file is safe to run: on a simulated {} controller the tool stays within {:.3f} mm of "
-      "the path "
-      "(tolerance {:g} mm), at the intended feeds, with every word in its place.",
+      "the path (tolerance {:g} mm), at the intended feeds, with every word in its place.",
       controller,
       proof.largest_mm,
       options.tolerance_mm);
@@ -102,22 +101,21 @@ void say_what_it_is_for(const GcodeMachine& machine, const GcodeOptions& options
   if (options.settings.empty() && options.machine.empty()) {
     if (const std::string after = map_after(options.map); !after.empty()) {
       fmt::print(stderr,
-                 "Have you typed in the numbers that {0} is for? {1} is for the controller as it was before: "
-                 "with the numbers in it, compensate with {0}.\n",
+                 "Have you typed in the numbers that {0} is for? {1} is for the controller as it "
+                 "was before: with the numbers in it, compensate with {0}.\n",
                  after,
                  options.map);
     }
   }
   const gcode::Firmware* firmware = &machine.corrector().firmware();
-  const bool adds_home = firmware == &gcode::firmware(model::ControllerKind::maslow_classic) ||
-                         firmware == &gcode::firmware(model::ControllerKind::holey);
+  const bool adds_home = firmware == &gcode::firmware(ControllerKind::maslow_classic) ||
+                         firmware == &gcode::firmware(ControllerKind::holey);
   if (!adds_home || options.home_is_zero) return;
-  const model::BedPoint home = options.home_mm();
+  const BedPoint home = options.home_mm();
   if (home.x_mm == 0.0 && home.y_mm == 0.0) {
     fmt::print(stderr,
                "It is for home at 0, 0. If you have moved home (Define Home), give its place with "
-               "--home "
-               "X,Y.\n");
+               "--home X,Y.\n");
   } else {
     fmt::print(stderr,
                "Home at {:g}, {:g} is in its numbers: move home back to 0, 0 before you run it.\n",
@@ -171,7 +169,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
   auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
   gcode::CompensateOptions settings = compensate_options(options, machine);
-  grid::files::note_source(text.source());
+  files::note_source(text.source());
   settings.made_by = made_by(options.verb);
   report::PathReport picture;
   gcode::CutPlaces cuts;
@@ -181,7 +179,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
         if ((options.json || !options.report.empty()) && move.names_xy)
           picture.add(drawn(move, from, to));
       };
-  grid::files::PendingFile output(options.output);
+  files::PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
   const auto summary = compensator.run(source, options.dialect());
@@ -198,8 +196,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   Proof proof;
   if (!options.no_verify) proof = prove(options, machine, text, output);
   const bool holds = proof.fault.empty();
-  const PromisedError promised = promised_along(
-      cuts, machine, options.no_verify ? options.tolerance_mm : proof.largest_mm);
+  const PromisedError promised =
+      promised_along(cuts, machine, options.no_verify ? options.tolerance_mm : proof.largest_mm);
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -234,18 +232,18 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
           {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
     }
     if (const auto expected = promised.measured_mm(); expected && holds) {
-      picture.figures.insert(picture.figures.begin(),
-                             {fmt::format("{:.2f} mm", *expected),
-                              promised.is_without_scale
-                                        ? "expected error of the tool but for the scale, one sigma"
-                                        : "expected error of the tool, one sigma"});
+      picture.figures.insert(
+          picture.figures.begin(),
+          {fmt::format("{:.2f} mm", *expected),
+           promised.is_without_scale ? "expected error of the tool but for the scale, one sigma"
+                                     : "expected error of the tool, one sigma"});
     }
-    report::Document document = report::page_of(picture);
+    Document document = report::page_of(picture);
     add_made_by(settings.made_by, document.sections);
     page = report::render_html(document);
   }
   if (holds) {
-    std::vector<grid::files::OutputFile> others = {{options.report, page}};
+    std::vector<files::OutputFile> others = {{options.report, page}};
     if (options.json)
       others.push_back(
           {"-",
@@ -263,9 +261,9 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
     fmt::print(
         stderr,
         "{}: run on a simulated {} controller, the compensated program is not within {} mm: {}\n"
-        "the program is not written; try another --tolerance-mm, or --no-verify for a look "
-        "at that line\n",
-        grid::files::name_in_messages(options.program),
+        "the program is not written; try another --tolerance-mm, or --no-verify for a look at that "
+        "line\n",
+        files::name_in_messages(options.program),
         machine.corrector().firmware().name,
         options.tolerance_mm,
         proof.fault);
@@ -274,8 +272,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   if (!options.no_verify) {
     fmt::print(stderr,
                "run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
-               "tolerance {} "
-               "mm\n",
+               "tolerance {} mm\n",
                machine.corrector().firmware().name,
                proof.largest_mm,
                options.tolerance_mm);
@@ -291,7 +288,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
 
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
-  const grid::CompensationMap* map = machine.map();
+  const CompensationMap* map = machine.map();
   if (map != nullptr && !options.forced && refuses_to_cut_with(*map))
     throw Failed("", "not_to_cut_with", not_to_cut_with(*map), kCheckFailed);
   return compensate_for(machine, options);

@@ -66,11 +66,10 @@ std::string in_words(const PromisedError& error) {
 }
 
 std::string as_members(const PromisedError& error) {
-  return fmt::format(
-      "\"expected_mm\": {}, \"outside_mm\": {}, \"expected_outside_mm\": {}",
-      or_null(error.measured_mm()),
-      error.map ? fmt::format("{:.3f}", error.map->outside.length_mm) : "null",
-      or_null(error.outside_mm()));
+  return fmt::format("\"expected_mm\": {}, \"outside_mm\": {}, \"expected_outside_mm\": {}",
+                     or_null(error.measured_mm()),
+                     error.map ? fmt::format("{:.3f}", error.map->outside.length_mm) : "null",
+                     or_null(error.outside_mm()));
 }
 
 }  // namespace chaintrue::cli

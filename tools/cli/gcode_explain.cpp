@@ -28,7 +28,7 @@ struct LineEvents final : gcode::Sink {
 };
 
 void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
-  const model::BedPoint target{move.to.x_mm, move.to.y_mm};
+  const BedPoint target{move.to.x_mm, move.to.y_mm};
   fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n",
              gcode::name(move.kind),
              target.x_mm,
@@ -69,8 +69,7 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   const char* begin = options.program.data() + (colon == std::string::npos ? 0 : colon + 1);
   const char* end = options.program.data() + options.program.size();
   if (colon == std::string::npos || std::from_chars(begin, end, line).ptr != end || line == 0) {
-    throw grid::files::InputError(
-        {{"explain", "", options.program, "a file and a line, such as part.nc:12"}});
+    throw InputError({{"explain", "", options.program, "a file and a line, such as part.nc:12"}});
   }
   const std::string file = options.program.substr(0, colon);
   const GcodeText text(file);

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <utility>
 #include <system_error>
+#include <utility>
 
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
@@ -22,8 +22,6 @@
 #include "tools/cli/progress.hpp"
 
 namespace chaintrue::cli {
-
-using grid::files::InputError;
 
 namespace {
 
@@ -49,7 +47,7 @@ void check_limits(const GcodeOptions& options, OptionProblems& problems) {
       fmt::format("more than {:.2g} mm, which rounding to {} decimals uses up; or more --decimals",
                   least_mm,
                   options.decimals),
-      grid::ProblemKind::out_of_range);
+      ProblemKind::out_of_range);
 }
 
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,
@@ -62,7 +60,7 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
   result.keep_rapids_whole = options.keep_rapids_whole;
   result.clamp_box = machine.controller().clamp_box;
   result.half_play_mm = machine.controller().half_play_mm;
-  for (const grid::files::NamedSetting& setting : machine.controller().settings)
+  for (const files::NamedSetting& setting : machine.controller().settings)
     result.settings.push_back(setting.name + " " + setting.text);
   return result;
 }
@@ -78,8 +76,8 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
   } else if (std::filesystem::is_fifo(path, unknown)) {
     std::ifstream pipe(path, std::ios::binary);
     text_ = whole(pipe);
-  } else if (!grid::files::identity_of(path)) {
-    text_ = grid::files::read_whole_file(path);  // which reports the problem
+  } else if (!files::identity_of(path)) {
+    text_ = files::read_whole_file(path);  // which reports the problem
   }
 }
 
@@ -105,8 +103,8 @@ gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
 }
 
 grid::SourceFile GcodeText::source() const {
-  grid::files::Sha256 hash;
-  std::string name = grid::files::name_without_folders(path_);
+  files::Sha256 hash;
+  std::string name = files::name_without_folders(path_);
   if (text_) {
     hash.add(*text_);
     return {std::move(name), hash.text()};
@@ -148,18 +146,15 @@ std::string in_quotes(std::string_view text) {
 
 int report(const std::string& file, const gcode::Problem& problem) {
   end_progress();
-  fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(file), problem.message());
+  fmt::print(stderr, "{}: {}\n", files::name_in_messages(file), problem.message());
   return exit_code(problem.name);
 }
 
 int report(const std::string& file, const gcode::Findings& findings) {
   end_progress();
   for (const gcode::Note& note : findings.notes) {
-    fmt::print(stderr,
-               "{}: line {}: note: {}\n",
-               grid::files::name_in_messages(file),
-               note.line,
-               note.sentence);
+    fmt::print(
+        stderr, "{}: line {}: note: {}\n", files::name_in_messages(file), note.line, note.sentence);
   }
   if (findings.note_count > findings.notes.size()) {
     fmt::print(stderr, "... and {} more notes\n", findings.note_count - findings.notes.size());
@@ -176,7 +171,7 @@ int report(const std::string& file, const gcode::Findings& findings) {
   return code;
 }
 
-gcode::LineSource written_so_far(grid::files::PendingFile& file) {
+gcode::LineSource written_so_far(files::PendingFile& file) {
   const std::string place = file.flushed();
   if (place.empty()) return gcode::LineSource::from_text(file.held());
   auto source = gcode::LineSource::from_file(place);

@@ -68,6 +68,6 @@ int report(const std::string& file, const gcode::Problem& problem);
 int report(const std::string& file, const gcode::Findings& findings);
 
 /// The content of a pending file, as a program. \throws InputError if it could not be written.
-[[nodiscard]] gcode::LineSource written_so_far(grid::files::PendingFile& file);
+[[nodiscard]] gcode::LineSource written_so_far(files::PendingFile& file);
 
 }  // namespace chaintrue::cli

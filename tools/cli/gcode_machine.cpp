@@ -20,18 +20,16 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::files::InputError;
-
 struct KindName {
   std::string_view name;
-  model::ControllerKind kind;
+  ControllerKind kind;
 };
 
 constexpr KindName kKinds[] = {
-    {"maslow_classic", model::ControllerKind::maslow_classic},
-    {"holey", model::ControllerKind::holey},
-    {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter},
-    {"ideal", model::ControllerKind::ideal},
+    {"maslow_classic", ControllerKind::maslow_classic},
+    {"holey", ControllerKind::holey},
+    {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter},
+    {"ideal", ControllerKind::ideal},
 };
 
 constexpr std::string_view kFourBeltsName = "maslow4";
@@ -43,7 +41,7 @@ gcode::Dialect GcodeOptions::dialect() const {
   gcode::Dialect dialect;
   dialect.skip_deletable_blocks = skip_deletable;
   dialect.tools_have_no_diameter = tools_have_no_diameter;
-  const model::BedPoint zero = home_mm();
+  const BedPoint zero = home_mm();
   dialect.home_mm = {zero.x_mm, zero.y_mm};
   dialect.home_is_zero = home_is_zero;
   // Without a map nothing is written, so every controller's codes may be read.
@@ -60,12 +58,12 @@ gcode::Dialect GcodeOptions::dialect() const {
   return dialect;
 }
 
-model::BedPoint GcodeOptions::home_mm() const {
+BedPoint GcodeOptions::home_mm() const {
   const std::string_view text = home;
   const std::size_t comma = text.find(',');
-  const auto x = grid::files::number_of(text.substr(0, comma));
-  const auto y = comma == std::string_view::npos ? std::nullopt
-                                                 : grid::files::number_of(text.substr(comma + 1));
+  const auto x = files::number_of(text.substr(0, comma));
+  const auto y =
+      comma == std::string_view::npos ? std::nullopt : files::number_of(text.substr(comma + 1));
   if (x && y) return {*x, *y};
   throw InputError(
       {{"--home", "", home, "two numbers in mm with a comma between, such as 120,-40"}});
@@ -78,7 +76,7 @@ const gcode::Firmware* stated_firmware(std::string_view name) {
   return kind ? &gcode::firmware(*kind) : nullptr;
 }
 
-std::optional<model::ControllerKind> controller_kind(std::string_view name) {
+std::optional<ControllerKind> controller_kind(std::string_view name) {
   for (const KindName& kind : kKinds) {
     if (kind.name == name) return kind.kind;
   }
@@ -87,12 +85,12 @@ std::optional<model::ControllerKind> controller_kind(std::string_view name) {
 
 namespace {
 
-interp::Rectangle rectangle_of(const model::Bed& bed) {
+interp::Rectangle rectangle_of(const Bed& bed) {
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
 /// The frame of the anchors; commands count from 0, 0.
-interp::Rectangle rectangle_of(const model::BeltMachine& machine) {
+interp::Rectangle rectangle_of(const BeltMachine& machine) {
   const auto& anchors = machine.anchors;
   const model::FramePoint centre = model::centre_of(machine);
   return {std::min(anchors.tl.x_mm, anchors.bl.x_mm) - centre.x_mm,
@@ -102,8 +100,8 @@ interp::Rectangle rectangle_of(const model::BeltMachine& machine) {
 }
 
 /// Under a Maslow 4's names.
-std::vector<grid::files::NamedSetting> settings_of(const model::BeltMachine& machine) {
-  std::vector<grid::files::NamedSetting> settings;
+std::vector<files::NamedSetting> settings_of(const BeltMachine& machine) {
+  std::vector<files::NamedSetting> settings;
   for (const model::Belt belt : model::kBelts) {
     const model::Anchor& anchor = machine.anchors[belt];
     for (const auto& [axis, value] : {std::pair('X', anchor.x_mm), std::pair('Y', anchor.y_mm)})
@@ -122,7 +120,7 @@ GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarg
                        options.controller,
                        "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
   }
-  const model::BeltMachine believed =
+  const BeltMachine believed =
       options.machine.empty() ? *target.belts_in_force : read_belt_machine_input(options.machine);
   return {std::make_unique<const model::BeltController>(believed),
           &gcode::firmware_of_four_belts(),
@@ -134,7 +132,7 @@ GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarg
 
 interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
   const model::DrawingArea& area = set.machine.area;
-  const model::BedPoint& by = set.pins_middle;
+  const BedPoint& by = set.pins_middle;
   return {area.left_mm + by.x_mm,
           area.right_mm + by.x_mm,
           area.bottom_mm + by.y_mm,
@@ -142,7 +140,7 @@ interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
 }
 
 /// Under the names in a chaintrue_plotter file.
-std::vector<grid::files::NamedSetting> settings_of(const grid::SetPlotter& set) {
+std::vector<files::NamedSetting> settings_of(const grid::SetPlotter& set) {
   const model::PlotterMachine& m = set.machine;
   return {
       {"firmware", std::string(model::name(set.firmware))},
@@ -168,12 +166,12 @@ GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTa
   const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
   if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
   if (!options.controller.empty() && options.controller != firmware->name) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       fmt::format("\"{}\", or to be left out: the plotter's file names its "
-                                   "controller",
-                                   firmware->name)}});
+    throw InputError(
+        {{"--controller",
+          "",
+          options.controller,
+          fmt::format("\"{}\", or to be left out: the plotter's file names its controller",
+                      firmware->name)}});
   }
   return {
       std::make_unique<const model::PlotterController>(set.firmware, set.machine, set.pins_middle),
@@ -185,7 +183,7 @@ GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTa
       firmware};
 }
 
-model::Machine believed_machine(const GcodeOptions& options, const grid::CompensationMap& map) {
+Machine believed_machine(const GcodeOptions& options, const CompensationMap& map) {
   if (!options.machine.empty()) return read_machine_input(options.machine);
   const auto stated = grid::stated_machine(map);
   if (!options.settings.empty()) {
@@ -194,16 +192,17 @@ model::Machine believed_machine(const GcodeOptions& options, const grid::Compens
     return stated ? with_settings(*stated, now, in_place ? &*in_place : nullptr) : now.read.machine;
   }
   if (stated) return *stated;
-  throw InputError({{options.map,
-                     "",
-                     "",
-                     fmt::format("a map with a machine; this one has none, so give the "
-                                 "controller's settings with {}",
-                                 options.machine_option)}});
+  throw InputError(
+      {{options.map,
+        "",
+        "",
+        fmt::format(
+            "a map with a machine; this one has none, so give the controller's settings with {}",
+            options.machine_option)}});
 }
 
 /// If --controller names another than the map was measured with.
-void say_other_controller(const grid::CompensationMap& map, model::ControllerKind kind) {
+void say_other_controller(const CompensationMap& map, ControllerKind kind) {
   if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
   fmt::print(stderr,
              "The map was measured with the controller {}; --controller {} replaces it.\n",
@@ -215,14 +214,13 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
   if (target.plotter) return controller_of_plotter(options, target);
   if (target.map == nullptr) return controller_of_belts(options, target);
   if (options.controller == kMarlinName) {
-    throw InputError(
-        {{"--controller",
-          "",
-          options.controller,
-          "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit takes "
-          "the map's place"}});
+    throw InputError({{"--controller",
+                       "",
+                       options.controller,
+                       "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit "
+                       "takes the map's place"}});
   }
-  model::Machine machine = believed_machine(options, *target.map);
+  Machine machine = believed_machine(options, *target.map);
   if (const auto kind = controller_kind(options.controller)) {
     say_other_controller(*target.map, *kind);
     machine.controller.kind = *kind;
@@ -232,7 +230,7 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
           gcode::clamp_box(machine),
           rectangle_of(machine.bed),
           gcode::half_play_mm(machine),
-          grid::files::settings_in_force(machine)};
+          files::settings_in_force(machine)};
 }
 
 GcodeTarget target_of_plotter(const GcodeOptions& options) {
@@ -242,7 +240,7 @@ GcodeTarget target_of_plotter(const GcodeOptions& options) {
 }
 
 GcodeTarget target_of_belts(const GcodeOptions& options) {
-  const grid::files::FittedAnchors found = load_anchors(*options.map_file);
+  const files::FittedAnchors found = load_anchors(*options.map_file);
   const grid::HolesWithBelts* holes = found.holes ? &*found.holes : nullptr;
   if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
     OptionProblems problems;
@@ -250,20 +248,20 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
                  options.map,
                  "anchors fitted to a file that states those in force: where commands count from "
                  "follows from them (import maslow4 --settings maslow.yaml)",
-                 grid::ProblemKind::missing);
+                 ProblemKind::missing);
     problems.throw_if_any();
   }
   auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
   GcodeTarget target{.belts_in_force = map->in_force()};
   if (!found.fit.scale) {
-    grid::BeltsFit taken_as_true = found.fit;
+    BeltsFit taken_as_true = found.fit;
     taken_as_true.scale = grid::BeltScale{};
     target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
-    fmt::print(stderr,
-               "The scale is not known: a turn of the encoder is assumed to be {:g} mm of belt, "
-               "so parts can be no more accurate than that. One long taped distance, or holes, "
-               "determines it.\n",
-               found.fit.machine.belt_turn_mm);
+    fmt::print(
+        stderr,
+        "The scale is not known: a turn of the encoder is assumed to be {:g} mm of belt, so parts "
+        "can be no more accurate than that. One long taped distance, or holes, determines it.\n",
+        found.fit.machine.belt_turn_mm);
   }
   target.lengths = std::move(map);
   return target;
@@ -277,7 +275,7 @@ GcodeTarget target_of_map(const GcodeOptions& options) {
                        "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
                        "these in place of a map"}});
   }
-  GcodeTarget target{std::make_unique<const grid::CompensationMap>(load_map(*options.map_file))};
+  GcodeTarget target{std::make_unique<const CompensationMap>(load_map(*options.map_file))};
   target.lengths = std::make_unique<const grid::MapInFrame>(
       *target.map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
   return target;
@@ -297,7 +295,7 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options)
       corrector_(*target_.lengths, *controller_.kinematics, *controller_.firmware) {}
 
 interp::Rectangle sheet_of(const GcodeOptions& options) {
-  if (options.machine.empty()) return rectangle_of(model::Bed{});
+  if (options.machine.empty()) return rectangle_of(Bed{});
   const FileKind kind = open_input(options.machine).kind;
   if (kind == FileKind::plotter)
     return rectangle_of(load_plotter(open_input(options.machine)).plotter.set);

@@ -52,20 +52,20 @@ struct GcodeOptions {
 
   [[nodiscard]] gcode::Dialect dialect() const;
   /// For --home. \throws InputError where it is no pair of numbers.
-  [[nodiscard]] model::BedPoint home_mm() const;
+  [[nodiscard]] BedPoint home_mm() const;
 };
 
 /// From --controller; empty if not given.
-[[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
+[[nodiscard]] std::optional<ControllerKind> controller_kind(std::string_view name);
 /// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
 /// What a program aims at: a map, the fit of four belts, or the plotter that a drawing found.
 struct GcodeTarget {
-  std::unique_ptr<const grid::CompensationMap> map = {};  ///< null of four belts and of a V-plotter
+  std::unique_ptr<const CompensationMap> map = {};  ///< null of four belts and of a V-plotter
   std::optional<grid::KnownPlotter> plotter = {};
   /// Of four belts: the machine that was in force when they were measured.
-  std::optional<model::BeltMachine> belts_in_force = {};
+  std::optional<BeltMachine> belts_in_force = {};
   std::unique_ptr<const grid::LengthMap> lengths = {};
   /// Those with an error but for the scale, of four belts whose scale nobody taped; else null.
   std::unique_ptr<const grid::LengthMap> in_belts_mm = {};
@@ -85,7 +85,7 @@ struct GcodeController {
   /// From the map's machine; none for belts and plotters.
   model::ChainLengths half_play_mm;
   /// Its settings, for the header of compensated programs.
-  std::vector<grid::files::NamedSetting> settings;
+  std::vector<files::NamedSetting> settings;
   /// A firmware with its own settings; then `firmware` points to this.
   std::shared_ptr<const gcode::Firmware> with_settings = nullptr;
 };
@@ -100,7 +100,7 @@ class GcodeMachine {
   /// As GcodeTarget::in_belts_mm.
   [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm.get(); }
   /// Null of four belts and of a V-plotter.
-  [[nodiscard]] const grid::CompensationMap* map() const { return target_.map.get(); }
+  [[nodiscard]] const CompensationMap* map() const { return target_.map.get(); }
   [[nodiscard]] const grid::KnownPlotter* plotter() const {
     return target_.plotter ? &*target_.plotter : nullptr;
   }

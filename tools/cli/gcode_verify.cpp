@@ -38,8 +38,8 @@ void print_json(const gcode::VerifySummary& summary,
   fmt::print(
       "{{\"holds\": {}, \"largest_mm\": {:.6f}, \"feeds_mm\": {:.6f}, \"rapids_mm\": {:.6f}, "
       "\"original_line\": {}, \"tolerance_mm\": {}, \"uncompensated_mm\": {}, "
-      "\"tick_overshoot_mm\": {:.6f}, \"commands\": {}, \"places\": {}, \"strays\": {}, "
-      "{}, \"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
+      "\"tick_overshoot_mm\": {:.6f}, \"commands\": {}, \"places\": {}, \"strays\": {}, {}, "
+      "\"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
       summary.holds(),
       summary.largest_mm(),
       summary.feeds.distance_mm,
@@ -121,8 +121,8 @@ std::optional<gcode::Note> assumed_unit(const GcodeText& program, const GcodeOpt
 /// The map and the program as they are now. Taken before the file that is run, which may come through
 /// a pipe as well.
 std::vector<grid::SourceFile> made_from(const GcodeOptions& options, const GcodeText& original) {
-  std::vector<grid::SourceFile> sources = grid::files::sources_read();
-  const std::string map = grid::files::name_without_folders(options.map);
+  std::vector<grid::SourceFile> sources = files::sources_read();
+  const std::string map = files::name_without_folders(options.map);
   std::erase_if(sources, [&](const grid::SourceFile& file) { return file.name != map; });
   sources.push_back(original.source());
   return sources;
@@ -139,7 +139,7 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources,
     if (grid::contains(hashes, beginning)) continue;
     fmt::print(stderr,
                "{} was made from another version of {}: compensate again.\n",
-               grid::files::name_without_folders(name),
+               files::name_without_folders(name),
                file.name);
   }
 }

@@ -29,30 +29,28 @@ void add_grid_options(Verb verb, GridInput& input) {
   add_input(verb,
             "--machine",
             input.machine,
-            "A chaintrue_machine file that replaces the grid's own "
-            "machine")
+            "A chaintrue_machine file that replaces the grid's own machine")
       .acts_on(facts::chains | facts::map,
                "to be left out: belts and drawings bring their own machine");
   add_number(verb,
              "--noise-length-mm",
              input.length_noise_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "Standard deviation (1 sigma) of a measured chain length, replaces the grid's own")
       .acts_on(facts::grid,
                "to be left out: it is of the chain lengths of a grid, which was not given");
-  add_number(verb,
-             "--noise-position-mm",
-             input.position_noise_mm,
-             grid::files::kNoiseMm,
-             "Standard deviation (1 sigma) of a measured position on each axis, replaces the "
-             "grid's own")
+  add_number(
+      verb,
+      "--noise-position-mm",
+      input.position_noise_mm,
+      files::kNoiseMm,
+      "Standard deviation (1 sigma) of a measured position on each axis, replaces the grid's own")
       .acts_on(facts::grid, "to be left out: it is of the places of a grid, which was not given");
   add_number(verb,
              "--noise-dof",
              input.noise_dof,
-             grid::files::kNoiseDof,
-             "Degrees of freedom of the noise: the higher, the more it is trusted (15 by "
-             "default)")
+             files::kNoiseDof,
+             "Degrees of freedom of the noise: the higher, the more it is trusted (15 by default)")
       .acts_on(facts::grid, "to be left out: it is of the noise of a grid, which was not given");
   verb.add_flag("--inches",
                 input.inches,
@@ -73,32 +71,28 @@ void add_effects_option(Verb verb, GridInput& input) {
 
 namespace {
 
-namespace files = grid::files;
-
-void declare(const GridInput& input,
-             const std::string& file,
-             std::optional<model::Machine>& machine) {
+void declare(const GridInput& input, const std::string& file, std::optional<Machine>& machine) {
   if (input.effects.empty()) return;
   if (machine) return files::declare_effects(input.effects, *machine);
   OptionProblems problems;
   problems.add("--effects",
                input.effects.front(),
                fmt::format("to be left out, or --machine: {} names no machine to act on", file),
-               grid::ProblemKind::contradiction);
+               ProblemKind::contradiction);
   problems.throw_if_any();
 }
 
-grid::MeasuredGrid grid_of(const InputFile& file,
-                           const GridInput& input,
-                           const files::MeasuredOptions& options) {
+MeasuredGrid grid_of(const InputFile& file,
+                     const GridInput& input,
+                     const files::MeasuredOptions& options) {
   files::ReadGrid read = files::parse_grid(file.text, file.name, options);
   print_warnings(read.warnings);
   declare(input, file.name, read.grid.machine);
   if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
-    const grid::StatedNoise own = read.grid.noise.value_or(grid::StatedNoise{});
-    read.grid.noise = grid::StatedNoise{input.length_noise_mm.value_or(own.length_mm),
-                                        input.position_noise_mm.value_or(own.position_mm),
-                                        input.noise_dof.value_or(own.dof)};
+    const StatedNoise own = read.grid.noise.value_or(StatedNoise{});
+    read.grid.noise = StatedNoise{input.length_noise_mm.value_or(own.length_mm),
+                                  input.position_noise_mm.value_or(own.position_mm),
+                                  input.noise_dof.value_or(own.dof)};
   }
   return std::move(read.grid);
 }
@@ -113,43 +107,43 @@ Facts facts_of_tables(const std::vector<InputFile>& files) {
 
 namespace {
 
-std::optional<model::Machine> machine_of(const GridInput& input) {
+std::optional<Machine> machine_of(const GridInput& input) {
   if (input.machine.empty()) return std::nullopt;
   return read_machine_input(input.machine);
 }
 
 }  // namespace
 
-void add_tape_options(Verb verb, grid::files::TapeOptions& input) {
+void add_tape_options(Verb verb, files::TapeOptions& input) {
   add_number(verb,
              "--tape-sigma-mm",
              input.sigma_mm,
-             grid::files::kTapeSigmaMm,
+             files::kTapeSigmaMm,
              "Holes: standard deviation (1 sigma) of a tape reading")
       .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hook-offset-mm",
              input.zero_offset_mm,
-             grid::files::kTapeZeroOffsetMm,
+             files::kTapeZeroOffsetMm,
              "Holes: the tape's zero error; every reading is longer than the distance by this much")
       .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hook-sigma-mm",
              input.zero_offset_sigma_mm,
-             grid::files::kHoleSigmaMm,
+             files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
              "known exactly")
       .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
-  add_number(verb,
-             "--hole-sigma-mm",
-             input.hole_sigma_mm,
-             grid::files::kHoleSigmaMm,
-             "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill "
-             "wanders")
+  add_number(
+      verb,
+      "--hole-sigma-mm",
+      input.hole_sigma_mm,
+      files::kHoleSigmaMm,
+      "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill wanders")
       .acts_on(facts::taped, "to be left out: it is of holes, which were not given");
 }
 
-grid::MeasuredGrid read_grid_input(const GridInput& input) {
+MeasuredGrid read_grid_input(const GridInput& input) {
   const InputFile file = open_input(input.grid);
   require_kind(file, {FileKind::grid});
   return grid_of(file, input, {.machine = machine_of(input), .inches = input.inches});
@@ -157,9 +151,9 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
 
 grid::MeasuredFile load_measured(const InputFile& file,
                                  const GridInput& input,
-                                 const grid::files::TapeOptions& tape,
+                                 const files::TapeOptions& tape,
                                  MeasuredUse use,
-                                 const model::Machine* otherwise) {
+                                 const Machine* otherwise) {
   require_kind(file,
                {FileKind::grid, FileKind::holes},
                file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
@@ -183,7 +177,7 @@ std::vector<InputFile> open_inputs(const std::string& path, const std::vector<st
 
 grid::Measured load_measured(const std::vector<InputFile>& files,
                              const GridInput& input,
-                             const grid::files::TapeOptions& tape,
+                             const files::TapeOptions& tape,
                              MeasuredUse use) {
   grid::Measured measured;
   measured.add(load_measured(files.front(), input, tape, use));
@@ -198,7 +192,7 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
         problems.add("--with",
                      files[k].path,
                      fmt::format("a file of the same machine as the first: {}", difference),
-                     grid::ProblemKind::contradiction);
+                     ProblemKind::contradiction);
       }
     }
     for (std::size_t before = 0; before < k; ++before) {
@@ -207,7 +201,7 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
                      files[k].path,
                      fmt::format("another session: it has exactly the same readings as {}",
                                  files[before].path),
-                     grid::ProblemKind::repeated_value);
+                     ProblemKind::repeated_value);
       }
     }
     measured.add(std::move(other));
@@ -228,7 +222,7 @@ void add_without_option(Verb verb, std::string& without) {
 
 std::vector<std::size_t> points_left_out(const std::string& without) {
   return without.empty() ? std::vector<std::size_t>{}
-                         : grid::files::point_numbers_of(without, "--without");
+                         : files::point_numbers_of(without, "--without");
 }
 
 }  // namespace chaintrue::cli

@@ -35,15 +35,15 @@ void add_grid_options(Verb verb, GridInput& input);
 /// Adds --effects: declared effects may act on the machine of every input file.
 void add_effects_option(Verb verb, GridInput& input);
 
-/// Reads all inputs; warnings go to standard error. \throws files::InputError.
-[[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
+/// Reads all inputs; warnings go to standard error. \throws InputError.
+[[nodiscard]] MeasuredGrid read_grid_input(const GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
-void add_tape_options(Verb verb, grid::files::TapeOptions& input);
+void add_tape_options(Verb verb, files::TapeOptions& input);
 
 /// Adds --without to a verb that takes belts.
 void add_without_option(Verb verb, std::string& without);
-/// Its points, from 1. \throws files::InputError.
+/// Its points, from 1. \throws InputError.
 [[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
 
 /// For a verb that takes only holes of two chains but gets those of four belts.
@@ -54,18 +54,18 @@ inline constexpr const char* kBeltHolesAreFitted =
 enum class MeasuredUse { fit, check };
 
 /// A grid or a set of holes, as the file is; `otherwise` is the machine for a file that names none,
-/// if available. \throws files::InputError.
+/// if available. \throws InputError.
 [[nodiscard]] grid::MeasuredFile load_measured(const InputFile& file,
                                                const GridInput& input,
-                                               const grid::files::TapeOptions& tape,
+                                               const files::TapeOptions& tape,
                                                MeasuredUse use,
-                                               const model::Machine* otherwise = nullptr);
+                                               const Machine* otherwise = nullptr);
 
 /// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
-/// settings. \throws files::InputError.
+/// settings. \throws InputError.
 [[nodiscard]] grid::Measured load_measured(const std::vector<InputFile>& files,
                                            const GridInput& input,
-                                           const grid::files::TapeOptions& tape,
+                                           const files::TapeOptions& tape,
                                            MeasuredUse use);
 
 /// The file, and those of --with.

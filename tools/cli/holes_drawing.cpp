@@ -14,13 +14,11 @@
 namespace chaintrue::cli {
 namespace {
 
-using model::BedPoint;
-
 // The picture, in its own units.
 constexpr double kSheetWide = 900.0, kSheetLeft = 30.0, kSheetTop = 60.0, kSheetBelow = 50.0;
 
 /// The foot of the perpendicular on an edge of the bed.
-BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const model::Bed& bed) {
+BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed) {
   switch (edge) {
     case grid::SheetEdge::left:
       return {-0.5 * bed.width_mm, from.y_mm};
@@ -50,12 +48,11 @@ void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& 
     const report::DrawnHole& hole = drawn[i];
     const report::HoleLabel& label = labels[i];
     svg.add(
-        "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\" "
-        "stroke=\"#333333\"/>\n"
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#ffffff\" "
-        "stroke=\"{4}\" stroke-width=\"3\"/>\n"
-        "<text x=\"{5:.1f}\" y=\"{6:.1f}\" stroke=\"#fff7ec\" "
-        "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
+        "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\" stroke=\"#333333\"/>\n"
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#ffffff\" stroke=\"{4}\" "
+        "stroke-width=\"3\"/>\n"
+        "<text x=\"{5:.1f}\" y=\"{6:.1f}\" stroke=\"#fff7ec\" stroke-width=\"4\" "
+        "paint-order=\"stroke\"><tspan font-weight=\"bold\" "
         "font-size=\"18\">{7}</tspan>{8}{9}</text>\n",
         hole.x,
         hole.y,
@@ -73,7 +70,7 @@ void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& 
 }  // namespace
 
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
-  const model::Bed& bed = plan.set.machine->bed;
+  const Bed& bed = plan.set.machine->bed;
   const BedView view(bed.width_mm, bed.height_mm, {kSheetLeft, kSheetTop}, kSheetWide);
   const bool has_edges = grid::any_of(
       plan.set.distances, [](const auto& distance) { return distance.edge.has_value(); });
@@ -93,9 +90,8 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
     const BedPoint to =
         distance.edge ? on_edge(from, *distance.edge, bed) : plan.set.holes[distance.to].commanded;
     svg.add(
-        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-        "stroke=\"{}\" stroke-opacity=\"0.6\"><title>{}: about {:.0f} "
-        "mm</title></line>\n",
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
+        "stroke-opacity=\"0.6\"><title>{}: about {:.0f} mm</title></line>\n",
         view.x(from.x_mm),
         view.y(from.y_mm),
         view.x(to.x_mm),

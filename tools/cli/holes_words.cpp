@@ -25,10 +25,10 @@ std::string listed(const std::vector<std::string>& words) {
 
 }  // namespace
 
-report::Section distances_section(const grid::MeasuredHoles& set,
-                                  const grid::FittedDistances& fit,
-                                  std::string_view file) {
-  report::Table table{
+Section distances_section(const MeasuredHoles& set,
+                          const grid::FittedDistances& fit,
+                          std::string_view file) {
+  Table table{
       .columns =
           {{.heading = "Distance", .width = 22},
            {.heading = "measured", .is_number = true, .digits = 1, .width = 10},
@@ -39,7 +39,7 @@ report::Section distances_section(const grid::MeasuredHoles& set,
       .is_headed = true};
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
-    report::Row& row = table.rows.emplace_back();
+    Row& row = table.rows.emplace_back();
     row.cells = {words_of(set, set.distances[k]),
                  distance.measured_mm,
                  distance.commanded_mm,
@@ -48,26 +48,25 @@ report::Section distances_section(const grid::MeasuredHoles& set,
     row.is_flagged = distance.rejected;
     if (distance.rejected) row.cells.emplace_back("left out");
   }
-  report::Section section{
-      "Distance by distance", {}, true, report::Detail::verbose, /*is_titled=*/false};
-  if (!file.empty()) section.blocks.emplace_back(report::Paragraph{fmt::format("{}:", file)});
+  Section section{"Distance by distance", {}, true, Detail::verbose, /*is_titled=*/false};
+  if (!file.empty()) section.blocks.emplace_back(Paragraph{fmt::format("{}:", file)});
   section.blocks.emplace_back(std::move(table));
   return section;
 }
 
-void add_legend(const grid::estimation::ParameterKnowledge& knowledge, report::Section& distances) {
-  distances.blocks.emplace_back(report::Paragraph{
-      fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings "
-                  "over the model's lengths).",
-                  100.0 * knowledge.mean[6],
-                  100.0 * std::sqrt(knowledge.covariance(6, 6)),
-                  100.0 * knowledge.mean[7],
-                  100.0 * std::sqrt(knowledge.covariance(7, 7)))});
+void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& distances) {
   distances.blocks.emplace_back(
-      report::Paragraph{"Left out: measured minus what the other readings predict, mm."});
+      Paragraph{fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
+                            "(readings over the model's lengths).",
+                            100.0 * knowledge.mean[6],
+                            100.0 * std::sqrt(knowledge.covariance(6, 6)),
+                            100.0 * knowledge.mean[7],
+                            100.0 * std::sqrt(knowledge.covariance(7, 7)))});
+  distances.blocks.emplace_back(
+      Paragraph{"Left out: measured minus what the other readings predict, mm."});
 }
 
-std::string distances_in_number(const grid::MeasuredHoles& set) {
+std::string distances_in_number(const MeasuredHoles& set) {
   const auto edges = std::count_if(set.distances.begin(),
                                    set.distances.end(),
                                    [](const auto& distance) { return distance.edge.has_value(); });
@@ -99,12 +98,11 @@ std::string workshop_list(const grid::HolesPlan& plan) {
   return text;
 }
 
-std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequest& request) {
+std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& request) {
   std::string text = fmt::format(
       "{} holes, {}. With errors of {:g} mm for the tape and {:g} mm for a hole (one sigma) the "
       "expected error of the tool is {:.2f} mm rms over the bed, {}; without measurement {:.2f} "
-      "mm{}.\n\nWhat the "
-      "set shows                    before     after\n",
+      "mm{}.\n\nWhat the set shows                    before     after\n",
       plan.set.holes.size(),
       distances_in_number(plan.set),
       request.tape_sigma_mm,

@@ -22,8 +22,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct OpticalCommand {
   std::string input;
   std::string machine;
@@ -62,9 +60,9 @@ int import_optical(const OpticalCommand& command) {
 
 void add_optical(Verb import) {
   auto command = std::make_shared<OpticalCommand>();
-  Verb verb = import.add_verb("optical",
-                              "Convert a scan by WebControl's or GroundControl's optical "
-                              "calibration into a grid");
+  Verb verb = import.add_verb(
+      "optical",
+      "Convert a scan by WebControl's or GroundControl's optical calibration into a grid");
   add_input(verb,
             "file",
             command->input,
@@ -73,15 +71,10 @@ void add_optical(Verb import) {
   add_input(verb,
             "--machine",
             command->machine,
-            "The machine with the controller settings in force "
-            "during the scan")
+            "The machine with the controller settings in force during the scan")
       .required();
-  add_number(verb,
-             "--pitch-mm",
-             command->pitch_mm,
-             grid::files::kOpticalPitchMm,
-             "Distance between "
-             "squares");
+  add_number(
+      verb, "--pitch-mm", command->pitch_mm, files::kOpticalPitchMm, "Distance between squares");
   verb.add_option(
           "--order", command->order, "Order in which the squares were visited, if it is known")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
@@ -142,9 +135,8 @@ void add_groundcontrol(Verb import) {
 }  // namespace
 
 void add_import(Verb app) {
-  Verb verb = app.add_verb("import",
-                           "Convert files of other programs into machine, plotter, grid and "
-                           "belts files");
+  Verb verb = app.add_verb(
+      "import", "Convert files of other programs into machine, plotter, grid and belts files");
   verb.require_verb();
   verb.footer(
       "Example:\n"

@@ -18,8 +18,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct Maslow4Command {
   std::vector<std::string> inputs;
   std::string settings;
@@ -49,10 +47,10 @@ files::Maslow4Options options_of(const Maslow4Command& command) {
 std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
   files::Maslow4Options options = options_of(command);
   if (command.inputs.size() > 1 && !command.runs.empty()) {
-    throw files::InputError({{"the command line",
-                              "--runs",
-                              fmt::format("together with {} logs", command.inputs.size()),
-                              "one log: of several the last run of each is taken"}});
+    throw InputError({{"the command line",
+                       "--runs",
+                       fmt::format("together with {} logs", command.inputs.size()),
+                       "one log: of several the last run of each is taken"}});
   }
   std::vector<files::Maslow4Import> runs;
   for (const std::string& input : command.inputs) {
@@ -89,7 +87,7 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
 }
 
 /// The pulls of the belts, if more than one is known.
-void tell_pulls(const grid::MeasuredBelts& belts) {
+void tell_pulls(const MeasuredBelts& belts) {
   const std::vector<double> different = grid::different_pulls(belts);
   if (different.size() < 2) return;
   fmt::print(stderr,
@@ -114,10 +112,9 @@ int import_maslow4(const Maslow4Command& command) {
   fmt::print(stderr, "{} points read.\n", read.belts.points.size());
   for (const std::string& sentence : read.assumed) fmt::print(stderr, "Assumed: {}.\n", sentence);
   if (!read.belts.machine.anchors_known) {
-    fmt::print(
-        stderr,
-        "The anchors in force are not known; --settings maslow.yaml gives them, with the arm and "
-        "the heights.\n");
+    fmt::print(stderr,
+               "The anchors in force are not known; --settings maslow.yaml gives them, with the "
+               "arm and the heights.\n");
   }
   if (read.stopped) fmt::print(stderr, "{}\n", *read.stopped);
   if (read.is_enough) say_next({"fit", command.output, "-o", "anchors.json"});
@@ -130,27 +127,26 @@ void add_import_maslow4(Verb import) {
   auto command = std::make_shared<Maslow4Command>();
   Verb verb =
       import.add_verb("maslow4", "Convert the log of a Maslow 4's Find Anchors into a belts file");
-  add_input(
-      verb,
-      "file",
-      command->inputs,
-      "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. Several "
-      "logs are runs of one session on one frame, each with a pull of its own")
+  add_input(verb,
+            "file",
+            command->inputs,
+            "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. "
+            "Several logs are runs of one session on one frame, each with a pull of its own")
       .required();
   add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
-  verb.add_option("--lengths",
-                  command->lengths,
-                  "Meaning of a length: the slanting belt alone; the belt with its extension and "
-                  "arm, as printed before October 2024; or the level span from anchor to tool, as "
-                  "printed since")
+  verb.add_option(
+          "--lengths",
+          command->lengths,
+          "Meaning of a length: the slanting belt alone; the belt with its extension and arm, as "
+          "printed before October 2024; or the level span from anchor to tool, as printed since")
       .one_of({"belt", "belt_and_arm", "span"});
   verb.add_option("--orientation", command->orientation, "Position of the frame")
       .one_of({"upright", "flat"});
-  verb.add_option("--runs",
-                  command->runs,
-                  "Runs of the log to use, such as 2 or 1,2; several form one session. A run may "
-                  "be given by its first and last point, counted from 0 over all runs, such as "
-                  "0:98. By default the last");
+  verb.add_option(
+      "--runs",
+      command->runs,
+      "Runs of the log to use, such as 2 or 1,2; several form one session. A run may be given by "
+      "its first and last point, counted from 0 over all runs, such as 0:98. By default the last");
   verb.add_option("--pulls",
                   command->pulls,
                   "Pull on the belts in each run: a ratio (1,1.6), the motors' current "

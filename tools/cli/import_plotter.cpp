@@ -13,8 +13,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct PlotterCommand {
   std::string input;
   std::string output = "-";
@@ -34,9 +32,8 @@ int import_plotter(const PlotterCommand& command) {
 
 void add_import_plotter(Verb import) {
   auto command = std::make_shared<PlotterCommand>();
-  Verb verb = import.add_verb("plotter",
-                              "Convert the settings of a V-plotter's controller into a plotter "
-                              "file");
+  Verb verb = import.add_verb(
+      "plotter", "Convert the settings of a V-plotter's controller into a plotter file");
   add_input(verb,
             "file",
             command->input,

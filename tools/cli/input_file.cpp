@@ -15,8 +15,6 @@
 
 namespace chaintrue::cli {
 
-namespace files = grid::files;
-
 InputFile open_input(const std::string& path) {
   InputFile file{path, files::name_in_messages(path), files::read_whole_file(path)};
   file.kind = files::kind_of(file.text, file.name);
@@ -36,7 +34,7 @@ void require_kind(const InputFile& file,
   const std::string what_takes = is_json && file.kind != FileKind::belt_holes && also.empty()
                                      ? files::what_takes(files::file_type_of(file.text, file.name))
                                      : "";
-  throw files::InputError(
+  throw InputError(
       {{file.name,
         file.kind == FileKind::belt_holes ? "/machine"
         : is_json                         ? "/file_type"
@@ -45,18 +43,18 @@ void require_kind(const InputFile& file,
         fmt::format(
             "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes),
         {},
-        grid::ProblemKind::file_kind}});
+        ProblemKind::file_kind}});
 }
 
 files::FittedAnchors load_anchors(const InputFile& file) {
   return files::parse_anchors(file.text, file.name);
 }
 
-grid::diagnosis::Diagnosis load_diagnosis(const InputFile& file) {
+Diagnosis load_diagnosis(const InputFile& file) {
   return files::parse_diagnosis(file.text, file.name);
 }
 
-model::Machine load_machine(const InputFile& file) {
+Machine load_machine(const InputFile& file) {
   files::ReadMachine read = files::parse_machine_with_warnings(file.text, file.name);
   print_warnings(read.warnings);
   return std::move(read.machine);
@@ -72,49 +70,48 @@ files::ReadBelts load_belts(const InputFile& file,
   files::ReadBelts read = files::parse_belts(file.text, file.name, without);
   print_warnings(read.warnings);
   if (read.belts.points.size() > grid::kMostBeltPoints) {
-    throw files::InputError({{file.name,
-                              "/points",
-                              fmt::format("{} places are more than {} takes ({})",
-                                          read.belts.points.size(),
-                                          work,
-                                          grid::kMostBeltPoints),
-                              "fewer: leave some out, evenly over the sheet",
-                              {},
-                              grid::ProblemKind::too_many}});
+    throw InputError({{file.name,
+                       "/points",
+                       fmt::format("{} places are more than {} takes ({})",
+                                   read.belts.points.size(),
+                                   work,
+                                   grid::kMostBeltPoints),
+                       "fewer: leave some out, evenly over the sheet",
+                       {},
+                       ProblemKind::too_many}});
   }
   return read;
 }
 
-grid::CompensationMap load_map(const InputFile& file) {
+CompensationMap load_map(const InputFile& file) {
   require_kind(file,
                {FileKind::map},
-               file.kind == FileKind::anchors
-                   ? "anchors of four belts are taken by chaintrue query, report, check, gcode and "
-                     "export maslow4"
-                   : "");
+               file.kind == FileKind::anchors ? "anchors of four belts are taken by chaintrue "
+                                                "query, report, check, gcode and export maslow4"
+                                              : "");
   return files::parse_map(file.text, file.name);
 }
 
-model::Machine read_machine_input(const std::string& path) {
+Machine read_machine_input(const std::string& path) {
   static std::set<std::string> reported;
   files::ReadMachine read = files::read_machine_with_warnings(path);
   if (reported.insert(path).second) print_warnings(read.warnings);
   return std::move(read.machine);
 }
 
-model::BeltMachine read_belt_machine_input(const std::string& path) {
+BeltMachine read_belt_machine_input(const std::string& path) {
   return load_belt_machine(open_input(path));
 }
 
-model::BeltMachine load_belt_machine(const InputFile& file) {
+BeltMachine load_belt_machine(const InputFile& file) {
   require_kind(file, {FileKind::belts, FileKind::anchors});
   if (file.kind == FileKind::anchors) return files::machine_as_pasted(load_anchors(file).fit);
-  model::BeltMachine machine = load_belts(file, "a machine").belts.machine;
+  BeltMachine machine = load_belts(file, "a machine").belts.machine;
   if (!machine.anchors_known) {
-    throw files::InputError({{file.name,
-                              "/machine/anchors",
-                              "",
-                              "x_mm and y_mm of all four anchors that are in force"}});
+    throw InputError({{file.name,
+                       "/machine/anchors",
+                       "",
+                       "x_mm and y_mm of all four anchors that are in force"}});
   }
   return machine;
 }

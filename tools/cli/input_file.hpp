@@ -21,10 +21,9 @@
 #include "grid/map/compensation_map.hpp"
 #include "model/belts/belt_machine.hpp"
 #include "model/machine.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
-
-using grid::files::FileKind;
 
 struct InputFile {
   std::string path;  ///< as it was given
@@ -33,38 +32,38 @@ struct InputFile {
   FileKind kind = FileKind::other;
 };
 
-/// "-" is standard input. \throws files::InputError where it cannot be read, or is JSON that ends
+/// "-" is standard input. \throws InputError where it cannot be read, or is JSON that ends
 /// before its type.
 [[nodiscard]] InputFile open_input(const std::string& path);
 
 /// \param also a clause on where a refused kind is accepted; may be empty
-/// \throws files::InputError with the kind found and the kinds accepted.
+/// \throws InputError with the kind found and the kinds accepted.
 void require_kind(const InputFile& file,
                   const std::vector<FileKind>& taken,
                   const std::string& also = "");
 
-/// Each reads a file of its kind. \throws files::InputError with every problem.
-[[nodiscard]] grid::files::FittedAnchors load_anchors(const InputFile& file);
-[[nodiscard]] grid::diagnosis::Diagnosis load_diagnosis(const InputFile& file);
-[[nodiscard]] model::Machine load_machine(const InputFile& file);
+/// Each reads a file of its kind. \throws InputError with every problem.
+[[nodiscard]] files::FittedAnchors load_anchors(const InputFile& file);
+[[nodiscard]] Diagnosis load_diagnosis(const InputFile& file);
+[[nodiscard]] Machine load_machine(const InputFile& file);
 /// The belts of a chaintrue_belts file.
-[[nodiscard]] model::BeltMachine load_belt_machine(const InputFile& file);
+[[nodiscard]] BeltMachine load_belt_machine(const InputFile& file);
 /// At most kMostBeltPoints places; `work` is their purpose: "a fit".
-[[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file, const std::string& work);
+[[nodiscard]] files::ReadBelts load_belts(const InputFile& file, const std::string& work);
 /// Without some points, counted from 1.
-[[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file,
-                                                const std::string& work,
-                                                const std::vector<std::size_t>& without);
+[[nodiscard]] files::ReadBelts load_belts(const InputFile& file,
+                                          const std::string& work,
+                                          const std::vector<std::size_t>& without);
 
-[[nodiscard]] grid::CompensationMap load_map(const InputFile& file);
+[[nodiscard]] CompensationMap load_map(const InputFile& file);
 
 /// "-" is standard input. A file that is read again gives no new warnings. \throws
-/// files::InputError.
-[[nodiscard]] model::Machine read_machine_input(const std::string& path);
+/// InputError.
+[[nodiscard]] Machine read_machine_input(const std::string& path);
 
 /// The machine of a four-belt controller: from a chaintrue_belts file with the anchors in force,
 /// from a chaintrue_anchors file with the fitted ones, as pasted from export maslow4. \throws
-/// files::InputError.
-[[nodiscard]] model::BeltMachine read_belt_machine_input(const std::string& path);
+/// InputError.
+[[nodiscard]] BeltMachine read_belt_machine_input(const std::string& path);
 
 }  // namespace chaintrue::cli

@@ -16,8 +16,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 /// These change nothing of what is made: what is printed, what may be replaced.
 constexpr std::array<std::string_view, 6> kWithoutTrace = {
     "--force", "--json", "--quiet", "--threads", "--verbose", "--wish-mm"};
@@ -42,23 +40,22 @@ grid::Provenance made_by(Verb verb) {
   return made_by;
 }
 
-void add_made_by(const std::optional<grid::Provenance>& made_by,
-                 std::vector<report::Section>& sections) {
+void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Section>& sections) {
   if (!made_by) return;
   std::string command = "chaintrue " + made_by->verb;
   for (const std::string& option : made_by->options) command += " " + option;
-  report::Table table{.columns = {{"file"}, {"SHA-256"}}};
+  Table table{.columns = {{"file"}, {"SHA-256"}}};
   for (const grid::SourceFile& file : made_by->inputs)
     table.rows.push_back({{file.name, file.sha256}});
-  report::Section section{"Where this comes from", {}};
+  Section section{"Where this comes from", {}};
   section.blocks.push_back(
-      report::Paragraph{fmt::format("Made by version {} with \"{}\".", made_by->version, command)});
+      Paragraph{fmt::format("Made by version {} with \"{}\".", made_by->version, command)});
   if (!table.rows.empty()) {
     table.caption = "sha256sum prints the same for a file that has not changed since.";
     section.blocks.push_back(std::move(table));
   }
   section.is_folded = true;
-  section.detail = report::Detail::page;
+  section.detail = Detail::page;
   sections.push_back(std::move(section));
 }
 

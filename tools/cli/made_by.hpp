@@ -18,8 +18,7 @@ namespace chaintrue::cli {
 [[nodiscard]] grid::Provenance made_by(Verb verb);
 
 /// "Where this comes from", folded; nothing is added if it is unknown.
-void add_made_by(const std::optional<grid::Provenance>& made_by,
-                 std::vector<report::Section>& sections);
+void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Section>& sections);
 
 /// A note on standard error if an input has the same name as a source of this result but another
 /// content.

@@ -13,31 +13,26 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::MapContents;
 using grid::MapPoint;
-using report::Detail;
-using report::Paragraph;
-using report::Section;
-using report::Table;
 
 /// Next steps, the most urgent first.
 void put_advice(const MapContents& contents,
-                const model::Machine* machine,
+                const Machine* machine,
                 std::string_view source,
-                report::Document& document) {
+                Document& document) {
   const auto say = [&document](std::string text) {
     document.advice.push_back({std::move(text), Detail::page});
   };
   for (std::size_t i = 0; i < contents.points.size(); ++i) {
     const MapPoint& point = contents.points[i];
     if (!point.bad) continue;
-    say(fmt::format(
-        "Measure point {} at ({:.0f}, {:.0f}) again: it is {:.1f} mm off the prediction by its "
-        "neighbours.",
-        i + 1,
-        point.mark.x_mm,
-        point.mark.y_mm,
-        point.left_out_mm.norm()));
+    say(
+        fmt::format("Measure point {} at ({:.0f}, {:.0f}) again: it is {:.1f} mm off the "
+                    "prediction by its neighbours.",
+                    i + 1,
+                    point.mark.x_mm,
+                    point.mark.y_mm,
+                    point.left_out_mm.norm()));
   }
   for (const grid::SettingResult& result : contents.settings) {
     if (!result.off) continue;
@@ -59,7 +54,7 @@ void put_advice(const MapContents& contents,
   }
 }
 
-void put_figures(const grid::CompensationMap& map, report::Document& document) {
+void put_figures(const CompensationMap& map, Document& document) {
   const grid::MapAccuracy& accuracy = map.contents().accuracy;
   const auto add = [&document](double value_mm, std::string label) {
     document.figures.push_back({fmt::format("{} mm", about_mm(value_mm)), std::move(label)});
@@ -72,7 +67,7 @@ void put_figures(const grid::CompensationMap& map, report::Document& document) {
   add(accuracy.expected_tool.maximum_mm, "with this map, at worst");
 }
 
-Section remarks_section(const grid::CompensationMap& map, std::optional<double> wish_mm) {
+Section remarks_section(const CompensationMap& map, std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   const grid::MapAccuracy& accuracy = contents.accuracy;
   Section section{"What else was found", {}};
@@ -107,7 +102,7 @@ Table left_out_distances(const grid::DistancesUsed& used) {
           .head_width = 49};
 }
 
-Table left_out_points(const grid::CompensationMap& map) {
+Table left_out_points(const CompensationMap& map) {
   const grid::MapAccuracy& accuracy = map.contents().accuracy;
   const bool direct = map.machine() == nullptr;
   Table table{.columns = {{.heading = "Error of points left out, mm", .width = 28},
@@ -134,7 +129,7 @@ Table left_out_points(const grid::CompensationMap& map) {
 }
 
 /// The terminal's details with --verbose.
-void add_tables(const grid::CompensationMap& map, std::vector<Section>& sections) {
+void add_tables(const CompensationMap& map, std::vector<Section>& sections) {
   const MapContents& contents = map.contents();
   const auto add = [&sections](std::string title, report::Block block) {
     sections.push_back({std::move(title), {std::move(block)}, false, Detail::verbose, false});
@@ -148,23 +143,23 @@ void add_tables(const grid::CompensationMap& map, std::vector<Section>& sections
 
 }  // namespace
 
-report::Tone tone_of(const MapContents& contents) {
+Tone tone_of(const MapContents& contents) {
   const bool is_clean =
       grid::none_of(contents.points, [](const MapPoint& point) { return point.bad; }) &&
       grid::none_of(contents.settings, [](const auto& setting) { return setting.off; });
-  return is_clean ? report::Tone::good : report::Tone::caution;
+  return is_clean ? Tone::good : Tone::caution;
 }
 
 std::string provenance_of(std::string_view source) {
   return fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);
 }
 
-report::Document map_document(const grid::CompensationMap& map,
-                              std::string_view source,
-                              Detail detail,
-                              std::optional<double> wish_mm) {
+Document map_document(const CompensationMap& map,
+                      std::string_view source,
+                      Detail detail,
+                      std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
-  report::Document document;
+  Document document;
   document.title = contents.name.empty() ? "Compensation map"
                                          : fmt::format("Compensation map: {}", contents.name);
   document.subtitle = fmt::format("{}, {} points",

@@ -8,22 +8,23 @@
 #include <string_view>
 
 #include "grid/map/compensation_map.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/map_pictures.hpp"
 
 namespace chaintrue::cli {
 
 /// `source` is the name of the map's file, for the page's last line. Pictures are made if `detail`
 /// is page. The map is compared with `wish_mm`, an error of the tool, if given.
-[[nodiscard]] report::Document map_document(const grid::CompensationMap& map,
-                                            std::string_view source,
-                                            report::Detail detail = report::Detail::page,
-                                            std::optional<double> wish_mm = std::nullopt);
+[[nodiscard]] Document map_document(const CompensationMap& map,
+                                    std::string_view source,
+                                    Detail detail = Detail::page,
+                                    std::optional<double> wish_mm = std::nullopt);
 
 /// The data of the pictures.
-[[nodiscard]] report::MapPictures map_pictures(const grid::CompensationMap& map);
+[[nodiscard]] report::MapPictures map_pictures(const CompensationMap& map);
 
 /// Caution if a point was rejected or a setting is off.
-[[nodiscard]] report::Tone tone_of(const grid::MapContents& contents);
+[[nodiscard]] Tone tone_of(const MapContents& contents);
 /// "Made from map.json by chaintrue 1.0."
 [[nodiscard]] std::string provenance_of(std::string_view source);
 

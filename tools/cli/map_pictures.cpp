@@ -15,7 +15,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::MapContents;
 using grid::MapPoint;
 using report::ErrorStep;
 
@@ -29,8 +28,8 @@ report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
 }
 
 /// The machine's bed; without a machine, the measured part.
-report::Outline mapped_sheet(const grid::CompensationMap& map) {
-  if (const model::Machine* machine = map.machine()) {
+report::Outline mapped_sheet(const CompensationMap& map) {
+  if (const Machine* machine = map.machine()) {
     const double half_width_mm = machine->bed.width_mm / 2,
                  half_height_mm = machine->bed.height_mm / 2;
     return {-half_width_mm, half_width_mm, -half_height_mm, half_height_mm};
@@ -42,7 +41,7 @@ report::Outline mapped_sheet(const grid::CompensationMap& map) {
   return {left->x_mm, right->x_mm, low->y_mm, high->y_mm};
 }
 
-std::vector<report::ReportPoint> points_of(const grid::CompensationMap& map) {
+std::vector<report::ReportPoint> points_of(const CompensationMap& map) {
   const MapContents& contents = map.contents();
   const Residual before = residual_before(contents);
   std::vector<report::ReportPoint> points;
@@ -65,13 +64,13 @@ std::vector<report::ReportPoint> points_of(const grid::CompensationMap& map) {
   return points;
 }
 
-report::ErrorMap error_map_of(const grid::CompensationMap& map, const report::Outline& sheet) {
+report::ErrorMap error_map_of(const CompensationMap& map, const report::Outline& sheet) {
   report::ErrorMap raster{
       (sheet.x_max_mm - sheet.x_min_mm) / kColumns, (sheet.y_max_mm - sheet.y_min_mm) / kRows, {}};
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const model::MarkPoint at{sheet.x_min_mm + (column + 0.5) * raster.cell_width_mm,
-                                sheet.y_min_mm + (row + 0.5) * raster.cell_height_mm};
+      const MarkPoint at{sheet.x_min_mm + (column + 0.5) * raster.cell_width_mm,
+                         sheet.y_min_mm + (row + 0.5) * raster.cell_height_mm};
       if (const auto answer = map.query(at)) {
         raster.cells.push_back(
             {at.x_mm, at.y_mm, answer->tool_sigma_mm, std::string(grid::name(answer->status))});
@@ -81,7 +80,7 @@ report::ErrorMap error_map_of(const grid::CompensationMap& map, const report::Ou
   return raster;
 }
 
-std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_mm) {
+std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
   const MapContents& contents = map.contents();
   std::vector<ErrorStep> steps;
   const auto add = [&steps](ErrorStep::Kind kind,
@@ -145,7 +144,7 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
 
 }  // namespace
 
-report::MapPictures map_pictures(const grid::CompensationMap& map) {
+report::MapPictures map_pictures(const CompensationMap& map) {
   const double noise_mm = grid::noise_at_tool_mm(map);
   report::MapPictures pictures;
   pictures.sheet = mapped_sheet(map);

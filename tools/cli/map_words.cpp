@@ -16,7 +16,7 @@
 
 namespace chaintrue::cli {
 
-grid::ErrorSummary summary_of(const grid::MapContents& contents, Residual residual) {
+grid::ErrorSummary summary_of(const MapContents& contents, Residual residual) {
   grid::ErrorSummary summary;
   double squares_mm2 = 0.0;
   std::size_t good = 0;
@@ -31,21 +31,21 @@ grid::ErrorSummary summary_of(const grid::MapContents& contents, Residual residu
   return summary;
 }
 
-bool has_placed_sheet(const grid::MapContents& contents) {
+bool has_placed_sheet(const MapContents& contents) {
   return contents.settings.size() > std::size(model::kMachineSettings);
 }
 
-Residual residual_before(const grid::MapContents& contents) {
+Residual residual_before(const MapContents& contents) {
   return has_placed_sheet(contents) ? &grid::MapPoint::sheet_placed_mm
                                     : &grid::MapPoint::as_stated_mm;
 }
 
-std::string_view machine_before(const grid::MapContents& contents) {
+std::string_view machine_before(const MapContents& contents) {
   return has_placed_sheet(contents) ? "the machine file as it was, the sheet found"
                                     : "the machine file as it was";
 }
 
-std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
+std::vector<SettingRow> settings_rows(const CompensationMap& map) {
   std::vector<SettingRow> rows;
   for (const grid::SettingResult& result : map.contents().settings) {
     SettingRow row{result.setting, result.stated, {}, result.calibrated, result.sigma, result.off};
@@ -57,7 +57,7 @@ std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
   return rows;
 }
 
-std::string not_to_cut_with(const grid::CompensationMap& map) {
+std::string not_to_cut_with(const CompensationMap& map) {
   const double left_out_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
   if (!(left_out_mm > kMostToCutWithMm)) return {};
   return fmt::format(
@@ -68,7 +68,7 @@ std::string not_to_cut_with(const grid::CompensationMap& map) {
       kMostToCutWithMm);
 }
 
-bool refuses_to_cut_with(const grid::CompensationMap& map) {
+bool refuses_to_cut_with(const CompensationMap& map) {
   const std::string why = not_to_cut_with(map);
   if (why.empty()) return false;
   fmt::print(stderr, "{} --force continues anyway.\n", why);
@@ -112,7 +112,7 @@ std::string worst_sentence(double x_mm, double y_mm, double worst_mm) {
       y_mm);
 }
 
-std::string fit_sentence(const grid::CompensationMap& map) {
+std::string fit_sentence(const CompensationMap& map) {
   if (map.machine() == nullptr) return points_sentence(map);
   if (!not_to_cut_with(map).empty())
     return "These readings disagree with each other, so the map is not fit for cutting.";
@@ -122,8 +122,8 @@ std::string fit_sentence(const grid::CompensationMap& map) {
                          {"this map", "map"});
 }
 
-std::string points_sentence(const grid::CompensationMap& map) {
-  const grid::MapContents& contents = map.contents();
+std::string points_sentence(const CompensationMap& map) {
+  const MapContents& contents = map.contents();
   const auto bad = std::count_if(
       contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
   const std::size_t points = contents.points.size();
@@ -137,8 +137,7 @@ std::string points_sentence(const grid::CompensationMap& map) {
   if (map.machine() == nullptr) {
     return fmt::format(
         "Splines through the lengths of {} points: each row and column, left out in turn, comes "
-        "back "
-        "within {:.2f} mm rms ({:.2f} mm at worst).",
+        "back within {:.2f} mm rms ({:.2f} mm at worst).",
         points,
         left_out.tool.rms_mm,
         left_out.tool.maximum_mm);
@@ -146,8 +145,8 @@ std::string points_sentence(const grid::CompensationMap& map) {
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     return fmt::format(
-        "{} distances between {} holes: each one, left out in turn, comes back within "
-        "{:.2f} mm rms{}.",
+        "{} distances between {} holes: each one, left out in turn, comes back within {:.2f} mm "
+        "rms{}.",
         used.used,
         points,
         used.left_out_good.rms_mm,
@@ -155,8 +154,7 @@ std::string points_sentence(const grid::CompensationMap& map) {
   }
   return fmt::format(
       "At the {} points{} the machine is {:.2f} mm rms off, the map {:.2f} mm; each point, left "
-      "out in "
-      "turn, comes back within {:.2f} mm rms{}.",
+      "out in turn, comes back within {:.2f} mm rms{}.",
       points,
       has_placed_sheet(contents) ? ", for the best placement of the sheet," : "",
       summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
@@ -168,7 +166,7 @@ std::string points_sentence(const grid::CompensationMap& map) {
 namespace {
 
 /// The expected rms error with this many marks of the map's quality; empty if none can be planned.
-std::optional<double> expected_with(const grid::CompensationMap& map, int points) {
+std::optional<double> expected_with(const CompensationMap& map, int points) {
   const grid::MapNoise& noise = map.contents().noise;
   grid::PlanRequest request;
   request.points = points;
@@ -180,7 +178,7 @@ std::optional<double> expected_with(const grid::CompensationMap& map, int points
 
 /// The least number of marks that is expected to reach `wish_mm`: the planned error is scaled to the
 /// one that the map has at its own number of points.
-std::optional<int> marks_for(const grid::CompensationMap& map, double wish_mm) {
+std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
   constexpr std::array<int, 6> kNumbers = {28, 45, 70, 100, 140, grid::kMostPlanned};
   const auto now = static_cast<int>(map.contents().points.size());
   const auto here = expected_with(map, std::clamp(now, grid::kFewestPlanned, grid::kMostPlanned));
@@ -196,7 +194,7 @@ std::optional<int> marks_for(const grid::CompensationMap& map, double wish_mm) {
 
 }  // namespace
 
-std::string wish_sentence(const grid::CompensationMap& map, double wish_mm) {
+std::string wish_sentence(const CompensationMap& map, double wish_mm) {
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
   const std::string held = fmt::format("You wish for {:g} mm: ", wish_mm);
   if (map.machine() == nullptr || !not_to_cut_with(map).empty())
@@ -210,8 +208,8 @@ std::string wish_sentence(const grid::CompensationMap& map, double wish_mm) {
            fmt::format("not reached. About {} marks measured as well as these would reach it.",
                        *marks);
   return held + fmt::format(
-                    "not reached, and not by up to {} marks measured as well as these: "
-                    "measure each mark more precisely.",
+                    "not reached, and not by up to {} marks measured as well as these: measure "
+                    "each mark more precisely.",
                     grid::kMostPlanned);
 }
 

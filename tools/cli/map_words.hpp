@@ -36,32 +36,32 @@ struct Remedy {
 
 /// The headline: by how much the tool misses today, and by how much with the map. Both are errors
 /// of the tool over the measured part, not residuals at the points.
-[[nodiscard]] std::string fit_sentence(const grid::CompensationMap& map);
+[[nodiscard]] std::string fit_sentence(const CompensationMap& map);
 
 /// The statistics of the points: rms with the settings in force, with the map, and of points left out.
-[[nodiscard]] std::string points_sentence(const grid::CompensationMap& map);
+[[nodiscard]] std::string points_sentence(const CompensationMap& map);
 
 /// Whether the map meets the wish and, if not, how many marks would be expected to.
-[[nodiscard]] std::string wish_sentence(const grid::CompensationMap& map, double wish_mm);
+[[nodiscard]] std::string wish_sentence(const CompensationMap& map, double wish_mm);
 
 /// The usual error of uncalibrated machines, apart from the sheet's placement.
 inline constexpr double kMostToCutWithMm = 3.0;
 /// Why this map is unfit for cutting: its held-out error exceeds that, rms. Otherwise empty. gcode
 /// compensate and export accept such a map only with --force.
-[[nodiscard]] std::string not_to_cut_with(const grid::CompensationMap& map);
+[[nodiscard]] std::string not_to_cut_with(const CompensationMap& map);
 
 /// Reports it, and how to use it anyway; false if it is fit for cutting.
-[[nodiscard]] bool refuses_to_cut_with(const grid::CompensationMap& map);
+[[nodiscard]] bool refuses_to_cut_with(const CompensationMap& map);
 
 using Residual = Eigen::Vector2d grid::MapPoint::*;
 /// Over the good points.
-[[nodiscard]] grid::ErrorSummary summary_of(const grid::MapContents& contents, Residual residual);
+[[nodiscard]] grid::ErrorSummary summary_of(const MapContents& contents, Residual residual);
 /// Whether the sheet was placed by hand, and its placement estimated.
-[[nodiscard]] bool has_placed_sheet(const grid::MapContents& contents);
+[[nodiscard]] bool has_placed_sheet(const MapContents& contents);
 /// The reference for the map, and its name: the machine as stated, on the fitted sheet.
-[[nodiscard]] Residual residual_before(const grid::MapContents& contents);
-[[nodiscard]] std::string_view machine_before(const grid::MapContents& contents);
+[[nodiscard]] Residual residual_before(const MapContents& contents);
+[[nodiscard]] std::string_view machine_before(const MapContents& contents);
 /// For the machine and for the sheet.
-[[nodiscard]] std::vector<SettingRow> settings_rows(const grid::CompensationMap& map);
+[[nodiscard]] std::vector<SettingRow> settings_rows(const CompensationMap& map);
 
 }  // namespace chaintrue::cli

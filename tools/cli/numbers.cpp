@@ -11,8 +11,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 /// Of the current command line.
 files::Problems& problems() {
   static files::Problems all("command line");

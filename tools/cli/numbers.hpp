@@ -16,6 +16,7 @@
 
 #include "grid/files/number_text.hpp"
 #include "tools/cli/arguments.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -23,7 +24,7 @@ namespace detail {
 /// `take` gets a number in the range.
 Option add_number(Verb verb,
                   const std::string& names,
-                  const grid::files::Range& range,
+                  const files::Range& range,
                   bool is_whole,
                   const std::string& help,
                   std::function<void(double)> take,
@@ -35,7 +36,7 @@ template <class T>
 Option add_number(Verb verb,
                   const std::string& names,
                   T& value,
-                  const grid::files::Range& range,
+                  const files::Range& range,
                   const std::string& help) {
   return detail::add_number(
       verb,
@@ -50,7 +51,7 @@ template <class T>
 Option add_number(Verb verb,
                   const std::string& names,
                   std::optional<T>& value,
-                  const grid::files::Range& range,
+                  const files::Range& range,
                   const std::string& help) {
   return detail::add_number(
       verb, names, range, std::is_integral_v<T>, help, [&value](double number) {
@@ -62,10 +63,10 @@ Option add_number(Verb verb,
 Option add_numbers(Verb verb,
                    const std::string& names,
                    std::vector<double>& values,
-                   const grid::files::Range& range,
+                   const files::Range& range,
                    const std::string& help);
 
-/// After parsing. \throws files::InputError with every invalid or out-of-range number.
+/// After parsing. \throws InputError with every invalid or out-of-range number.
 void check_numbers();
 /// Before another command line in this process.
 void forget_numbers();

@@ -24,7 +24,7 @@ void add_option_check(Verb verb, std::function<void(OptionProblems&)> check);
 /// Forgets what the verbs of an earlier command line in this process declared.
 void begin_command_line();
 
-/// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
+/// For the verb that was chosen, before its work. \throws InputError with all that is wrong.
 void check_command_line();
 
 }  // namespace chaintrue::cli

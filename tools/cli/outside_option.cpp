@@ -23,14 +23,14 @@ const std::map<std::string, grid::Outside>& ways() {
 void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual) {
   verb.add_option("--outside",
                   option.way,
-                  "Beyond the measured points: continued (smoothly), refuse, fade (to the "
-                  "machine without correction), linear or clamp; " +
+                  "Beyond the measured points: continued (smoothly), refuse, fade (to the machine "
+                  "without correction), linear or clamp; " +
                       usual)
       .one_of({"continued", "refuse", "fade", "linear", "clamp"});
   add_number(verb,
              "--fade-mm",
              option.fade_width_mm,
-             grid::files::kFadeWidthMm,
+             files::kFadeWidthMm,
              "The distance over which --outside fade ends the correction")
       .acts_on(facts::fade, "to be left out without --outside fade, whose width it is");
 }

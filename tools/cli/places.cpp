@@ -18,8 +18,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using grid::ProblemKind;
-namespace files = grid::files;
 namespace fs = std::filesystem;
 
 /// An option that names files; the names are known after parsing.
@@ -119,7 +117,7 @@ class PlaceCheck {
   }
 
   void throw_if_any() const {
-    if (!problems_.empty()) throw files::InputError(problems_);
+    if (!problems_.empty()) throw InputError(problems_);
   }
 
  private:
@@ -191,8 +189,7 @@ std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& o
 void add_force(Verb verb) {
   if (verb.has_option("--force")) return;
   verb.add_flag("--force",
-                "Overwrite files that chaintrue did not write, or that were changed "
-                "since");
+                "Overwrite files that chaintrue did not write, or that were changed since");
 }
 
 }  // namespace
@@ -259,21 +256,21 @@ void check_folder(Verb verb, const std::string& folder, const std::vector<Folder
 
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
   if (folder.empty() || folder.front() == '-')
-    throw files::InputError({{"the folder",
-                              "",
-                              folder.empty() ? "an empty name" : folder,
-                              "the name of a folder; it will hold many files",
-                              {},
-                              ProblemKind::output_place}});
+    throw InputError({{"the folder",
+                       "",
+                       folder.empty() ? "an empty name" : folder,
+                       "the name of a folder; it will hold many files",
+                       {},
+                       ProblemKind::output_place}});
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
-    throw files::InputError({{folder,
-                              "",
-                              error.message(),
-                              "a folder that can be made or written to",
-                              {},
-                              ProblemKind::output_place}});
+    throw InputError({{folder,
+                       "",
+                       error.message(),
+                       "a folder that can be made or written to",
+                       {},
+                       ProblemKind::output_place}});
   try {
     check_folder(verb, folder, contents);
     std::vector<files::OutputFile> outputs;

@@ -24,10 +24,11 @@
 #include "grid/files/pending_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/arguments.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
-using grid::files::Origin;
+using files::Origin;
 
 /// An option or argument that names a file to read.
 Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help);
@@ -60,12 +61,12 @@ struct FolderFile {
   Origin kind;
 };
 /// Checks, before any work, whether such files may be written there, by the rules of outputs. A
-/// missing folder may be created. \throws files::InputError
+/// missing folder may be created. \throws InputError
 void check_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
-/// Writes all or none, by the rules of outputs. \throws files::InputError
+/// Writes all or none, by the rules of outputs. \throws InputError
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
 
-/// For the chosen verb, before its work. \throws files::InputError with all problems.
+/// For the chosen verb, before its work. \throws InputError with all problems.
 void check_places();
 /// Before another command line in this process.
 void forget_places();
@@ -75,11 +76,11 @@ void forget_places();
 
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);
-void write_outputs(const std::vector<grid::files::OutputFile>& outputs);
+void write_outputs(const std::vector<files::OutputFile>& outputs);
 /// For outputs that are written piece by piece, in addition to whole texts. Empty paths are
 /// skipped.
-void take_place(grid::files::PendingFile& pending,
+void take_place(files::PendingFile& pending,
                 const std::string& path,
-                const std::vector<grid::files::OutputFile>& others);
+                const std::vector<files::OutputFile>& others);
 
 }  // namespace chaintrue::cli

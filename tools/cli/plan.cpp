@@ -28,14 +28,12 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct PlanOptions {
   std::string machine;
   PlanAfterOptions follow_up;
   grid::PlanRequest request;
   /// 0 holes: points are planned instead.
-  grid::HolesPlanRequest holes{.holes = 0, .progress = {}};
+  HolesPlanRequest holes{.holes = 0, .progress = {}};
   CheckPlanOptions check;
   std::optional<int> points;
   int second_visits = 0;
@@ -56,7 +54,7 @@ PlanOutputs outputs_of(const PlanOptions& options) {
       options.output, options.drawing, options.gcode, options.page, options.drill, options.json};
 }
 
-void check_options(const PlanOptions& options, const model::Bed& bed) {
+void check_options(const PlanOptions& options, const Bed& bed) {
   OptionProblems problems;
   const grid::PlanRequest& request = options.request;
   problems.require("--points", request.points, grid::kFewestPlanned, grid::kMostPlanned);
@@ -101,7 +99,7 @@ Facts with_program(const PlanOptions& options, Facts facts, bool is_drilled) {
   return facts | facts::program | (is_drilled ? facts::drilled : 0U);
 }
 
-bool drills_marks(const PlanOptions& options, const model::Machine* machine) {
+bool drills_marks(const PlanOptions& options, const Machine* machine) {
   return sheet_of(options.measure, machine) == SheetOf::places;
 }
 
@@ -123,8 +121,8 @@ int run_check_plan(Verb verb, PlanOptions options) {
   take(options.length_noise_mm, request.length_mm);
   take(options.position_noise_mm, request.position_mm);
   options.check.measure = options.measure;
-  const grid::CompensationMap map = load_map(open_input(options.check.map));
-  const model::Machine* machine = map.machine();
+  const CompensationMap map = load_map(open_input(options.check.map));
+  const Machine* machine = map.machine();
   request.margin_mm =
       options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
   verb.refuse_what_does_nothing(
@@ -136,7 +134,7 @@ int run_plan(Verb verb, PlanOptions options) {
   if (!options.follow_up.after.empty()) return run_follow_up(verb, std::move(options));
   if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
   const bool of_tape = options.holes.holes != 0;
-  const model::Machine machine = read_machine_input(options.machine);
+  const Machine machine = read_machine_input(options.machine);
   verb.refuse_what_does_nothing(with_program(
       options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
   if (of_tape) {
@@ -166,7 +164,7 @@ int run_plan(Verb verb, PlanOptions options) {
   std::vector<files::OutputFile> outputs =
       sheet_outputs(sheet,
                     machine,
-                    {noise.length_mm, noise.position_mm, grid::StatedNoise{}.dof},
+                    {noise.length_mm, noise.position_mm, StatedNoise{}.dof},
                     outputs_of(options),
                     fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
                                 errors.rms_mm,
@@ -188,8 +186,8 @@ void add_plan(Verb app) {
   add_input(verb,
             "--machine",
             options->machine,
-            "chaintrue_machine file; - is standard input. With --after only where the grid "
-            "names none, with --check not at all")
+            "chaintrue_machine file; - is standard input. With --after only where the grid names "
+            "none, with --check not at all")
       .acts_on(facts::lattice | facts::tape | facts::chains,
                "to be left out: a map that is checked, and belts, name their own machine");
   const Option grid =
@@ -197,12 +195,11 @@ void add_plan(Verb app) {
                 "grid",
                 options->follow_up.file,
                 "With --after: the points, the holes or the belts, measured so far");
-  const Option after =
-      add_input(verb,
-                "--after",
-                options->follow_up.after,
-                "A chaintrue_diagnosis of those points: plan what to measure next, and the lines "
-                "to add to the file");
+  const Option after = add_input(verb,
+                                 "--after",
+                                 options->follow_up.after,
+                                 "A chaintrue_diagnosis of those points: plan what to measure "
+                                 "next, and the lines to add to the file");
   after.needs(grid);
   add_input(verb,
             "--with",
@@ -278,11 +275,10 @@ void add_plan(Verb app) {
              "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
              "standard output")
       .shows_default();
-  verb.add_flag(
-          "--json",
-          options->json,
-          "Print the list as JSON, including the machine; where the list goes into a file, the "
-          "places and what is expected")
+  verb.add_flag("--json",
+                options->json,
+                "Print the list as JSON, including the machine; where the list goes into a file, "
+                "the places and what is expected")
       .acts_on(facts::planned,
                "to be left out with --after: the lines are as the file they go into");
   add_output(verb,

@@ -26,9 +26,7 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::MeasurementKind;
+using diagnosis::MeasurementKind;
 
 /// An input file, and its index among the grids or the sets of holes.
 struct Source {
@@ -40,13 +38,13 @@ struct Source {
 
 struct Sources {
   std::vector<Source> all;
-  std::vector<grid::MeasuredGrid> grids;
-  std::vector<grid::MeasuredHoles> sets;
+  std::vector<MeasuredGrid> grids;
+  std::vector<MeasuredHoles> sets;
 };
 
 /// `few`: with other files one or two readings are enough.
 void read(const InputFile& file,
-          const std::optional<model::Machine>& machine,
+          const std::optional<Machine>& machine,
           bool few,
           Sources& sources) {
   require_kind(file,
@@ -66,7 +64,7 @@ void read(const InputFile& file,
 }
 
 Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
-  std::optional<model::Machine> machine;
+  std::optional<Machine> machine;
   if (!options.machine.empty()) machine = read_machine_input(options.machine);
   Sources sources;
   read(file, machine, false, sources);
@@ -75,17 +73,17 @@ Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
 }
 
 /// Whether the diagnosis used the points of these grids. A CSV may round them.
-bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids) {
+bool is_of(const Diagnosis& found, const std::vector<MeasuredGrid>& grids) {
   constexpr double kSamePlaceMm = 1e-3;
-  std::vector<model::MarkPoint> marks;
-  for (const grid::MeasuredGrid& measured : grids) {
+  std::vector<MarkPoint> marks;
+  for (const MeasuredGrid& measured : grids) {
     for (const grid::MeasuredPoint& point : measured.points) marks.push_back(point.mark);
   }
   return std::equal(found.points.begin(),
                     found.points.end(),
                     marks.begin(),
                     marks.end(),
-                    [&](const auto& pictured, const model::MarkPoint& mark) {
+                    [&](const auto& pictured, const MarkPoint& mark) {
                       return std::abs(pictured.mark.x_mm - mark.x_mm) < kSamePlaceMm &&
                              std::abs(pictured.mark.y_mm - mark.y_mm) < kSamePlaceMm;
                     });
@@ -124,7 +122,7 @@ std::string lines_for(const Source& source,
     text = source.json ? distances_json(found, sources.sets, source.position)
                        : distances_csv(found, sources.sets, source.position);
   } else if (source.position == 0) {  // new points are on the first sheet
-    const grid::MeasuredGrid& measured = sources.grids.front();
+    const MeasuredGrid& measured = sources.grids.front();
     text = source.json ? points_json(found, measured) : points_csv(found, measured);
   }
   return takes_readings ? text + readings_json(found) : text;
@@ -144,10 +142,10 @@ std::string lines_of(const Diagnosis& found, const Sources& sources) {
 
 std::string drawing_of(const Diagnosis& found, const Sources& sources) {
   FollowUpDrawing drawing;
-  for (const grid::MeasuredGrid& measured : sources.grids) {
+  for (const MeasuredGrid& measured : sources.grids) {
     for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
   }
-  for (const grid::MeasuredHoles& set : sources.sets) {
+  for (const MeasuredHoles& set : sources.sets) {
     for (const grid::Hole& hole : set.holes)
       drawing.measured.push_back(model::identity_placement(hole.commanded));
   }
@@ -159,8 +157,8 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
 }  // namespace
 
 std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                             const std::vector<grid::MeasuredGrid>& grids,
-                                             const std::vector<grid::MeasuredHoles>& sets) {
+                                             const std::vector<MeasuredGrid>& grids,
+                                             const std::vector<MeasuredHoles>& sets) {
   if (!is_of(found, grids) || !is_of_these(found, sets)) return std::nullopt;
   Sources sources{{}, grids, sets};
   for (std::size_t k = 0; k < grids.size(); ++k)

@@ -24,11 +24,11 @@ struct PlanAfterOptions {
   std::string drawing;
 };
 
-/// Facts on which options depend. \throws files::InputError for a file of another kind.
+/// Facts on which options depend. \throws InputError for a file of another kind.
 [[nodiscard]] Facts facts_after(const InputFile& file);
 
 /// \param file the options' file, opened
-/// \throws files::InputError. Returns an exit code.
+/// \throws InputError. Returns an exit code.
 [[nodiscard]] int plan_after(const PlanAfterOptions& options, const InputFile& file);
 
 /// What to measure next, as texts: the list for the workshop, the lines to fill in, and the drawing
@@ -40,11 +40,10 @@ struct FollowUpTexts {
   std::string drawing;
 };
 /// Empty if the diagnosis used other readings.
-[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(
-    const grid::diagnosis::Diagnosis& found,
-    const std::vector<grid::MeasuredGrid>& grids,
-    const std::vector<grid::MeasuredHoles>& sets);
-[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const grid::diagnosis::Diagnosis& found,
-                                                           const grid::MeasuredBelts& belts);
+[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
+                                                           const std::vector<MeasuredGrid>& grids,
+                                                           const std::vector<MeasuredHoles>& sets);
+[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
+                                                           const MeasuredBelts& belts);
 
 }  // namespace chaintrue::cli

@@ -24,12 +24,8 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-using grid::MeasuredBelts;
-using grid::diagnosis::BeltPlacePicture;
-using grid::diagnosis::Diagnosis;
-using grid::diagnosis::MeasurementKind;
-using grid::diagnosis::NextMeasurement;
+using diagnosis::BeltPlacePicture;
+using diagnosis::MeasurementKind;
 
 /// Whether the diagnosis used these places: in the same order, with lengths that anchors and
 /// causes explain.
@@ -100,7 +96,7 @@ std::string distances_of(const Diagnosis& found) {
 }
 
 std::string drawing_of(const Diagnosis& found) {
-  const model::BeltMachine& machine = found.belts->machine;
+  const BeltMachine& machine = found.belts->machine;
   const model::FramePoint centre = model::centre_of(machine);
   FollowUpDrawing drawing;
   for (const BeltPlacePicture& place : found.belts->places)

@@ -7,7 +7,7 @@
 
 namespace chaintrue::cli {
 
-/// `text` is that of the belts' file. \throws files::InputError. Returns an exit code.
+/// `text` is that of the belts' file. \throws InputError. Returns an exit code.
 [[nodiscard]] int plan_after_belts(const PlanAfterOptions& options, const InputFile& file);
 
 }  // namespace chaintrue::cli

@@ -20,19 +20,17 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
-void check_options(const grid::CheckPlanRequest& request, const grid::CompensationMap& map) {
+void check_options(const grid::CheckPlanRequest& request, const CompensationMap& map) {
   OptionProblems problems;
   problems.require("--points", request.points, grid::kFewestCheckPoints, grid::kMostCheckPoints);
-  if (const model::Machine* machine = map.machine()) {
+  if (const Machine* machine = map.machine()) {
     const double half = 0.5 * std::min(machine->bed.width_mm, machine->bed.height_mm);
     problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
   }
   problems.throw_if_any();
 }
 
-std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) {
+std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
   FollowUpDrawing drawing;
   for (const grid::MapPoint& point : map.contents().points) drawing.measured.push_back(point.mark);
   for (std::size_t i = 0; i < plan.marks.size(); ++i)
@@ -51,32 +49,31 @@ std::string_view what_shows(const model::PerSide<double>& sigmas) {
 
 }  // namespace
 
-int plan_the_check(const grid::CompensationMap& map,
+int plan_the_check(const CompensationMap& map,
                    const CheckPlanOptions& options,
                    const PlanOutputs& wanted) {
   check_options(options.request, map);
   const auto plan = grid::plan_check(map, options.request);
   if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
   const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
-  std::vector<files::OutputFile> outputs = sheet_outputs(
-      sheet,
-      *map.machine(),
-      {options.request.length_mm, options.request.position_mm, grid::StatedNoise{}.dof},
-      wanted,
-      fmt::format("\"expected_sigmas\": [{}, {}]",
-                  plan->expected_sigmas.left,
-                  plan->expected_sigmas.right));
+  std::vector<files::OutputFile> outputs =
+      sheet_outputs(sheet,
+                    *map.machine(),
+                    {options.request.length_mm, options.request.position_mm, StatedNoise{}.dof},
+                    wanted,
+                    fmt::format("\"expected_sigmas\": [{}, {}]",
+                                plan->expected_sigmas.left,
+                                plan->expected_sigmas.right));
   if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
   write_outputs(outputs);
-  fmt::print(
-      stderr,
-      "{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: that is {:.1f} "
-      "times the scatter of the readings (left chain), {:.1f} times (right).\n",
-      plan->marks.size(),
-      100.0 * model::kPitchGrowthSigma,
-      what_shows(plan->expected_sigmas),
-      plan->expected_sigmas.left,
-      plan->expected_sigmas.right);
+  fmt::print(stderr,
+             "{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: that is "
+             "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).\n",
+             plan->marks.size(),
+             100.0 * model::kPitchGrowthSigma,
+             what_shows(plan->expected_sigmas),
+             plan->expected_sigmas.left,
+             plan->expected_sigmas.right);
   say_next({"check", options.map, wanted.list});
   return kDone;
 }

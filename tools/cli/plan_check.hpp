@@ -19,9 +19,9 @@ struct CheckPlanOptions {
   std::string measure;
 };
 
-/// Writes the list and the drawing; returns the exit code. \throws files::InputError for values out
+/// Writes the list and the drawing; returns the exit code. \throws InputError for values out
 /// of range.
-[[nodiscard]] int plan_the_check(const grid::CompensationMap& map,
+[[nodiscard]] int plan_the_check(const CompensationMap& map,
                                  const CheckPlanOptions& options,
                                  const PlanOutputs& wanted);
 

@@ -12,8 +12,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using model::MarkPoint;
-
 // The picture, in its own units.
 constexpr double kBedWide = 900.0, kLeft = 30.0, kTop = 80.0, kBelow = 90.0;
 constexpr double kBarWide = 300.0, kBarHigh = 14.0;
@@ -30,9 +28,7 @@ std::string colour(double share) {
   return fmt::format("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2]);
 }
 
-BedView view_of(const model::Bed& bed) {
-  return {bed.width_mm, bed.height_mm, {kLeft, kTop}, kBedWide};
-}
+BedView view_of(const Bed& bed) { return {bed.width_mm, bed.height_mm, {kLeft, kTop}, kBedWide}; }
 
 Svg begin(const BedView& view, std::string_view title, std::string_view description) {
   Svg svg(kBedWide + 2.0 * kLeft,
@@ -132,7 +128,7 @@ void draw_bar(Svg& svg, const BedView& view, const Shades& shades) {
 
 }  // namespace
 
-ExpectedErrors expected_errors(const grid::CompensationMap& map, const model::Bed& bed) {
+ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed) {
   ExpectedErrors errors;
   errors.columns = 60;
   errors.rows = 30;
@@ -158,7 +154,7 @@ ExpectedErrors expected_errors(const grid::CompensationMap& map, const model::Be
   return errors;
 }
 
-std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed) {
+std::string draw_follow_up(const FollowUpDrawing& drawing, const Bed& bed) {
   const BedView view = view_of(bed);
   const std::string words = fmt::format(
       "{} places to measure next, among {} measured", drawing.next.size(), drawing.measured.size());
@@ -182,14 +178,14 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
 }
 
 std::string draw_plan(const grid::MeasurementPlan& plan,
-                      const model::Bed& bed,
+                      const Bed& bed,
                       const ExpectedErrors& errors) {
   const BedView view = view_of(bed);
   const Shades shades = shades_of(errors);
   Svg svg = begin(view,
                   fmt::format("{} points to measure", plan.marks.size()),
-                  "The bed coloured by the expected error of a map from these points; the "
-                  "marks are numbered in the order of the walk.");
+                  "The bed coloured by the expected error of a map from these points; the marks "
+                  "are numbered in the order of the walk.");
   svg.text(kLeft,
            32.0,
            fmt::format("{} points to measure: {} columns x {} rows{}",

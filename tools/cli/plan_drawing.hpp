@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/planning/measurement_plan.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -18,26 +19,25 @@ struct ExpectedErrors {
   std::vector<double> cells_mm;  ///< negative if the map has no answer
   double rms_mm = 0.0;
   double largest_mm = 0.0;
-  model::MarkPoint worst_at;
+  MarkPoint worst_at;
   std::size_t unanswered = 0;
 };
-[[nodiscard]] ExpectedErrors expected_errors(const grid::CompensationMap& map,
-                                             const model::Bed& bed);
+[[nodiscard]] ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed);
 
 /// A self-contained SVG; nothing is fetched, no script runs.
 [[nodiscard]] std::string draw_plan(const grid::MeasurementPlan& plan,
-                                    const model::Bed& bed,
+                                    const Bed& bed,
                                     const ExpectedErrors& errors);
 
 /// The places of a follow-up: numbered crosses among the existing marks.
 struct FollowUpDrawing {
-  std::vector<model::MarkPoint> measured;
+  std::vector<MarkPoint> measured;
   struct Cross {
     std::string numbers;
-    model::MarkPoint mark;
+    MarkPoint mark;
   };
   std::vector<Cross> next;
 };
-[[nodiscard]] std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed);
+[[nodiscard]] std::string draw_follow_up(const FollowUpDrawing& drawing, const Bed& bed);
 
 }  // namespace chaintrue::cli

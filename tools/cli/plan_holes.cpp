@@ -23,9 +23,7 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
-void check(const grid::HolesPlanRequest& request, const model::Bed& bed) {
+void check(const HolesPlanRequest& request, const Bed& bed) {
   OptionProblems problems;
   require_sound(problems, request);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
@@ -36,7 +34,7 @@ void check(const grid::HolesPlanRequest& request, const model::Bed& bed) {
 
 }  // namespace
 
-void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request) {
+void require_sound(OptionProblems& problems, const HolesPlanRequest& request) {
   if (request.distances == 0) return;
   problems.require("--distances",
                    request.distances,
@@ -44,7 +42,7 @@ void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& reque
                    grid::most_distances(request.holes, request.edges));
 }
 
-void add_tape_options(Verb verb, grid::HolesPlanRequest& request) {
+void add_tape_options(Verb verb, HolesPlanRequest& request) {
   add_number(verb,
              "--distances",
              request.distances,
@@ -61,18 +59,18 @@ void add_tape_options(Verb verb, grid::HolesPlanRequest& request) {
   add_number(verb,
              "--tape-sigma-mm",
              request.tape_sigma_mm,
-             grid::files::kTapeSigmaMm,
+             files::kTapeSigmaMm,
              "With --holes: standard deviation (1 sigma) of a tape reading")
       .acts_on(facts::tape, "to be left out without --holes");
   add_number(verb,
              "--hole-sigma-mm",
              request.hole_sigma_mm,
-             grid::files::kHoleSigmaMm,
+             files::kHoleSigmaMm,
              "With --holes: standard deviation (1 sigma) of a hole's position on each axis")
       .acts_on(facts::tape, "to be left out without --holes");
 }
 
-void add_plan_holes_options(Verb verb, grid::HolesPlanRequest& request, Option points) {
+void add_plan_holes_options(Verb verb, HolesPlanRequest& request, Option points) {
   add_number(verb,
              "--holes",
              request.holes,
@@ -93,9 +91,7 @@ void add_plan_holes_options(Verb verb, grid::HolesPlanRequest& request, Option p
       .acts_on(facts::tape, "to be left out without --holes");
 }
 
-int plan_the_holes(grid::HolesPlanRequest request,
-                   const model::Machine& machine,
-                   const PlanOutputs& wanted) {
+int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted) {
   check(request, machine.bed);
   request.progress = shown_progress();
   const auto plan = grid::plan_holes(machine, request);
@@ -113,7 +109,7 @@ int plan_the_holes(grid::HolesPlanRequest request,
   outputs.push_back({wanted.list,
                      is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan->set)
                                                               : workshop_list(*plan)});
-  std::vector<model::MarkPoint> holes;
+  std::vector<MarkPoint> holes;
   for (const grid::Hole& hole : plan->set.holes)
     holes.push_back(model::identity_placement(hole.commanded));
   add_answer(

@@ -11,17 +11,17 @@
 namespace chaintrue::cli {
 
 /// The numbers of holes and distances and their sigmas, shared by all verbs that plan holes.
-void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request);
+void require_sound(OptionProblems& problems, const HolesPlanRequest& request);
 
 /// Adds --distances, --edges, --tape-sigma-mm and --hole-sigma-mm, for --holes.
-void add_tape_options(Verb verb, grid::HolesPlanRequest& request);
+void add_tape_options(Verb verb, HolesPlanRequest& request);
 
-void add_plan_holes_options(Verb verb, grid::HolesPlanRequest& request, Option points);
+void add_plan_holes_options(Verb verb, HolesPlanRequest& request, Option points);
 
-/// Writes the list, the drawing and the program; returns the exit code. \throws files::InputError
+/// Writes the list, the drawing and the program; returns the exit code. \throws InputError
 /// for values out of range.
-[[nodiscard]] int plan_the_holes(grid::HolesPlanRequest request,
-                                 const model::Machine& machine,
+[[nodiscard]] int plan_the_holes(HolesPlanRequest request,
+                                 const Machine& machine,
                                  const PlanOutputs& wanted);
 
 }  // namespace chaintrue::cli

@@ -10,15 +10,15 @@
 
 namespace chaintrue::cli {
 
-std::vector<grid::files::OutputFile> sheet_outputs(const Sheet& sheet,
-                                                   const model::Machine& machine,
-                                                   const grid::StatedNoise& noise,
-                                                   const PlanOutputs& outputs,
-                                                   const std::string& expected) {
-  std::vector<grid::files::OutputFile> written = {{outputs.list,
-                                                   is_json_wanted(outputs.json, outputs.list)
-                                                       ? sheet_json(sheet, machine, noise)
-                                                       : sheet_csv(sheet)}};
+std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
+                                             const Machine& machine,
+                                             const StatedNoise& noise,
+                                             const PlanOutputs& outputs,
+                                             const std::string& expected) {
+  std::vector<files::OutputFile> written = {{outputs.list,
+                                             is_json_wanted(outputs.json, outputs.list)
+                                                 ? sheet_json(sheet, machine, noise)
+                                                 : sheet_csv(sheet)}};
   if (!outputs.page.empty())
     written.push_back({outputs.page, sheet_page(sheet, machine, outputs.list)});
   if (!outputs.gcode.empty()) written.push_back({outputs.gcode, sheet_gcode(sheet, outputs.drill)});
@@ -26,14 +26,14 @@ std::vector<grid::files::OutputFile> sheet_outputs(const Sheet& sheet,
   return written;
 }
 
-void add_answer(const std::vector<model::MarkPoint>& places,
+void add_answer(const std::vector<MarkPoint>& places,
                 const std::vector<std::size_t>& visits,
                 const std::string& expected,
                 const PlanOutputs& outputs,
-                std::vector<grid::files::OutputFile>& written) {
+                std::vector<files::OutputFile>& written) {
   if (!outputs.json || outputs.list == "-") return;
   std::vector<std::string> pairs;
-  for (const model::MarkPoint& place : places)
+  for (const MarkPoint& place : places)
     pairs.push_back(fmt::format("[{}, {}]", place.x_mm, place.y_mm));
   std::vector<std::size_t> order = visits;
   for (std::size_t i = 0; visits.empty() && i < places.size(); ++i) order.push_back(i);

@@ -23,19 +23,19 @@ struct PlanOutputs {
 
 /// The list, and the page, the program and the answer where they are wanted.
 /// \param expected as for add_answer
-[[nodiscard]] std::vector<grid::files::OutputFile> sheet_outputs(const Sheet& sheet,
-                                                                 const model::Machine& machine,
-                                                                 const grid::StatedNoise& noise,
-                                                                 const PlanOutputs& outputs,
-                                                                 const std::string& expected);
+[[nodiscard]] std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
+                                                           const Machine& machine,
+                                                           const StatedNoise& noise,
+                                                           const PlanOutputs& outputs,
+                                                           const std::string& expected);
 
 /// With --json, where the list goes into a file: the places in mm, numbers of places in the order of
 /// the visits (empty: each once), and members of an object on what is expected.
-void add_answer(const std::vector<model::MarkPoint>& places,
+void add_answer(const std::vector<MarkPoint>& places,
                 const std::vector<std::size_t>& visits,
                 const std::string& expected,
                 const PlanOutputs& outputs,
-                std::vector<grid::files::OutputFile>& written);
+                std::vector<files::OutputFile>& written);
 
 /// The next step: fill it in, and fit it.
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);

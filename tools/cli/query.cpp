@@ -26,8 +26,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct QueryCommand {
   std::string map;
   std::vector<double> coordinates;
@@ -40,10 +38,10 @@ struct QueryCommand {
 };
 
 /// In the frame of --frame.
-std::vector<model::BedPoint> points_asked(const QueryCommand& command) {
-  std::vector<model::BedPoint> points;
+std::vector<BedPoint> points_asked(const QueryCommand& command) {
+  std::vector<BedPoint> points;
   if (!command.points.empty()) {
-    for (const model::MarkPoint& point : files::read_points(command.points))
+    for (const MarkPoint& point : files::read_points(command.points))
       points.push_back(model::identity_placement(point));
     return points;
   }
@@ -81,8 +79,8 @@ int answer_inverse(const AskedMap& asked, const QueryCommand& command) {
 int answer_points(const AskedMap& asked, const QueryCommand& command) {
   std::vector<AnswerLine> lines;
   std::string outside;
-  const std::vector<model::BedPoint> points = points_asked(command);
-  for (const model::BedPoint& point : points) {
+  const std::vector<BedPoint> points = points_asked(command);
+  for (const BedPoint& point : points) {
     progress_is(static_cast<double>(lines.size()), static_cast<double>(points.size()));
     lines.push_back({point, asked.map.query(point)});
     if (lines.back().answer) continue;
@@ -113,13 +111,13 @@ int answer(const AskedMap& asked, const QueryCommand& command) {
   return code;
 }
 
-int query_map(const QueryCommand& command, const grid::CompensationMap& stored) {
+int query_map(const QueryCommand& command, const CompensationMap& stored) {
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
     fmt::print(
         stderr, "{}: fade needs a map with a machine; choose another --outside\n", command.map);
     return kNotSupportedOrOutside;
   }
-  const grid::CompensationMap map =
+  const CompensationMap map =
       stored.with_outside(rule_of(command.outside, stored.contents().outside));
   if (command.frame == "bed" && map.machine() == nullptr) {
     fmt::print(
@@ -135,12 +133,11 @@ int query_map(const QueryCommand& command, const grid::CompensationMap& stored) 
 int query_anchors(const QueryCommand& command, const InputFile& file) {
   const files::FittedAnchors anchors = load_anchors(file);
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
-    throw files::InputError(
-        {{file.name,
-          "/fit/coordinates",
-          "no stated_mm",
-          "anchors fitted to a file that states those in force: where commands count from follows "
-          "from them (import maslow4 --settings maslow.yaml)"}});
+    throw InputError({{file.name,
+                       "/fit/coordinates",
+                       "no stated_mm",
+                       "anchors fitted to a file that states those in force: where commands count "
+                       "from follows from them (import maslow4 --settings maslow.yaml)"}});
   }
   const grid::BeltMap map(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
   return answer({map,
@@ -179,9 +176,8 @@ void check_usage(const QueryCommand& command) {
 
 void add_query(Verb app) {
   auto command = std::make_shared<QueryCommand>();
-  Verb verb = app.add_verb("query",
-                           "Compute chain lengths for points of the bed, or the point for chain "
-                           "lengths");
+  Verb verb = app.add_verb(
+      "query", "Compute chain lengths for points of the bed, or the point for chain lengths");
   add_input(verb,
             "map",
             command->map,

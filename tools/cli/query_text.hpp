@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/map/length_map.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -23,7 +24,7 @@ struct AskedMap {
 
 /// One line of the answer; missing numbers are empty cells, or omitted.
 struct AnswerLine {
-  model::BedPoint point;
+  BedPoint point;
   tl::expected<grid::LengthsAnswer, grid::MapFailure> answer;
 };
 

@@ -24,8 +24,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct ReportCommand {
   std::string input;
   std::string output;
@@ -35,12 +33,12 @@ struct ReportCommand {
 
 /// A page of the file, and the next command.
 struct Reported {
-  report::Document page;
+  Document page;
   std::vector<std::string> next;
 };
 
 Reported of_map(const InputFile& file, bool as_certificate, std::string_view source) {
-  const grid::CompensationMap map = load_map(file);
+  const CompensationMap map = load_map(file);
   return Reported{as_certificate ? certificate(map, source) : map_document(map, source),
                   map.machine() == nullptr
                       ? std::vector<std::string>{"query", file.path, "--help"}
@@ -48,7 +46,7 @@ Reported of_map(const InputFile& file, bool as_certificate, std::string_view sou
 }
 
 Reported of_diagnosis(const InputFile& file, std::string_view source) {
-  const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+  const Diagnosis found = load_diagnosis(file);
   if (found.drawing) return {diagnosis_document(found, source), {"fit", "--help"}};
   return {
       diagnosis_document(found, source),
@@ -104,9 +102,9 @@ int run_report(Verb verb, const ReportCommand& command) {
 
 void add_report(Verb app) {
   auto command = std::make_shared<ReportCommand>();
-  Verb verb = app.add_verb("report",
-                           "Write a map, a diagnosis or the anchors of four belts as a web page "
-                           "that needs no network");
+  Verb verb = app.add_verb(
+      "report",
+      "Write a map, a diagnosis or the anchors of four belts as a web page that needs no network");
   add_input(verb,
             "file",
             command->input,

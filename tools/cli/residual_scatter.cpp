@@ -22,7 +22,7 @@ Window window_of(const std::vector<double>& values, double share, double least) 
 
 }  // namespace
 
-report::Chart residual_scatter_chart(const ResidualScatter& scatter) {
+Chart residual_scatter_chart(const ResidualScatter& scatter) {
   std::vector<double> along, up = {0.0};
   grid::append_all(up, scatter.y_also_mm);
   for (const ResidualDot& dot : scatter.dots) {
@@ -31,14 +31,14 @@ report::Chart residual_scatter_chart(const ResidualScatter& scatter) {
   }
   for (const auto& [x, y_mm] : scatter.curve) up.push_back(y_mm);
   const Window x = window_of(along, 0.03, 1e-6), y = window_of(up, 0.08, scatter.least_span_mm);
-  report::DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
+  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
   for (const ResidualDot& dot : scatter.dots) {
     points.rows.push_back(
         {dot.name, dot.x, std::clamp(dot.y_mm, y.low, y.high), dot.is_first, dot.is_bad});
   }
-  report::DataTable curve{"curve", {"x", "y_mm"}, {}};
+  DataTable curve{"curve", {"x", "y_mm"}, {}};
   for (const auto& [at, y_mm] : scatter.curve) curve.rows.push_back({at, y_mm});
-  report::Chart chart{
+  Chart chart{
       .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};
   chart.data = {std::move(points), std::move(curve)};
   chart.signals = {{"x_title", scatter.x_title},

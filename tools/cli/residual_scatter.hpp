@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/cli/names.hpp"
 #include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
@@ -25,8 +26,8 @@ struct ResidualScatter {
   std::string x_title{};
   std::vector<ResidualDot> dots{};
   std::vector<std::pair<double, double>> curve{};  ///< x and mm
-  std::vector<double> y_also_mm{};               ///< in the window, like good dots, 0 and the curve
-  double least_span_mm = 0.2;                    ///< of the window
+  std::vector<double> y_also_mm{};  ///< in the window, like good dots, 0 and the curve
+  double least_span_mm = 0.2;       ///< of the window
   std::string first_label{};
   std::string second_label{};  ///< empty: one colour
   const char* first_color = report::kBeforeColor;
@@ -34,6 +35,6 @@ struct ResidualScatter {
 };
 
 /// Bad dots are drawn at the rim, so that they do not flatten the rest.
-[[nodiscard]] report::Chart residual_scatter_chart(const ResidualScatter& scatter);
+[[nodiscard]] Chart residual_scatter_chart(const ResidualScatter& scatter);
 
 }  // namespace chaintrue::cli

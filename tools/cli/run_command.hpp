@@ -10,7 +10,7 @@
 
 namespace chaintrue::cli {
 
-/// Calls a verb's work and gives its exit code; what the work throws (files::InputError, Failed) is
+/// Calls a verb's work and gives its exit code; what the work throws (InputError, Failed) is
 /// the guard's to report.
 using Guard = std::function<int(const std::function<int()>& work)>;
 

@@ -18,9 +18,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-using model::ControllerKind;
-
 /// Kinds of controllers with the same settings.
 enum class SettingsOf { maslow, wall_plotter, none };
 
@@ -37,22 +34,22 @@ SettingsOf settings_of(ControllerKind kind) {
   return SettingsOf::none;
 }
 
-/// The kind of controller that has `now`. \throws files::InputError if none does.
-ControllerKind kind_with(const model::Machine& stated,
+/// The kind of controller that has `now`. \throws InputError if none does.
+ControllerKind kind_with(const Machine& stated,
                          const SettingsFile& now,
                          const ControllerKind* in_place) {
   const ControllerKind of_file = now.read.machine.controller.kind;
   if (settings_of(of_file) == SettingsOf::none) {
-    throw files::InputError({{now.name,
-                              "/controller",
-                              "a machine that names no controller",
-                              "settings that a controller holds; a machine that it believes as it "
-                              "stands is given with --machine"}});
+    throw InputError({{now.name,
+                       "/controller",
+                       "a machine that names no controller",
+                       "settings that a controller holds; a machine that it believes as it stands "
+                       "is given with --machine"}});
   }
   const ControllerKind of_map = in_place != nullptr ? *in_place : stated.controller.kind;
   if (settings_of(of_map) == SettingsOf::none && in_place == nullptr) return of_file;
   if (settings_of(of_map) == settings_of(of_file)) return of_map;
-  throw files::InputError(
+  throw InputError(
       {{now.name,
         "",
         fmt::format("settings of a {} controller", name_of(of_file)),
@@ -66,12 +63,11 @@ ControllerKind kind_with(const model::Machine& stated,
 void refuse_other_chain(const std::vector<files::SettingChange>& changes, const std::string& file) {
   const auto of_chain = files::of_the_chain(changes);
   if (of_chain.empty()) return;
-  throw files::InputError(
-      {{file,
-        "",
-        files::in_words(of_chain),
-        "the values that the map was measured with: others change the meaning of a chain length, "
-        "so measure and fit again, or set them back"}});
+  throw InputError({{file,
+                     "",
+                     files::in_words(of_chain),
+                     "the values that the map was measured with: others change the meaning of a "
+                     "chain length, so measure and fit again, or set them back"}});
 }
 
 }  // namespace
@@ -97,12 +93,12 @@ SettingsFile parse_settings_file(const std::string& path, const std::string& tex
   return {file, files::parse_groundcontrol(text, file)};
 }
 
-model::Machine with_settings(const model::Machine& stated,
-                             const SettingsFile& now,
-                             const ControllerKind* in_place) {
-  const model::Machine& file = now.read.machine;
+Machine with_settings(const Machine& stated,
+                      const SettingsFile& now,
+                      const ControllerKind* in_place) {
+  const Machine& file = now.read.machine;
   const bool names_none = settings_of(stated.controller.kind) == SettingsOf::none;
-  model::Machine machine = stated;
+  Machine machine = stated;
   machine.controller.kind = kind_with(stated, now, in_place);
   machine.controller.settings = file.controller.settings;
   // A ring and brackets do not share a sled.
@@ -118,7 +114,7 @@ model::Machine with_settings(const model::Machine& stated,
                now.name);
     return machine;
   }
-  model::Machine before = stated;
+  Machine before = stated;
   before.controller.kind = machine.controller.kind;
   const auto changes =
       files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
@@ -126,12 +122,11 @@ model::Machine with_settings(const model::Machine& stated,
   if (changes.empty()) {
     fmt::print(stderr, "{} has the settings that the map is for.\n", now.name);
   } else {
-    fmt::print(
-        stderr,
-        "The settings in {} differ from those that the map was measured with ({}): the new ones "
-        "are used.\n",
-        now.name,
-        files::in_words(changes));
+    fmt::print(stderr,
+               "The settings in {} differ from those that the map was measured with ({}): the new "
+               "ones are used.\n",
+               now.name,
+               files::in_words(changes));
   }
   return machine;
 }

@@ -9,17 +9,18 @@
 
 #include "grid/files/machine_file.hpp"
 #include "model/machine.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 struct SettingsFile {
   std::string name;  ///< in messages
-  grid::files::ReadMachine read;
+  files::ReadMachine read;
   /// Whether it is a file of this program.
   bool is_ours = false;
 };
 
-/// \throws files::InputError with every problem of the file.
+/// \throws InputError with every problem of the file.
 [[nodiscard]] SettingsFile read_settings_file(const std::string& path);
 /// As above, from its text.
 [[nodiscard]] SettingsFile parse_settings_file(const std::string& path, const std::string& text);
@@ -28,17 +29,17 @@ struct SettingsFile {
 /// controller gets the file's. Reports in one line on standard error what differs from the settings
 /// that the map was measured with. \param in_place the controller of --controller, for which the
 /// settings are read; or null
-/// \throws files::InputError for settings of another kind of controller, or that change the meaning
+/// \throws InputError for settings of another kind of controller, or that change the meaning
 /// of the map's chain lengths.
-[[nodiscard]] model::Machine with_settings(const model::Machine& stated,
-                                           const SettingsFile& now,
-                                           const model::ControllerKind* in_place);
+[[nodiscard]] Machine with_settings(const Machine& stated,
+                                    const SettingsFile& now,
+                                    const ControllerKind* in_place);
 
 /// map.json becomes map.after.json: where export writes the map for the typed-in numbers by
 /// default.
 [[nodiscard]] std::string after_name(const std::string& map);
 
 /// "maslow_classic", as in files and options.
-[[nodiscard]] std::string_view name_of(model::ControllerKind kind);
+[[nodiscard]] std::string_view name_of(ControllerKind kind);
 
 }  // namespace chaintrue::cli

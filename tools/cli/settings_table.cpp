@@ -40,26 +40,24 @@ std::string_view setting_in_words(Setting setting) { return words_of(setting).wo
 std::string_view unit_of(Setting setting) { return words_of(setting).unit; }
 double in_unit(Setting setting, double value) { return words_of(setting).factor * value; }
 
-report::Table settings_table(const std::vector<SettingRow>& settings) {
-  report::Table table{
-      .columns = {{.heading = "Settings", .width = 26},
-                  {.heading = "in the file", .is_number = true, .width = 14},
-                  {.heading = "+- in the file", .is_number = true, .detail = report::Detail::page},
-                  {.heading = "calibrated", .is_number = true, .width = 12},
-                  {.heading = "+- sigma", .is_number = true, .width = 11},
-                  {.gap = 1},
-                  {.gap = 2}},
-      .is_headed = true,
-      .head_width = 27};
+Table settings_table(const std::vector<SettingRow>& settings) {
+  Table table{.columns = {{.heading = "Settings", .width = 26},
+                          {.heading = "in the file", .is_number = true, .width = 14},
+                          {.heading = "+- in the file", .is_number = true, .detail = Detail::page},
+                          {.heading = "calibrated", .is_number = true, .width = 12},
+                          {.heading = "+- sigma", .is_number = true, .width = 11},
+                          {.gap = 1},
+                          {.gap = 2}},
+              .is_headed = true,
+              .head_width = 27};
   for (const SettingRow& row : settings) {
     const auto value = [&](double of) { return in_unit(row.setting, of); };
-    std::vector<report::Cell> cells = {
-        setting_in_words(row.setting),
-        value(row.stated),
-        row.stated_sigma ? report::Cell(value(*row.stated_sigma)) : report::Cell(),
-        value(row.calibrated),
-        value(row.sigma),
-        unit_of(row.setting)};
+    std::vector<Cell> cells = {setting_in_words(row.setting),
+                               value(row.stated),
+                               row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
+                               value(row.calibrated),
+                               value(row.sigma),
+                               unit_of(row.setting)};
     if (row.is_off) cells.emplace_back("off: by more than your file allows");
     table.rows.push_back({std::move(cells), row.is_off});
   }

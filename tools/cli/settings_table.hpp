@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/calibration/setting.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
@@ -28,6 +29,6 @@ struct SettingRow {
   /// Farther from the stated value than its uncertainty allows.
   bool is_off = false;
 };
-[[nodiscard]] report::Table settings_table(const std::vector<SettingRow>& settings);
+[[nodiscard]] Table settings_table(const std::vector<SettingRow>& settings);
 
 }  // namespace chaintrue::cli

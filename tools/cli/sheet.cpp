@@ -18,7 +18,7 @@ std::string whole(double mm) { return fmt::format("{:.0f}", mm + 0.0); }
 
 }  // namespace
 
-double reachable_mm(const model::Bed& bed) {
+double reachable_mm(const Bed& bed) {
   return std::min(kReachableMm, 0.2 * std::min(bed.width_mm, bed.height_mm));
 }
 
@@ -47,10 +47,9 @@ std::vector<SheetVisit> visits_of(const Sheet& sheet) {
   return visits;
 }
 
-SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
+SheetOf sheet_of(const std::string& word, const Machine* machine) {
   if (!word.empty()) return word == "lengths" ? SheetOf::lengths : SheetOf::places;
-  const bool is_reported =
-      machine == nullptr || machine->controller.kind == model::ControllerKind::ideal;
+  const bool is_reported = machine == nullptr || machine->controller.kind == ControllerKind::ideal;
   return is_reported ? SheetOf::lengths : SheetOf::places;
 }
 
@@ -79,10 +78,8 @@ std::string sheet_csv(const Sheet& sheet) {
   return text;
 }
 
-std::string sheet_json(const Sheet& sheet,
-                       const model::Machine& machine,
-                       const grid::StatedNoise& noise) {
-  grid::MeasuredGrid grid;
+std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedNoise& noise) {
+  MeasuredGrid grid;
   grid.name = machine.name;
   grid.machine = machine;
   grid.noise = noise;
@@ -93,7 +90,7 @@ std::string sheet_json(const Sheet& sheet,
     point.order = static_cast<int>(visit.number);
     grid.points.push_back(point);
   }
-  return grid::files::write_grid_sheet(grid);
+  return files::write_grid_sheet(grid);
 }
 
 void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
@@ -104,12 +101,8 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
              "Write a program that drills the marks in order, or stops above each one if lengths "
              "are to be read")
       .acts_on(facts::planned, "to be left out with --after, which makes lines for a file");
-  add_number(verb,
-             "--depth-mm",
-             options.depth_mm,
-             {"mm", 0.1, 100.0},
-             "With --gcode: depth of "
-             "the holes")
+  add_number(
+      verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
       .acts_on(facts::program, "to be left out without --gcode")
       .acts_on(facts::drilled,
                "to be left out: where lengths are read the program stops above each mark and "
@@ -126,8 +119,8 @@ std::string drill_gcode(std::string_view what,
                         const std::vector<DrillPlace>& places,
                         const DrillOptions& options) {
   std::string text = fmt::format(
-      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that every one "
-      "is on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
+      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that every one is "
+      "on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
       what,
       options.depth_mm,
       options.clearance_mm);

@@ -11,6 +11,7 @@
 
 #include "grid/observation/measured_grid.hpp"
 #include "tools/cli/arguments.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -24,15 +25,15 @@ enum class SheetOf {
 /// inch sled is then on the sheet, which keeps it from tipping, and it clears the supports below.
 inline constexpr double kReachableMm = 100.0;
 /// On a bed of less than half a metre a fifth of its shorter side.
-[[nodiscard]] double reachable_mm(const model::Bed& bed);
+[[nodiscard]] double reachable_mm(const Bed& bed);
 
 /// The words of --measure, and the default for a machine: without a controller of known kinematics
 /// only lengths can be read.
-[[nodiscard]] SheetOf sheet_of(const std::string& word, const model::Machine* machine);
+[[nodiscard]] SheetOf sheet_of(const std::string& word, const Machine* machine);
 void add_measure_option(Verb verb, std::string& word);
 
 struct Sheet {
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   SheetOf of = SheetOf::places;
   /// Numbers of the marks in driving order; empty: each once, in the given order.
   std::vector<std::size_t> visits = {};
@@ -45,7 +46,7 @@ inline constexpr double kBesideMm = 15.0;
 /// A line of a sheet. Marks are numbered in the order of their first visits.
 struct SheetVisit {
   std::size_t number = 0;  ///< of the visit, from 1
-  model::MarkPoint mark;
+  MarkPoint mark;
   std::size_t again = 0;   ///< the number of the mark's first visit; 0: this is the first
   bool is_beside = false;  ///< of a second visit: kBesideMm from there
   /// "29 (next to mark 8)", or "29 (mark 8 again)" if nothing is drilled
@@ -57,8 +58,8 @@ struct SheetVisit {
 [[nodiscard]] std::string sheet_csv(const Sheet& sheet);
 /// The list as a chaintrue_grid, including the machine and the noise.
 [[nodiscard]] std::string sheet_json(const Sheet& sheet,
-                                     const model::Machine& machine,
-                                     const grid::StatedNoise& noise);
+                                     const Machine& machine,
+                                     const StatedNoise& noise);
 
 struct DrillOptions {
   double depth_mm = 3.0;
@@ -69,7 +70,7 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options);
 /// A place of a program, and its name in comments: "hole A".
 struct DrillPlace {
   std::string name;
-  model::BedPoint at;
+  BedPoint at;
 };
 /// Metric, absolute, a rapid above each place, down and up again.
 [[nodiscard]] std::string drill_gcode(std::string_view what,

@@ -15,7 +15,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using model::MarkPoint;
 using report::escaped;
 
 constexpr std::string_view kStyle = R"(
@@ -91,39 +90,38 @@ std::string page_of(const std::string& title,
 }
 
 /// The bed as it hangs, numbered marks along the way from one to the next.
-std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
+std::string drawing_of(const Sheet& sheet, const Bed& bed) {
   constexpr double kDrawingWide = 900.0;
   constexpr double kEdge = 20.0;
   const BedView view(bed.width_mm, bed.height_mm, {kEdge, kEdge}, kDrawingWide);
   const auto x = [&](MarkPoint at) { return view.x(at.x_mm); };
   const auto y = [&](MarkPoint at) { return view.y(at.y_mm); };
   Svg svg(kDrawingWide + 2.0 * kEdge,
-                  view.high() + 2.0 * kEdge,
-                  "role=\"img\"",
-                  "The bed with its numbered marks");
+          view.high() + 2.0 * kEdge,
+          "role=\"img\"",
+          "The bed with its numbered marks");
   svg.rectangle(
       kEdge, kEdge, kDrawingWide, view.high(), "fill=\"none\" stroke=\"#111\" stroke-width=\"2\"");
   const std::vector<SheetVisit> visits = visits_of(sheet);
   std::string walk;
   for (const SheetVisit& visit : visits)
     walk += fmt::format("{:.1f},{:.1f} ", x(visit.mark), y(visit.mark));
-  svg.add("<polyline fill=\"none\" stroke=\"#999\" stroke-dasharray=\"6 5\" points=\"{}\"/>\n", walk);
+  svg.add("<polyline fill=\"none\" stroke=\"#999\" stroke-dasharray=\"6 5\" points=\"{}\"/>\n",
+          walk);
   // As large as the nearest two marks leave room for.
   double nearest = 80.0;
   for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       nearest = std::min(nearest,
                          view.scale() * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
-                                            sheet.marks[i].y_mm - sheet.marks[k].y_mm));
+                                                   sheet.marks[i].y_mm - sheet.marks[k].y_mm));
     }
   }
   const double radius = std::clamp(0.45 * nearest, 3.0, 16.0);
   for (const SheetVisit& visit : visits) {
     if (visit.again != 0) continue;
-    svg.circle(x(visit.mark),
-               y(visit.mark),
-               radius,
-               "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.5\"");
+    svg.circle(
+        x(visit.mark), y(visit.mark), radius, "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.5\"");
     svg.text(x(visit.mark),
              y(visit.mark) + 0.35 * radius,
              fmt::format("{}", visit.number),
@@ -146,7 +144,7 @@ std::string typed_into(const std::string& list) {
 
 }  // namespace
 
-std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const std::string& list) {
+std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::string& list) {
   const bool places = sheet.of == SheetOf::places;
   const std::string head =
       fmt::format("<th>mark</th><th>{0}x, mm</th><th>{0}y, mm</th><th>{1}</th><th>{2}</th>",
@@ -164,23 +162,21 @@ std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const 
   }
   std::vector<std::string> steps =
       places ? std::vector<std::string>{
-                   "Fasten a sheet to the bed and do not move it until all is measured. Zero is "
-                   "the middle of the bed, x to the right, y up.",
-                   "Send the tool to the marks in the order of their numbers, without any "
-                   "compensation, and mark where it stands (or run the program that drills them).",
-                   "Measure x and y of every mark from the sheet's middle lines, to half a "
-                   "millimetre or better."}
+                   "Fasten a sheet to the bed and do not move it until all is measured. Zero is the middle of the bed, x to the right, y up.",
+                   "Send the tool to the marks in the order of their numbers, without any compensation, and mark where it stands (or run the program that drills them).",
+                   "Measure x and y of every mark from the sheet's middle lines, to half a millimetre or better."}
              : std::vector<std::string>{
-                   "Draw the marks on a sheet. Zero is the middle of the bed, x to the right, y "
-                   "up.",
+                   "Draw the marks on a sheet. Zero is the middle of the bed, x to the right, y up.",
                    "Bring the bit over each mark in the order of their numbers; measure where it stands if it is not on it, and write down the lengths of both chains from the pin at 12 o'clock to their ends at the ring."};
   const std::size_t second = visits.size() - sheet.marks.size();
   if (second > 0) {
     steps.push_back(fmt::format(
-        "{} marks come a second time, later in the session{}. Measure them like any other: the two readings "
-        "show whether the machine changed in between.",
+        "{} marks come a second time, later in the session{}. Measure them like any other: the two "
+        "readings show whether the machine changed in between.",
         second,
-        places ? fmt::format(" and {:g} mm to the side, so that they are holes of their own", kBesideMm) : ""));
+        places ? fmt::format(" and {:g} mm to the side, so that they are holes of their own",
+                             kBesideMm)
+               : ""));
   }
   steps.push_back(typed_into(list));
   return page_of(
@@ -205,19 +201,18 @@ std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
                                distance.distance_mm,
                                blank_cells(1)));
   }
-  return page_of(
-      fmt::format("{} holes for {}", plan.set.holes.size(), plan.set.machine->name),
-      draw_holes_plan(plan),
-      draw_tape_and_hook(),
-      {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to each; zero "
-       "is the middle of the bed.",
-       "Measure from centre to centre. The hook at the tape's end has play: hold the 100 mm mark "
-       "to the first hole instead, write down the tape's reading, and fit with --hook-offset-mm "
-       "100.",
-       "Look at every number twice: one misread tape costs more than a hole left out.",
-       typed_into(list)},
-      "<th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th>",
-      rows);
+  return page_of(fmt::format("{} holes for {}", plan.set.holes.size(), plan.set.machine->name),
+                 draw_holes_plan(plan),
+                 draw_tape_and_hook(),
+                 {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to "
+                  "each; zero is the middle of the bed.",
+                  "Measure from centre to centre. The hook at the tape's end has play: hold the "
+                  "100 mm mark to the first hole instead, write down the tape's reading, and fit "
+                  "with --hook-offset-mm 100.",
+                  "Look at every number twice: one misread tape costs more than a hole left out.",
+                  typed_into(list)},
+                 "<th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th>",
+                 rows);
 }
 
 }  // namespace chaintrue::cli

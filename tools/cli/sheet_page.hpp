@@ -13,7 +13,7 @@ namespace chaintrue::cli {
 
 /// `list` is the file for the readings; empty: standard output.
 [[nodiscard]] std::string sheet_page(const Sheet& sheet,
-                                     const model::Machine& machine,
+                                     const Machine& machine,
                                      const std::string& list);
 [[nodiscard]] std::string holes_page(const grid::HolesPlan& plan, const std::string& list);
 

@@ -29,9 +29,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace synthetic = grid::synthetic;
-
 /// Diagnose the hidden effects, if the noise of the points is known.
 void say_next_of(const SimulateOptions& options) {
   const bool has_noise = options.holes.plan.holes != 0 || options.noise.length_mm > 0.0;
@@ -40,7 +37,7 @@ void say_next_of(const SimulateOptions& options) {
   say_next({"diagnose", options.output, "-o", "diagnosis.json"});
 }
 
-int simulate_session(const SimulateOptions& options, const model::Machine& machine) {
+int simulate_session(const SimulateOptions& options, const Machine& machine) {
   const synthetic::SyntheticSpec spec = parse_spec(options, machine);
   auto session = synthetic::generate(machine, spec, shown_progress());
   if (!session) {
@@ -59,29 +56,27 @@ int simulate_session(const SimulateOptions& options, const model::Machine& machi
   return kDone;
 }
 
-int simulate_places(const SimulateOptions& options, const model::Machine& machine) {
+int simulate_places(const SimulateOptions& options, const Machine& machine) {
   OptionProblems problems;
-  const std::vector<model::AppliedEffect> hidden =
-      parse_effects(options.effects, machine, problems);
+  const std::vector<AppliedEffect> hidden = parse_effects(options.effects, machine, problems);
   const model::Model model = parse_model(options.model, problems);
   problems.throw_if_any();
   std::vector<model::Visit> visits;
-  for (const model::MarkPoint& place : files::read_points(options.points)) {
+  for (const MarkPoint& place : files::read_points(options.points)) {
     visits.push_back({model::identity_placement(place), static_cast<int>(visits.size())});
   }
   synthetic::PlacesRead read =
       synthetic::read_places(machine, hidden, visits, model, shown_progress());
   read.grid.name = options.name.empty() ? "readings at given places" : options.name;
   for (const auto& [index, reason] : read.unreachable) {
-    fmt::print(
-        stderr,
-        "chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is left "
-        "out: {}\n",
-        options.points,
-        index,
-        visits[index].position.x_mm,
-        visits[index].position.y_mm,
-        model::sentence_of(reason));
+    fmt::print(stderr,
+               "chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is "
+               "left out: {}\n",
+               options.points,
+               index,
+               visits[index].position.x_mm,
+               visits[index].position.y_mm,
+               model::sentence_of(reason));
   }
   write_output(options.output, files::write_grid(read.grid));
   if (!read.unreachable.empty()) return kNotSupportedOrOutside;
@@ -105,7 +100,7 @@ Facts facts_of(const SimulateOptions& options) {
 int run_simulate(Verb verb, const SimulateOptions& options) {
   verb.refuse_what_does_nothing(facts_of(options));
   if (!options.belts.empty()) return simulate_the_belts(options);
-  model::Machine machine = read_machine_input(options.machine);
+  Machine machine = read_machine_input(options.machine);
   files::declare_effects(options.declared, machine);
   if (options.holes.plan.holes != 0) {
     const int code = simulate_the_holes(options, machine);
@@ -119,12 +114,8 @@ int run_simulate(Verb verb, const SimulateOptions& options) {
 void add_design_options(Verb verb, SimulateOptions& o) {
   auto where = verb.add_choice("where");
   where.add_option("--grid", o.grid, "Columns x rows of marks, as in 7x4");
-  add_number(where,
-             "--random",
-             o.random_points,
-             {"", 1.0, 1e6},
-             "Number of marks at random "
-             "positions")
+  add_number(
+      where, "--random", o.random_points, {"", 1.0, 1e6}, "Number of marks at random positions")
       .shows_default("");
   add_input(where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), as plan writes it");
   add_input(
@@ -143,17 +134,15 @@ void add_design_options(Verb verb, SimulateOptions& o) {
              "--margin-mm",
              o.margin_mm,
              {"mm", 0.0, 10000.0},
-             "Distance from the bed's edge to the outermost marks; by default the marks span "
-             "whole hundreds of mm")
+             "Distance from the bed's edge to the outermost marks; by default the marks span whole "
+             "hundreds of mm")
       .acts_on(facts::lattice | facts::scattered | facts::tape,
                "to be left out: the places are given, or lie as belts allow");
   verb.add_flag("--without-corners", o.without_corners, "Leave out the four corners")
       .acts_on(facts::lattice | facts::scattered,
                "to be left out: it is of marks of a grid or anywhere on the bed");
-  verb.add_option("--region",
-                  o.region,
-                  "Part of the bed with marks: whole, left, right, top or "
-                  "bottom")
+  verb.add_option(
+          "--region", o.region, "Part of the bed with marks: whole, left, right, top or bottom")
       .shows_default()
       .acts_on(facts::session, "to be left out: it is of marks on the bed");
   verb.add_option("--order",
@@ -179,59 +168,55 @@ void add_noise_options(Verb verb, SimulateOptions& o) {
   add_number(verb,
              "--length-noise-mm",
              o.noise.length_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "Standard deviation (1 sigma) of a chain reading")
       .acts_on(facts::session | facts::belts,
                "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-noise-mm",
              o.noise.position_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "Standard deviation (1 sigma) of each coordinate")
       .acts_on(facts::session, "to be left out: it is of marks that are measured");
-  verb.add_flag("--heavy-tails",
-                o.noise.heavy_tails,
-                "Draw noise from Student's t (4 degrees of freedom) "
-                "with the same standard deviation")
+  verb.add_flag(
+          "--heavy-tails",
+          o.noise.heavy_tails,
+          "Draw noise from Student's t (4 degrees of freedom) with the same standard deviation")
       .acts_on(facts::session | facts::belts,
                "to be left out: it is of the noise of lengths and marks");
   add_number(verb,
              "--length-rounding-mm",
              o.noise.length_rounding_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "Round readings to whole multiples")
       .acts_on(facts::session | facts::belts,
                "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-rounding-mm",
              o.noise.position_rounding_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "Round marks to whole multiples, such as 0.5 for a tape")
       .acts_on(facts::session, "to be left out: it is of marks that are measured");
   add_number(verb,
              "--stated-length-noise-mm",
              o.stated_length_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "The value that the file holds, by default the true one")
       .acts_on(facts::session, "to be left out: it is of what a grid states");
   add_number(verb,
              "--stated-position-noise-mm",
              o.stated_position_mm,
-             grid::files::kNoiseMm,
+             files::kNoiseMm,
              "The value that the file holds, by default the true one")
       .acts_on(facts::session, "to be left out: it is of what a grid states");
   add_number(verb,
              "--stated-dof",
              o.stated_dof,
-             grid::files::kNoiseDof,
+             files::kNoiseDof,
              "Degrees of freedom of the noise in the file")
       .acts_on(facts::session, "to be left out: it is of what a grid states");
-  add_number(verb,
-             "--bad-points",
-             o.bad.count,
-             {"", 0.0, 1e6},
-             "Number of marks written down "
-             "wrong")
+  add_number(
+      verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "Number of marks written down wrong")
       .acts_on(facts::drawn, "to be left out: readings at given places have no slips");
   add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "Error of those marks")
       .acts_on(facts::drawn, "to be left out: readings at given places have no slips");
@@ -242,7 +227,7 @@ void add_holes_options(Verb verb, HolesOptions& o) {
   add_number(verb,
              "--hook-offset-mm",
              o.tape_zero_offset_mm,
-             grid::files::kTapeZeroOffsetMm,
+             files::kTapeZeroOffsetMm,
              "With --holes: zero error of the tape, added to every reading")
       .acts_on(facts::tape, "to be left out without --holes");
   add_number(verb,
@@ -254,17 +239,15 @@ void add_holes_options(Verb verb, HolesOptions& o) {
 }
 
 void add_truth_options(Verb verb, SimulateOptions& o) {
-  verb.add_option(
-      "--effect",
-      o.effects,
-      "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`; of --belts "
-      "docs/maslow4.md)");
-  add_input(
-      verb,
-      "--effects",
-      o.declared,
-      "chaintrue_effect files: effects of your own that --effect may name; the grid's machine "
-      "keeps them")
+  verb.add_option("--effect",
+                  o.effects,
+                  "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`; of "
+                  "--belts docs/maslow4.md)");
+  add_input(verb,
+            "--effects",
+            o.declared,
+            "chaintrue_effect files: effects of your own that --effect may name; the grid's "
+            "machine keeps them")
       .acts_on(facts::session | facts::places | facts::tape,
                "to be left out: declared effects are of two chains, and four belts have their own");
   verb.add_option("--offset",
@@ -309,8 +292,8 @@ void add_simulate(Verb app) {
   add_input(machine,
             "--belts",
             options->belts,
-            "A router on four belts instead, which finds its anchors: a "
-            "chaintrue_belts or chaintrue_anchors file with its settings");
+            "A router on four belts instead, which finds its anchors: a chaintrue_belts or "
+            "chaintrue_anchors file with its settings");
   verb.add_option("--pulls",
                   options->pulls,
                   "With --belts: measure all places once with each relative pull, such as 1,1.6; "
@@ -336,16 +319,12 @@ void add_simulate(Verb app) {
   verb.footer(
       "Examples:\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm "
-      "8 "
-      "--length-noise-mm 0.2 --position-noise-mm 0.3 --repeats 6 --effect "
-      "chain_pitch_error:left:elongation=0.0012 --seed 1 -o grid.json --answer "
-      "answer.json\n"
+      "8 --length-noise-mm 0.2 --position-noise-mm 0.3 --repeats 6 --effect "
+      "chain_pitch_error:left:elongation=0.0012 --seed 1 -o grid.json --answer answer.json\n"
       "  printf 'x_mm,y_mm\\n0,0\\n' | build/chaintrue simulate --machine "
-      "fixtures/machines/classic.json "
-      "--points -\n"
+      "fixtures/machines/classic.json --points -\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances "
-      "20 "
-      "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json\n"
+      "20 --tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json\n"
       "  build/chaintrue simulate --belts fixtures/belts/thirty_one_places.json --grid 9x9 "
       "--effect belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json");
   add_option_check(verb, [options](OptionProblems& problems) { check_words(*options, problems); });

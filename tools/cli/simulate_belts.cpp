@@ -23,13 +23,10 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace synthetic = grid::synthetic;
-
 /// A machine as in its file.
 struct StatedBelts {
-  model::BeltMachine machine;
-  std::vector<model::AppliedEffect> causes;  ///< fitted together with the anchors
+  BeltMachine machine;
+  std::vector<AppliedEffect> causes;  ///< fitted together with the anchors
 };
 
 StatedBelts belts_of(const std::string& path) {
@@ -38,7 +35,7 @@ StatedBelts belts_of(const std::string& path) {
   const bool is_fitted = file.kind == FileKind::anchors;
   StatedBelts stated;
   if (is_fitted) {
-    grid::BeltsFit fit = load_anchors(file).fit;
+    BeltsFit fit = load_anchors(file).fit;
     stated.machine = std::move(fit.machine);
     for (grid::CauseInAnchorFit& own : fit.causes)
       stated.causes.push_back(
@@ -47,18 +44,18 @@ StatedBelts belts_of(const std::string& path) {
     stated.machine = load_belts(file, "a simulation").belts.machine;
   }
   if (!stated.machine.anchors_known) {
-    throw files::InputError({{file.name,
-                              is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
-                              "",
-                              "x_mm and y_mm of all four anchors, which the simulation needs; "
-                              "chaintrue fit finds them"}});
+    throw InputError({{file.name,
+                       is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
+                       "",
+                       "x_mm and y_mm of all four anchors, which the simulation needs; chaintrue "
+                       "fit finds them"}});
   }
   return stated;
 }
 
 /// Adds the causes of the file; those of --effect replace them.
-void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& spec) {
-  for (model::AppliedEffect& own : causes) {
+void add_causes(std::vector<AppliedEffect> causes, synthetic::BeltsSpec& spec) {
+  for (AppliedEffect& own : causes) {
     const bool is_given = grid::any_of(spec.hidden, [&](const auto& hidden) {
       return hidden.effect == own.effect && hidden.side == own.side;
     });
@@ -68,18 +65,18 @@ void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& 
 
 /// "9x7".
 void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
-  const auto size = grid::files::pair_of(text, 'x', 2, 100);
+  const auto size = files::pair_of(text, 'x', 2, 100);
   if (!size)
     return problems.add("--grid",
                         text,
                         "columns x rows of places, 2 to 100 of each, as in 9x7",
-                        grid::ProblemKind::bad_syntax);
+                        ProblemKind::bad_syntax);
   spec.columns = (*size)[0];
   spec.rows = (*size)[1];
 }
 
 /// `tl_x_mm=5`: truth less stated.
-void take_offset(const std::string& text, model::BeltMachine& truth, OptionProblems& problems) {
+void take_offset(const std::string& text, BeltMachine& truth, OptionProblems& problems) {
   const auto offset = named_number(text);
   const std::string what = offset ? offset->name : "";
   const auto belt = model::belt_of(what.substr(0, 2));
@@ -92,7 +89,7 @@ void take_offset(const std::string& text, model::BeltMachine& truth, OptionProbl
                  text,
                  "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less what the file says, as "
                  "in tl_x_mm=5",
-                 grid::ProblemKind::bad_syntax);
+                 ProblemKind::bad_syntax);
     return;
   }
   (is_x ? truth.anchors[*belt].x_mm : truth.anchors[*belt].y_mm) += offset->value;
@@ -103,10 +100,8 @@ void take_pulls(const std::string& text, synthetic::BeltsSpec& spec, OptionProbl
   if (text.empty()) return;
   for (const grid::BeltPull& pull : files::pulls_of(text, "--pulls")) {
     if (pull.unit != grid::BeltPull::Unit::relative)
-      return problems.add("--pulls",
-                          text,
-                          "numbers against each other, as in 1,1.6",
-                          grid::ProblemKind::bad_syntax);
+      return problems.add(
+          "--pulls", text, "numbers against each other, as in 1,1.6", ProblemKind::bad_syntax);
     spec.pulls.push_back(pull.value);
   }
 }
@@ -132,13 +127,13 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
     problems.add("--effect",
                  problem.value + " in " + options.effects[index],
                  problem.expected,
-                 grid::ProblemKind::impossible);
+                 ProblemKind::impossible);
   }
   if (spec.bad_readings > spec.columns * spec.rows) {
     problems.add("--bad-points",
                  fmt::format("{}", spec.bad_readings),
                  fmt::format("at most one for each of the {} places", spec.columns * spec.rows),
-                 grid::ProblemKind::out_of_range);
+                 ProblemKind::out_of_range);
   }
   return spec;
 }
@@ -149,7 +144,7 @@ int simulate_the_belts(const SimulateOptions& options) {
   StatedBelts stated = belts_of(options.belts);
   OptionProblems problems;
   synthetic::BeltsSpec spec = spec_of(options, problems);
-  model::BeltMachine truth = stated.machine;
+  BeltMachine truth = stated.machine;
   for (const std::string& offset : options.offsets) take_offset(offset, truth, problems);
   problems.throw_if_any();
   add_causes(std::move(stated.causes), spec);

@@ -7,7 +7,7 @@
 
 namespace chaintrue::cli {
 
-/// Writes the belts file; an exit code. \throws files::InputError with all problems.
+/// Writes the belts file; an exit code. \throws InputError with all problems.
 [[nodiscard]] int simulate_the_belts(const SimulateOptions& options);
 
 }  // namespace chaintrue::cli

@@ -20,11 +20,7 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace synthetic = grid::synthetic;
-
-void check_values(const SimulateOptions& options,
-                  const model::Machine& stated,
-                  OptionProblems& problems) {
+void check_values(const SimulateOptions& options, const Machine& stated, OptionProblems& problems) {
   require_sound(problems, options.holes.plan);
   if (options.margin_mm) {
     const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
@@ -40,17 +36,17 @@ std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
   std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
   for (const synthetic::SettingOffset& offset : offsets) {
     if (offset.setting < model::Setting::sheet_x_mm || options.holes.plan.edges) continue;
-    problems.add("--offset",
-                 std::string(model::name(offset.setting)),
-                 "a setting of the machine; without --edges holes know their distances, not the "
-                 "sheet",
-                 grid::ProblemKind::unknown_word);
+    problems.add(
+        "--offset",
+        std::string(model::name(offset.setting)),
+        "a setting of the machine; without --edges holes know their distances, not the sheet",
+        ProblemKind::unknown_word);
   }
   return offsets;
 }
 
 synthetic::HolesSpec spec_of(const SimulateOptions& options,
-                             const model::Machine& stated,
+                             const Machine& stated,
                              OptionProblems& problems) {
   synthetic::HolesSpec spec;
   spec.hidden = parse_effects(options.effects, stated, problems);
@@ -64,35 +60,35 @@ synthetic::HolesSpec spec_of(const SimulateOptions& options,
 
 }  // namespace
 
-int simulate_the_holes(const SimulateOptions& options, const model::Machine& stated) {
+int simulate_the_holes(const SimulateOptions& options, const Machine& stated) {
   OptionProblems problems;
   synthetic::HolesSpec spec = spec_of(options, stated, problems);
   const std::vector<synthetic::SettingOffset> offsets = offsets_of(options, problems);
   check_values(options, stated, problems);
   problems.throw_if_any();
-  model::Machine truth = synthetic::hidden_truth(stated, spec);
+  Machine truth = synthetic::hidden_truth(stated, spec);
   for (const synthetic::SettingOffset& offset : offsets)
     synthetic::offset_setting(truth, spec.sheet, offset);
   for (const model::MachineProblem& problem : model::problems_of(truth)) {
     problems.add("--offset",
                  fmt::format("{} = {}", problem.parameter, problem.value),
                  problem.expected,
-                 grid::ProblemKind::impossible);
+                 ProblemKind::impossible);
   }
   problems.throw_if_any();
-  grid::HolesPlanRequest request = options.holes.plan;
+  HolesPlanRequest request = options.holes.plan;
   request.margin_mm = options.margin_mm.value_or(request.margin_mm);
   auto plan = grid::plan_holes(stated, request);
   if (!plan) {
     fmt::print(stderr, "chaintrue simulate: {}\n", plan.error().sentence());
     return kNotSupportedOrOutside;
   }
-  grid::MeasuredHoles design = std::move(plan->set);
+  MeasuredHoles design = std::move(plan->set);
   if (spec.bad_readings > static_cast<int>(design.distances.size())) {
     problems.add("--bad-points",
                  fmt::format("{}", spec.bad_readings),
                  fmt::format("at most one for each of the {} distances", design.distances.size()),
-                 grid::ProblemKind::out_of_range);
+                 ProblemKind::out_of_range);
     problems.throw_if_any();
   }
   design.name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
@@ -102,8 +98,8 @@ int simulate_the_holes(const SimulateOptions& options, const model::Machine& sta
     fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence());
     return kNotSupportedOrOutside;
   }
-  write_outputs({{options.answer, grid::files::write_answer(*made, spec)},
-                 {options.output, grid::files::write_holes(made->set)}});
+  write_outputs({{options.answer, files::write_answer(*made, spec)},
+                 {options.output, files::write_holes(made->set)}});
   return kDone;
 }
 

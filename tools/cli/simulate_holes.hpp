@@ -5,12 +5,13 @@
 
 #include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 struct HolesOptions {
   /// 0 holes: a grid is simulated instead.
-  grid::HolesPlanRequest plan{.holes = 0, .progress = {}};
+  HolesPlanRequest plan{.holes = 0, .progress = {}};
   double tape_zero_offset_mm = 0.0;
   double rounding_mm = 0.0;
 };
@@ -18,7 +19,7 @@ struct HolesOptions {
 struct SimulateOptions;
 
 /// Writes the set and, if requested, its hidden truth; returns the exit code. \throws
-/// files::InputError for values out of range.
-[[nodiscard]] int simulate_the_holes(const SimulateOptions& options, const model::Machine& stated);
+/// InputError for values out of range.
+[[nodiscard]] int simulate_the_holes(const SimulateOptions& options, const Machine& stated);
 
 }  // namespace chaintrue::cli

@@ -15,9 +15,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace synthetic = grid::synthetic;
-
 constexpr std::pair<std::string_view, model::Model> kModels[] = {
     {"straight", model::Model::straight},
     {"wrap", model::Model::wrap},
@@ -34,15 +31,15 @@ Enum parse_word(std::string_view option,
                 const std::optional<Enum>& value,
                 std::string expected,
                 OptionProblems& problems) {
-  if (!value) problems.add(option, word, std::move(expected), grid::ProblemKind::unknown_word);
+  if (!value) problems.add(option, word, std::move(expected), ProblemKind::unknown_word);
   return value.value_or(Enum{});
 }
 
 void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
-  const auto size = grid::files::pair_of(text, 'x', 2, 1000);
+  const auto size = files::pair_of(text, 'x', 2, 1000);
   if (!size)
     return problems.add(
-        "--grid", text, "columns x rows, each 2 to 1000, as in 7x4", grid::ProblemKind::bad_syntax);
+        "--grid", text, "columns x rows, each 2 to 1000, as in 7x4", ProblemKind::bad_syntax);
   design.columns = (*size)[0];
   design.rows = (*size)[1];
 }
@@ -55,8 +52,7 @@ void parse_lattice(const SimulateOptions& options,
   const bool lattice =
       kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
   if (!lattice)
-    problems.add(
-        "--spacing", options.spacing, "regular or chebyshev", grid::ProblemKind::unknown_word);
+    problems.add("--spacing", options.spacing, "regular or chebyshev", ProblemKind::unknown_word);
   design.kind = lattice ? *kind : synthetic::DesignKind::regular;
 }
 
@@ -93,10 +89,10 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
   return design;
 }
 
-std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options) {
+std::optional<StatedNoise> parse_stated(const SimulateOptions& options) {
   if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
     return std::nullopt;
-  grid::StatedNoise stated;
+  StatedNoise stated;
   stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
   stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
   stated.dof = options.stated_dof.value_or(stated.dof);
@@ -104,8 +100,8 @@ std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options) {
 }
 
 /// With the attachment that these effects act on.
-model::Machine machine_for(const std::vector<std::string>& effects) {
-  model::Machine machine;
+Machine machine_for(const std::vector<std::string>& effects) {
+  Machine machine;
   for (const std::string& argument : effects) {
     const model::effects::Effect* effect =
         model::effects::find_effect(std::string_view(argument).substr(0, argument.find(':')));
@@ -123,7 +119,7 @@ model::Model parse_model(const std::string& word, OptionProblems& problems) {
     if (name == word) return value;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
   }
-  problems.add("--model", word, "one of " + known, grid::ProblemKind::unknown_word);
+  problems.add("--model", word, "one of " + known, ProblemKind::unknown_word);
   return model::Model::elastic;
 }
 
@@ -137,7 +133,7 @@ std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::strin
       problems.add("--offset",
                    argument,
                    "setting=number, as in motor_left_x_mm=1.5",
-                   grid::ProblemKind::bad_syntax);
+                   ProblemKind::bad_syntax);
       continue;
     }
     offsets.push_back({*setting, named->value});
@@ -160,7 +156,7 @@ void check_words(const SimulateOptions& options, OptionProblems& problems) {
     (void)parse_effects(options.effects, machine_for(options.effects), problems);
 }
 
-synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {
+synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const Machine& machine) {
   OptionProblems problems;
   synthetic::SyntheticSpec spec;
   spec.design = parse_design(options, problems);
@@ -191,7 +187,7 @@ synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model:
     problems.add("--offset",
                  fmt::format("{} = {}", problem.parameter, problem.value),
                  problem.expected,
-                 grid::ProblemKind::impossible);
+                 ProblemKind::impossible);
   }
   problems.throw_if_any();
   return spec;

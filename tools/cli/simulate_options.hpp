@@ -33,11 +33,11 @@ struct SimulateOptions {
   std::string order = "rows";
   int repeats = 0;
   double jitter_mm = 0.0;
-  grid::synthetic::SyntheticNoise noise;
+  synthetic::SyntheticNoise noise;
   std::optional<double> stated_length_mm;
   std::optional<double> stated_position_mm;
   std::optional<double> stated_dof;
-  grid::synthetic::BadPoints bad;
+  synthetic::BadPoints bad;
   std::vector<std::string> effects;
   /// Files of declared effects.
   std::vector<std::string> declared;
@@ -54,12 +54,12 @@ struct SimulateOptions {
 /// From --model; an unknown word becomes a problem.
 [[nodiscard]] model::Model parse_model(const std::string& word, OptionProblems& problems);
 /// For --offset.
-[[nodiscard]] std::vector<grid::synthetic::SettingOffset> parse_offsets(
+[[nodiscard]] std::vector<synthetic::SettingOffset> parse_offsets(
     const std::vector<std::string>& arguments, OptionProblems& problems);
 /// Checks the options of a session or of places before any file is read.
 void check_words(const SimulateOptions& options, OptionProblems& problems);
-/// A session's whole specification. \throws files::InputError with all problems.
-[[nodiscard]] grid::synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
-                                                        const model::Machine& machine);
+/// A session's whole specification. \throws InputError with all problems.
+[[nodiscard]] synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
+                                                  const Machine& machine);
 
 }  // namespace chaintrue::cli

@@ -26,8 +26,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-
 struct SquareOptions {
   std::string machine;
   std::string controller_machine;
@@ -44,26 +42,26 @@ struct SquareOptions {
 constexpr const char* kSideNames[] = {"left", "top", "right", "bottom"};
 
 /// By default around `middle`.
-model::SquareTask task_of(const SquareOptions& options, model::BedPoint middle) {
+SquareTask task_of(const SquareOptions& options, BedPoint middle) {
   const double half_mm = 0.5 * options.size_mm;
-  const model::BedPoint corner =
-      options.at.empty() ? model::BedPoint{middle.x_mm - half_mm,
-                                           middle.y_mm + (options.below ? half_mm : -half_mm)}
-                         : model::BedPoint{options.at[0], options.at[1]};
+  const BedPoint corner =
+      options.at.empty()
+          ? BedPoint{middle.x_mm - half_mm, middle.y_mm + (options.below ? half_mm : -half_mm)}
+          : BedPoint{options.at[0], options.at[1]};
   return {.size_mm = options.size_mm, .corner = corner, .below = options.below};
 }
 
 /// Why a square cannot be predicted: the mechanism's reason and the command.
 struct SquareRefusal {
   std::string who;
-  model::BedPoint commanded;
+  BedPoint commanded;
   std::string why;
 };
 
 tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& options,
-                                                          const model::SquareTask& task) {
-  const model::Machine machine = read_machine_input(options.machine);
-  const model::Machine believed = read_machine_input(options.controller_machine);
+                                                          const SquareTask& task) {
+  const Machine machine = read_machine_input(options.machine);
+  const Machine believed = read_machine_input(options.controller_machine);
   auto square = model::predict_square(machine, believed, task);
   if (square) return *std::move(square);
   const model::SquareFailure& failure = square.error();
@@ -86,16 +84,16 @@ std::unique_ptr<const GcodeMachine> machine_of(const SquareOptions& options) {
   return std::make_unique<const GcodeMachine>(gcode);
 }
 
-model::BedPoint middle_of(const interp::Rectangle& sheet) {
+BedPoint middle_of(const interp::Rectangle& sheet) {
   return {0.5 * (sheet.x_min + sheet.x_max), 0.5 * (sheet.y_min + sheet.y_max)};
 }
 
 /// The controller pays out lengths by its settings for each command; the map gives the tool's
 /// position for them.
-tl::expected<model::CutSquare, SquareRefusal> by_map(const model::SquareTask& task,
+tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareTask& task,
                                                      const GcodeMachine& machine) {
-  std::vector<model::BedPoint> cut;
-  for (const model::BedPoint commanded : model::outline_of(task)) {
+  std::vector<BedPoint> cut;
+  for (const BedPoint commanded : model::outline_of(task)) {
     const auto lengths = machine.controller().kinematics->lengths(commanded);
     if (!lengths)
       return tl::unexpected(SquareRefusal{"the controller", commanded, lengths.error().sentence()});
@@ -106,7 +104,7 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const model::SquareTask& ta
   return model::measured_square(task, std::move(cut));
 }
 
-std::string as_table(const model::CutSquare& square, const model::SquareTask& task) {
+std::string as_table(const model::CutSquare& square, const SquareTask& task) {
   std::string text =
       fmt::format("{:<18}{:>12}{:>12}{:>10}\n", "", "commanded_mm", "cut_mm", "bow_mm");
   for (const model::SquareSide side : model::kSquareSides) {
@@ -129,7 +127,7 @@ std::string as_table(const model::CutSquare& square, const model::SquareTask& ta
   return text;
 }
 
-std::string as_json(const model::CutSquare& square, const model::SquareTask& task) {
+std::string as_json(const model::CutSquare& square, const SquareTask& task) {
   std::string text = fmt::format("{{\n  \"size_mm\": {},\n  \"sides\": {{\n", task.size_mm);
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
@@ -150,7 +148,7 @@ std::string as_json(const model::CutSquare& square, const model::SquareTask& tas
   return text;
 }
 
-void say_what_to_do(const SquareOptions& options, const model::SquareTask& task) {
+void say_what_to_do(const SquareOptions& options, const SquareTask& task) {
   if (options.program.empty()) {
     std::vector<std::string> again = {"square"};
     if (!options.map.empty()) again.insert(again.end(), {"--map", options.map});
@@ -190,8 +188,8 @@ const grid::KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& 
 
 int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeMachine>& machine) {
   const grid::KnownPlotter* plotter = plotter_of(machine);
-  const model::SquareTask task = task_of(
-      options, plotter == nullptr ? model::BedPoint{} : middle_of(machine->controller().sheet));
+  const SquareTask task =
+      task_of(options, plotter == nullptr ? BedPoint{} : middle_of(machine->controller().sheet));
   const auto square = machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
   if (!square) {
     const SquareRefusal& refusal = square.error();
@@ -233,15 +231,13 @@ void add_square(Verb app) {
   const Option map = add_input(verb,
                                "--map",
                                options->map,
-                               "The machine that will cut it: a chaintrue_map, "
-                               "chaintrue_anchors, or the chaintrue_plotter that fit wrote "
-                               "for a drawing");
-  const Option machine =
-      add_input(verb,
-                "--machine",
-                options->machine,
-                "Without a map: a chaintrue_machine file that describes the true machine with its "
-                "effects");
+                               "The machine that will cut it: a chaintrue_map, chaintrue_anchors, "
+                               "or the chaintrue_plotter that fit wrote for a drawing");
+  const Option machine = add_input(
+      verb,
+      "--machine",
+      options->machine,
+      "Without a map: a chaintrue_machine file that describes the true machine with its effects");
   machine.excludes(map);
   add_input(verb,
             "--controller-machine",
@@ -249,12 +245,12 @@ void add_square(Verb app) {
             "The controller's settings: a chaintrue_machine file, or one of the map's kind; by "
             "default those stored in the map");
   add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
-  add_numbers(verb,
-              "--at",
-              options->at,
-              {"mm", -20000.0, 20000.0},
-              "X Y of the lower left corner [mm]; by default the square lies around the bed's "
-              "middle")
+  add_numbers(
+      verb,
+      "--at",
+      options->at,
+      {"mm", -20000.0, 20000.0},
+      "X Y of the lower left corner [mm]; by default the square lies around the bed's middle")
       .takes(2);
   verb.add_flag("--below",
                 options->below,
@@ -264,12 +260,8 @@ void add_square(Verb app) {
       verb, "-o,--output", options->drawing, {Origin::drawing}, "Write it as an SVG picture");
   add_output(
       verb, "--gcode", options->program, {Origin::program}, "Write the program that cuts it");
-  add_number(verb,
-             "--depth-mm",
-             options->depth_mm,
-             {"mm", 0.1, 100.0},
-             "With --gcode: depth of "
-             "the holes")
+  add_number(
+      verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
       .acts_on(facts::program, "to be left out without --gcode")
       .acts_on(facts::map | facts::machine, "to be left out: a plotter's pen has no depth");
   verb.footer(

@@ -13,21 +13,22 @@ namespace chaintrue::cli {
 namespace {
 
 // The picture, in its own units.
-constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kSquareLeft = 120.0, kSquareTop = 110.0;
+constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kSquareLeft = 120.0,
+                 kSquareTop = 110.0;
 constexpr double kLargestError = 0.11;  // share of the side that the largest error is drawn as
 
 /// From the bed to the picture; the cut outline is drawn about its own middle, so that shape alone
 /// shows.
 class SquarePicture {
  public:
-  SquarePicture(const model::CutSquare& square, const model::SquareTask& task)
+  SquarePicture(const model::CutSquare& square, const SquareTask& task)
       : square_(square),
         scale_(kSide / task.size_mm),
         left_(square.commanded.front().x_mm),
         top_(square.commanded.front().y_mm + task.size_mm) {
     double largest = 0.0;
     for (std::size_t i = 0; i < square.cut.size(); ++i) {
-      const model::BedPoint e = error(i);
+      const BedPoint e = error(i);
       largest = std::max(largest, std::hypot(e.x_mm, e.y_mm));
     }
     // A round number of times; a perfect square (rounding alone) is drawn as it is.
@@ -41,18 +42,19 @@ class SquarePicture {
   [[nodiscard]] double magnification() const { return magnification_; }
   [[nodiscard]] std::string commanded(std::size_t i) const { return at(square_.commanded[i]); }
   [[nodiscard]] std::string cut(std::size_t i) const {
-    const model::BedPoint p = square_.commanded[i], e = error(i);
+    const BedPoint p = square_.commanded[i], e = error(i);
     return at({p.x_mm + magnification_ * e.x_mm, p.y_mm + magnification_ * e.y_mm});
   }
 
  private:
-  [[nodiscard]] model::BedPoint error(std::size_t i) const {
+  [[nodiscard]] BedPoint error(std::size_t i) const {
     return {square_.cut[i].x_mm - square_.commanded[i].x_mm - square_.offset.x_mm,
             square_.cut[i].y_mm - square_.commanded[i].y_mm - square_.offset.y_mm};
   }
-  [[nodiscard]] std::string at(model::BedPoint p) const {
-    return fmt::format(
-        "{:.2f},{:.2f}", kSquareLeft + scale_ * (p.x_mm - left_), kSquareTop + scale_ * (top_ - p.y_mm));
+  [[nodiscard]] std::string at(BedPoint p) const {
+    return fmt::format("{:.2f},{:.2f}",
+                       kSquareLeft + scale_ * (p.x_mm - left_),
+                       kSquareTop + scale_ * (top_ - p.y_mm));
   }
 
   const model::CutSquare& square_;
@@ -61,7 +63,7 @@ class SquarePicture {
 
 }  // namespace
 
-std::string draw_square(const model::CutSquare& square, const model::SquareTask& task) {
+std::string draw_square(const model::CutSquare& square, const SquareTask& task) {
   using model::SquareSide;
   const SquarePicture picture(square, task);
   std::string commanded, cut;
@@ -73,13 +75,14 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
       "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm);
   Svg svg(kWide, kHigh, "font-size=\"15\" fill=\"#222222\"", title);
   svg.fill();
-  svg.add("<polygon points=\"{0}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
-          "stroke-dasharray=\"7 5\"/>\n"
-          "<polygon points=\"{1}\" fill=\"{2}\" fill-opacity=\"0.08\" stroke=\"{2}\" "
-          "stroke-width=\"2.5\" stroke-linejoin=\"round\"/>\n",
-          commanded,
-          cut,
-          report::kAfterColor);
+  svg.add(
+      "<polygon points=\"{0}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
+      "stroke-dasharray=\"7 5\"/>\n"
+      "<polygon points=\"{1}\" fill=\"{2}\" fill-opacity=\"0.08\" stroke=\"{2}\" "
+      "stroke-width=\"2.5\" stroke-linejoin=\"round\"/>\n",
+      commanded,
+      cut,
+      report::kAfterColor);
   const auto line = [&svg](double y, std::string_view words) {
     svg.text(kWide / 2, y, words, "middle");
   };

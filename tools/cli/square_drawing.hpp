@@ -7,11 +7,11 @@
 #include <string>
 
 #include "model/square.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
 /// A self-contained SVG; nothing is fetched, no script runs.
-[[nodiscard]] std::string draw_square(const model::CutSquare& square,
-                                      const model::SquareTask& task);
+[[nodiscard]] std::string draw_square(const model::CutSquare& square, const SquareTask& task);
 
 }  // namespace chaintrue::cli

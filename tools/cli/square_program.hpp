@@ -8,12 +8,13 @@
 
 #include "grid/plotter/test_drawing.hpp"
 #include "model/square.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
-[[nodiscard]] std::string square_program(const model::SquareTask& task, double depth_mm);
+[[nodiscard]] std::string square_program(const SquareTask& task, double depth_mm);
 /// For a V-plotter, in its controller's coordinates: one code on a line, the pen by its own
 /// commands.
-[[nodiscard]] std::string square_program(const model::SquareTask& task, const grid::SetPlotter& plotter);
+[[nodiscard]] std::string square_program(const SquareTask& task, const grid::SetPlotter& plotter);
 
 }  // namespace chaintrue::cli

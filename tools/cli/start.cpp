@@ -29,7 +29,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
 namespace fs = std::filesystem;
 
 struct StartCommand {
@@ -43,14 +42,14 @@ struct Plans {
   grid::HolesPlan holes;
 };
 
-tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) {
+tl::expected<Plans, grid::PlanFailure> plans_for(const Machine& machine) {
   // Half a millimetre for careful reading of a square or a tape.
   constexpr double kByEyeMm = 0.5;
   constexpr double kPaidOutMm = 0.1;
   grid::PlanRequest marks;
   marks.margin_mm = reachable_mm(machine.bed);
   marks.noise = {kPaidOutMm, kByEyeMm};
-  grid::HolesPlanRequest holes;
+  HolesPlanRequest holes;
   holes.margin_mm = reachable_mm(machine.bed);
   auto planned_marks = grid::plan_measurement(machine, marks);
   if (!planned_marks) return tl::unexpected(planned_marks.error());
@@ -59,7 +58,7 @@ tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) 
   return Plans{*std::move(planned_marks), *std::move(planned_holes)};
 }
 
-std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& plans) {
+std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
   const Sheet sheet{
       plans.marks.marks,
       SheetOf::places,
@@ -87,10 +86,10 @@ int start_template(Verb verb, const std::string& folder) {
                folder,
                {{"machine.json", files::write_machine({}, template_comments()), Origin::machine},
                 {"README.txt", template_readme(path), Origin::list}});
-  fmt::print(stderr,
-             "{} describes a classic Maslow, with every key explained. Put your machine's numbers "
-             "in.\n",
-             path);
+  fmt::print(
+      stderr,
+      "{} describes a classic Maslow, with every key explained. Put your machine's numbers in.\n",
+      path);
   say_next({"start", path});
   return kDone;
 }
@@ -121,7 +120,7 @@ int run_start(Verb verb, const StartCommand& command) {
     return start_plotter(verb, file, stays_next_to_file ? "" : command.folder);
   }
   const SettingsFile started = parse_settings_file(command.file, file.text);
-  const model::Machine& machine = started.read.machine;
+  const Machine& machine = started.read.machine;
   print_warnings(started.read.warnings);
   const auto plans = plans_for(machine);
   if (!plans) {
@@ -145,11 +144,11 @@ int run_start(Verb verb, const StartCommand& command) {
   }
   write_folder(verb, folder, contents);
   const std::string marks = (fs::path(folder) / "marks.csv").string();
-  fmt::print(stderr,
-             "{} holds the machine and the sheets: print marks.html, cut marks.nc, measure, and "
-             "write what you read into marks.csv (README.txt has more, also on holes and a "
-             "tape).\n",
-             folder);
+  fmt::print(
+      stderr,
+      "{} holds the machine and the sheets: print marks.html, cut marks.nc, measure, and write "
+      "what you read into marks.csv (README.txt has more, also on holes and a tape).\n",
+      folder);
   say_next(
       {"fit", marks, "--machine", machine_path, "-o", (fs::path(folder) / "map.json").string()});
   return kDone;

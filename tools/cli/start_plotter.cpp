@@ -18,7 +18,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
 namespace fs = std::filesystem;
 using model::PlotterFirmware;
 
@@ -32,22 +31,24 @@ FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
           Origin::program};
 }
 
-/// \throws files::InputError for a cross that the controller does not reach.
+/// \throws InputError for a cross that the controller does not reach.
 void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
   const auto refuse = [&](std::size_t place, std::string_view why) {
     const grid::DrawnCross& cross = drawing.crosses[place];
-    throw files::InputError({{file,
-                              "/set/machine/area",
-                              fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}",
-                                          cross.commanded.x_mm,
-                                          cross.commanded.y_mm,
-                                          why),
-                              "an area that the pen reaches"}});
+    throw InputError({{file,
+                       "/set/machine/area",
+                       fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}",
+                                   cross.commanded.x_mm,
+                                   cross.commanded.y_mm,
+                                   why),
+                       "an area that the pen reaches"}});
   };
   const auto drawn = grid::drawn_measures_of(drawing);
   if (!drawn) refuse(drawn.error().place, drawn.error().sentence());
   if (const auto cross = grid::cross_beyond_belt(drawing))
-    refuse(*cross, fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)", *drawing.longest_belt_mm));
+    refuse(
+        *cross,
+        fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)", *drawing.longest_belt_mm));
 }
 
 }  // namespace
@@ -68,19 +69,19 @@ files::ReadPlotter load_plotter(const InputFile& file) {
 std::unique_ptr<const grid::PlotterMap> load_plotter_map(const InputFile& file,
                                                          const grid::KnownPlotter& plotter) {
   if (!plotter.found) {
-    throw files::InputError({{file.name,
-                              "/found",
-                              "",
-                              "what a test drawing found; chaintrue fit drawing.json -o found.json "
-                              "writes a plotter with it"}});
+    throw InputError({{file.name,
+                       "/found",
+                       "",
+                       "what a test drawing found; chaintrue fit drawing.json -o found.json writes "
+                       "a plotter with it"}});
   }
   try {
     return std::make_unique<const grid::PlotterMap>(plotter);
   } catch (const std::invalid_argument& error) {
-    throw files::InputError({{file.name,
-                              "/set/machine/area",
-                              error.what(),
-                              "an area that the pen reaches, as set and as found"}});
+    throw InputError({{file.name,
+                       "/set/machine/area",
+                       error.what(),
+                       "an area that the pen reaches, as set and as found"}});
   }
 }
 

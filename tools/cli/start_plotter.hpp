@@ -17,10 +17,10 @@ namespace chaintrue::cli {
 /// A chaintrue_plotter, or settings that only a V-plotter has.
 [[nodiscard]] bool is_of_a_plotter(const InputFile& file);
 
-/// A chaintrue_plotter, or the settings of a V-plotter's controller. \throws files::InputError with
+/// A chaintrue_plotter, or the settings of a V-plotter's controller. \throws InputError with
 /// every problem.
-[[nodiscard]] grid::files::ReadPlotter load_plotter(const InputFile& file);
-/// The map from its drawing. \throws files::InputError if no drawing was measured, or if its page
+[[nodiscard]] files::ReadPlotter load_plotter(const InputFile& file);
+/// The map from its drawing. \throws InputError if no drawing was measured, or if its page
 /// cannot be drawn.
 [[nodiscard]] std::unique_ptr<const grid::PlotterMap> load_plotter_map(
     const InputFile& file, const grid::KnownPlotter& plotter);

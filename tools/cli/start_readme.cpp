@@ -13,16 +13,14 @@ constexpr std::string_view kKeys[][2] = {
     {"feed", "over_top where the chains leave over the sprockets' tops, else off_bottom"},
     {"attachment",
      "{\"kind\": \"ring\", \"radius_mm\": from the bit to a chain's end}, or {\"kind\": "
-     "\"brackets\", "
-     "\"spacing_mm\", \"height_mm\", \"cg_below_bit_mm\"}"},
+     "\"brackets\", \"spacing_mm\", \"height_mm\", \"cg_below_bit_mm\"}"},
     {"chain", "its mass, and its stretch per newton; leave them if you do not know better"},
     {"sled", "what the sled weighs with its router, in kg: a bathroom scale will do"},
     {"frame", "how far the frame leans back, in degrees"},
     {"uncertainty", "how well the motors, the chains' zeros and the ring are known, 1 sigma"},
     {"controller",
      "what the firmware believes: {\"kind\": \"maslow_classic\", \"settings\": {GroundControl's "
-     "own "
-     "names: motorspacingx, motoroffsety, rotationradius, chainsagcorrection, ...}}"},
+     "own names: motorspacingx, motoroffsety, rotationradius, chainsagcorrection, ...}}"},
 };
 
 }  // namespace
@@ -37,15 +35,14 @@ std::vector<std::string> template_comments() {
 std::string template_readme(const std::string& machine_path) {
   std::string text = "machine.json describes a classic Maslow. Put your own numbers into it:\n\n";
   for (const auto& [key, meaning] : kKeys) text += fmt::format("  {:<13}{}\n", key, meaning);
-  return text +
-         fmt::format(
-             "\nThen the sheets to print are made by\n\n    chaintrue start {}\n\n"
-             "If GroundControl, WebControl or FluidNC runs the machine, its settings need no "
-             "typing:\n\n    chaintrue start groundcontrol.ini\n",
-             machine_path);
+  return text + fmt::format(
+                    "\nThen the sheets to print are made by\n\n    chaintrue start {}\n\n"
+                    "If GroundControl, WebControl or FluidNC runs the machine, its settings need "
+                    "no typing:\n\n    chaintrue start groundcontrol.ini\n",
+                    machine_path);
 }
 
-std::string start_readme(const model::Machine& machine, const StartWays& ways) {
+std::string start_readme(const Machine& machine, const StartWays& ways) {
   const bool settings = machine.controller.settings.motor_spacing_mm.has_value();
   return fmt::format(
       R"({0}: what lies here, and what to do with it.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/machine.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -17,7 +18,7 @@ struct StartWays {
 };
 
 /// For a folder with sheets.
-[[nodiscard]] std::string start_readme(const model::Machine& machine, const StartWays& ways);
+[[nodiscard]] std::string start_readme(const Machine& machine, const StartWays& ways);
 /// For a folder with a machine file to fill in: the meaning of every key.
 [[nodiscard]] std::string template_readme(const std::string& machine_path);
 /// The keys' meanings as comments of the machine file.

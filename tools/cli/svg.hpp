@@ -46,7 +46,8 @@ class Svg {
   /// \param look of the whole: its font and what else all elements share
   Svg(double wide, double high, std::string_view look, std::string_view title) {
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-        "width=\"{0:.0f}\" height=\"{1:.0f}\" font-family=\"sans-serif\" {2}>\n<title>{3}</title>\n",
+        "width=\"{0:.0f}\" height=\"{1:.0f}\" font-family=\"sans-serif\" "
+        "{2}>\n<title>{3}</title>\n",
         wide,
         high,
         look,
@@ -59,7 +60,12 @@ class Svg {
   /// White behind all that follows.
   void fill() { text_ += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"; }
   void rectangle(double x, double y, double wide, double high, std::string_view look) {
-    add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n", x, y, wide, high, look);
+    add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n",
+        x,
+        y,
+        wide,
+        high,
+        look);
   }
   void circle(double x, double y, double radius, std::string_view look) {
     add("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.1f}\" {}/>\n", x, y, radius, look);
@@ -72,7 +78,12 @@ class Svg {
             std::string_view words,
             std::string_view anchor = "start",
             std::string_view look = "") {
-    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, look, report::escaped(words));
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n",
+        x,
+        y,
+        anchor,
+        look,
+        report::escaped(words));
   }
   [[nodiscard]] std::string finished() const { return text_ + "</svg>\n"; }
 

@@ -32,8 +32,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace sweep = grid::sweep;
 namespace fs = std::filesystem;
 
 struct SweepOptions {
@@ -51,7 +49,7 @@ sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
   if (numbers && (*numbers)[0] <= (*numbers)[1])
     return {static_cast<std::uint64_t>((*numbers)[0]) - 1,
             static_cast<std::uint64_t>((*numbers)[1])};
-  problems.add("--shard", text, "shard/shards, as in 3/16", grid::ProblemKind::bad_syntax);
+  problems.add("--shard", text, "shard/shards, as in 3/16", ProblemKind::bad_syntax);
   return {};
 }
 
@@ -61,7 +59,7 @@ void check_options(const SweepOptions& options, OptionProblems& problems) {
   problems.add("-o",
                options.directory.empty() ? "an empty name" : "-",
                "the name of a folder; a sweep writes many files",
-               grid::ProblemKind::output_place);
+               ProblemKind::output_place);
 }
 
 void refuse_old_results(const SweepOptions& options) {
@@ -72,7 +70,7 @@ void refuse_old_results(const SweepOptions& options) {
   problems.add("-o",
                options.directory,
                "a new folder, or --resume to go on with the cells that are there",
-               grid::ProblemKind::output_place);
+               ProblemKind::output_place);
   problems.throw_if_any();
 }
 
@@ -90,8 +88,7 @@ int assemble(Verb verb,
   if (missing > 0) {
     fmt::print(stderr,
                "chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
-               "parts of all shards "
-               "stand in {}/parts\n",
+               "parts of all shards stand in {}/parts\n",
                static_cast<std::ptrdiff_t>(cells.size()) - missing,
                cells.size(),
                options.directory);
@@ -160,11 +157,8 @@ void add_sweep(Verb app) {
   auto options = std::make_shared<SweepOptions>();
   Verb verb = app.add_verb("sweep", "Simulate the accuracy of maps over combinations of factors");
   add_input(verb, "specification", options->specification, "chaintrue_sweep file").required();
-  add_output_folder(verb,
-                    "-o,--output",
-                    options->directory,
-                    "Folder for the shards and the "
-                    "results")
+  add_output_folder(
+      verb, "-o,--output", options->directory, "Folder for the shards and the results")
       .required();
   verb.add_option("--shard", options->shard, "Compute this share of the cells only, such as 3/16");
   add_input(verb,

@@ -12,9 +12,6 @@
 namespace chaintrue::cli {
 namespace {
 
-namespace files = grid::files;
-namespace sweep = grid::sweep;
-
 constexpr std::array<std::string_view, sweep::kFactors> kTitles = {
     "The machine",
     "Hidden effects",
@@ -29,10 +26,10 @@ double points_of(const sweep::SweepSpec& spec, std::size_t grid) {
   return spec.grids[grid].columns * spec.grids[grid].rows;
 }
 
-report::Chart panel(const sweep::SweepSpec& spec,
-                    const std::vector<files::LevelError>& errors,
-                    std::size_t factor) {
-  report::DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}, {}};
+Chart panel(const sweep::SweepSpec& spec,
+            const std::vector<files::LevelError>& errors,
+            std::size_t factor) {
+  DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}, {}};
   for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
     const std::string level =
@@ -51,8 +48,8 @@ report::Chart panel(const sweep::SweepSpec& spec,
           .data = {std::move(lines)}};
 }
 
-report::Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
-  report::Table table;
+Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
+  Table table;
   table.columns = {{"factor"},
                    {"level"},
                    {"points", true},
@@ -100,10 +97,9 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     if (error.factor + 1 == sweep::kFactors) grids.push_back(error);
   }
   if (grids.size() > 1) {
-    const auto [fewest, most] =
-        grid::minmax_element(grids, [&](const auto& a, const auto& b) {
-          return points_of(spec, a.grid) < points_of(spec, b.grid);
-        });
+    const auto [fewest, most] = grid::minmax_element(grids, [&](const auto& a, const auto& b) {
+      return points_of(spec, a.grid) < points_of(spec, b.grid);
+    });
     sentences.push_back(fmt::format(
         "From {:.0f} to {:.0f} points the error goes from {:.2f} to {:.2f} mm rms at the tool.",
         points_of(spec, fewest->grid),
@@ -124,27 +120,25 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
           "{}: no difference, {:.2f} mm rms at the tool with each.", kTitles[factor], *least));
       continue;
     }
-    sentences.push_back(
-        fmt::format("{}: {} has the smallest error, {:.2f} mm rms at the tool; {} the largest, "
-                    "{:.2f} mm.",
-                    kTitles[factor],
-                    level(least),
-                    *least,
-                    level(most),
-                    *most));
+    sentences.push_back(fmt::format(
+        "{}: {} has the smallest error, {:.2f} mm rms at the tool; {} the largest, {:.2f} mm.",
+        kTitles[factor],
+        level(least),
+        *least,
+        level(most),
+        *most));
   }
   return sentences;
 }
 
 }  // namespace
 
-report::Document sweep_page(const sweep::SweepSpec& spec,
-                            const std::vector<files::LevelError>& errors) {
-  report::Document page;
+Document sweep_page(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
+  Document page;
   page.title = spec.name;
   page.subtitle = spec.question;
   const auto counts = sweep::level_counts(spec);
-  report::Section panels{"Error against the number of points", {}};
+  Section panels{"Error against the number of points", {}};
   for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
     const bool varies = counts[factor] > 1 && factor + 1 < sweep::kFactors;
     if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));

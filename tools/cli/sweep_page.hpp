@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "grid/files/sweep_store.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
-[[nodiscard]] report::Document sweep_page(const grid::sweep::SweepSpec& spec,
-                                      const std::vector<grid::files::LevelError>& errors);
+[[nodiscard]] Document sweep_page(const sweep::SweepSpec& spec,
+                                  const std::vector<files::LevelError>& errors);
 
 }  // namespace chaintrue::cli

@@ -22,30 +22,29 @@
 
 namespace chaintrue::cli {
 
-grid::CompensationMap with_settings_of(const std::string& settings,
-                                       const std::string& map_name,
-                                       const grid::CompensationMap& map,
-                                       grid::Measured& measured) {
+CompensationMap with_settings_of(const std::string& settings,
+                                 const std::string& map_name,
+                                 const CompensationMap& map,
+                                 grid::Measured& measured) {
   const auto stated = grid::stated_machine(map);
   if (!stated) {
-    throw grid::files::InputError(
+    throw InputError(
         {{map_name, "", "a map without a machine", "no --settings: its points are chain lengths"}});
   }
   const SettingsFile file = read_settings_file(settings);
   const model::Controller now = with_settings(*stated, file, nullptr).controller;
-  if (now.kind == model::ControllerKind::fluidnc_wallplotter) {
-    throw grid::files::InputError({{file.name,
-                                    "",
-                                    "anchors of a wall plotter",
-                                    "the new points with the machine that they were commanded on: "
-                                    "--machine takes it"}});
+  if (now.kind == ControllerKind::fluidnc_wallplotter) {
+    throw InputError(
+        {{file.name,
+          "",
+          "anchors of a wall plotter",
+          "the new points with the machine that they were commanded on: --machine takes it"}});
   }
   measured = grid::commanded_with(measured, now);
   return grid::map_for_settings(map, now, "");
 }
 
 bool was_made_from(const std::string& made, const std::string& from) {
-  namespace files = grid::files;
   const auto made_by = files::made_by_of(files::read_whole_file(made), made);
   files::Sha256 hash;
   hash.add(files::read_whole_file(from));
@@ -55,26 +54,24 @@ bool was_made_from(const std::string& made, const std::string& from) {
 
 std::optional<model::ControllerSettings> settings_before(const std::string& map) {
   namespace fs = std::filesystem;
-  namespace files = grid::files;
   if (map == "-") return std::nullopt;
   const auto made_by = files::made_by_of(files::read_whole_file(map), map);
   if (!made_by || made_by->verb != "export groundcontrol" || made_by->inputs.empty())
     return std::nullopt;
   const std::string from = (fs::path(map).parent_path() / made_by->inputs.front().name).string();
   if (!fs::is_regular_file(from) || !was_made_from(map, from)) return std::nullopt;
-  const grid::CompensationMap exported = files::parse_map(files::read_whole_file(from), from);
+  const CompensationMap exported = files::parse_map(files::read_whole_file(from), from);
   if (exported.machine() == nullptr) return std::nullopt;
   return exported.machine()->controller.settings;
 }
 
-std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
+std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
                                                const grid::Measured& measured,
                                                const grid::Check& found,
                                                std::optional<model::ControllerSettings> before) {
-  namespace files = grid::files;
   if (found.is_valid_as_it_is() || map.machine() == nullptr) return std::nullopt;
   const auto differ_from_map = [&](const model::ControllerSettings& settings) {
-    model::Machine in_force = *map.machine();
+    Machine in_force = *map.machine();
     in_force.controller.settings = settings;
     return files::changed_settings(files::settings_in_force(*map.machine()),
                                    files::settings_in_force(in_force));
@@ -91,8 +88,8 @@ std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
   const std::string differ = files::in_words(differ_from_map(changed->in_force));
   const auto sentence = [&](std::string_view what, std::string_view with, std::string_view to_do) {
     return fmt::format(
-        "{}: the new points fit {} ({}) within {:.2f} mm rms in a chain, the map's own "
-        "within {:.2f} mm. {} {}",
+        "{}: the new points fit {} ({}) within {:.2f} mm rms in a chain, the map's own within "
+        "{:.2f} mm. {} {}",
         what,
         with,
         differ,

@@ -13,8 +13,8 @@ std::string with_name(std::string message, std::string_view name) {
   return fmt::format("{} ({})", message, name);
 }
 
-void print_warnings(const std::vector<grid::files::Warning>& warnings) {
-  for (const grid::files::Warning& warning : warnings) {
+void print_warnings(const std::vector<files::Warning>& warnings) {
+  for (const files::Warning& warning : warnings) {
     fmt::print(stderr,
                "{}\n",
                warning.kind ? with_name(warning.message(), grid::name_of(*warning.kind))

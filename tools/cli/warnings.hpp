@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -15,6 +16,6 @@ namespace chaintrue::cli {
 /// names are stable when sentences change. Otherwise only the message.
 [[nodiscard]] std::string with_name(std::string message, std::string_view name);
 
-void print_warnings(const std::vector<grid::files::Warning>& warnings);
+void print_warnings(const std::vector<files::Warning>& warnings);
 
 }  // namespace chaintrue::cli
