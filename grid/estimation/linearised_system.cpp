@@ -104,12 +104,6 @@ Eigen::Vector2d SystemUnit::unwhitened(const Eigen::VectorXd& all) const {
   return result;
 }
 
-Eigen::Index LinearisedSystem::observed_rows() const {
-  Eigen::Index rows = e.size();
-  for (const SystemUnit& unit : certain) rows -= unit.rows;
-  return rows;
-}
-
 tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet& set,
                                                            const std::vector<ObservedFrom>& from,
                                                            Prediction prediction) {

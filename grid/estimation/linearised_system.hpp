@@ -89,8 +89,6 @@ struct LinearisedSystem {
   std::vector<SystemUnit> certain;  ///< rows of readings that cannot be outliers
   std::vector<int> unit_of_row;     ///< n; -1: a row of those
   std::vector<SystemPlace> places{};
-
-  [[nodiscard]] Eigen::Index observed_rows() const;  ///< those of units
 };
 
 /// A place where the machine cannot hold the tool.

@@ -27,7 +27,6 @@ void append(ObservationPart part, ObservationSet& set) {
     for (const observation::Unit& unit : own.units()) {
       set.units.push_back({number, unit.index, part.first_row + unit.first_row, unit.rows});
     }
-    set.observed_rows += own.rows();
   }
   set.rows += own.rows();
   set.parts.push_back(std::move(part));
@@ -107,7 +106,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
   other.parts.clear();
   other.places.clear();
   other.units.clear();
-  other.rows = other.observed_rows = 0;
+  other.rows = 0;
   for (FollowUp& one : parts) {
     ObservationPart part;
     part.sheet = set.parts[one.in_place_of].sheet;

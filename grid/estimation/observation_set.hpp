@@ -85,7 +85,6 @@ struct ObservationSet {
   Eigen::VectorXd
       stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
   Eigen::Index rows = 0;
-  Eigen::Index observed_rows = 0;  ///< those of units
   /// Degrees of freedom of the noise: the fewest of all observations.
   double noise_dof = 15.0;
   bool noise_from_repeats = false;
@@ -105,9 +104,6 @@ struct ObservationSet {
   [[nodiscard]] bool has_distances() const;
   /// Chains were read, and the visits' order is known.
   [[nodiscard]] bool ordered() const;
-  [[nodiscard]] bool ordered(const NumberedPlace& place) const {
-    return parts[place.part].observation->ordered();
-  }
   /// The readings of the machine itself; none where there are none.
   [[nodiscard]] const std::vector<ExtraReading>& readings() const;
   /// Whether the readings depend on the setting in this column.

@@ -158,7 +158,6 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(DrawingReason::cross_out_of_reach,
                   sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
   }
-  const Eigen::VectorXd stated = in_file_order(*readings, *as_set);
   const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<Eigen::VectorXd> {
     const auto values = readings->predicted(View(machine.with_values(machine.values())));
     if (!values) return std::nullopt;
@@ -204,7 +203,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     fit.measures.push_back(
-        {drawing.measures[i].value_mm, stated[row], found[row], (*after)[row], rejected[i]});
+        {drawing.measures[i].value_mm, found[row], (*after)[row], rejected[i]});
   }
   return fit;
 }

@@ -41,7 +41,6 @@ inline constexpr double kOffSigmas = 3.0;
 /// A measure after the fit, mm.
 struct FittedMeasure {
   double measured_mm = 0.0;
-  double as_set_mm = 0.0;  ///< of the machine as stated
   double found_mm = 0.0;   ///< of the machine as found
   double after_mm = 0.0;   ///< on the next drawing, with the settings typed in
   bool rejected = false;   ///< rejected; it does not fit another row either

@@ -197,8 +197,11 @@ class WithCandidate {
   [[nodiscard]] Eigen::VectorXd readings(const Rows& rows, const Alternative& truth) const {
     const int number = system_.unit_of_row[static_cast<std::size_t>(rows.front())];
     if (number < 0) {
-      const double sigma = system_.certain[static_cast<std::size_t>(rows.front() - system_.observed_rows())].sigma();
-      return predicted_(rows) + sigma * truth.mean(rows);
+      const auto own = std::find_if(
+          system_.certain.begin(), system_.certain.end(), [&](const SystemUnit& unit) {
+            return unit.first_row == rows.front();
+          });
+      return predicted_(rows) + own->sigma() * truth.mean(rows);
     }
     Eigen::VectorXd off(static_cast<Eigen::Index>(rows.size()));
     for (Eigen::Index i = 0; i < off.size();) {
