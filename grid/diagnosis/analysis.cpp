@@ -230,7 +230,11 @@ void estimate_decided(Analysis& a) {
 }
 
 void decide_by(const AnalysisRules& rules, bool detected, Analysis& a) {
-  a.decision = decide(a.system, a.comparison, nothing_rejected(a.system), detected);
+  a.decision = decide(a.system,
+                      a.comparison,
+                      nothing_rejected(a.system),
+                      detected,
+                      classes_of(a.system, a.comparison));
   speak_of_leaders(a.system, a.comparison, a.decision);
   rules.restrain(detected, a);
   estimate_decided(a);

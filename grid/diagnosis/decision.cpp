@@ -305,18 +305,6 @@ class Decider {
 Decision decide(const RegressorSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
-                bool detected) {
-  return decide(
-      system,
-      comparison,
-      excluded,
-      detected,
-      classes_of(system, comparison));
-}
-
-Decision decide(const RegressorSystem& system,
-                const ModelComparison& comparison,
-                const std::vector<bool>& excluded,
                 bool detected,
                 std::vector<CauseClass> classes) {
   return Decider(system, comparison, excluded, std::move(classes)).run(detected);

@@ -57,9 +57,6 @@ class NoiseDensity {
   }
   /// The part of it from noise as stated.
   [[nodiscard]] double log_density_as_stated(double quadratic) const;
-  [[nodiscard]] double larger_share(double quadratic) const {
-    return averages(quadratic).larger_share;
-  }
   [[nodiscard]] double noise_square(double quadratic) const {
     return averages(quadratic).noise_square;
   }

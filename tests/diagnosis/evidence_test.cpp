@@ -158,8 +158,8 @@ TEST(Evidence, NoiseSquareIsTheMeanOfThePosterior) {
   const NoiseDensity noise(kDof, 40);
   // Far from the anchors only the conjugate mean of larger noise is significant.
   EXPECT_NEAR(noise.noise_square(20.0), (kDof + 20.0) / (40.0 + kDof - 2.0), 0.02);
-  EXPECT_GT(noise.larger_share(400.0), 0.9);
-  EXPECT_LT(noise.larger_share(40.0), 0.1);
+  EXPECT_GT(noise.averages(400.0).larger_share, 0.9);
+  EXPECT_LT(noise.averages(40.0).larger_share, 0.1);
 }
 
 TEST(Evidence, MassOfTheNormalAddsUp) {
@@ -200,8 +200,10 @@ TEST(Decision, ProbabilitiesStayBelowOne) {
   model.log_weight = 1e-14;  // the size of the rounding of a total over thousands of models
   comparison.models = {model};
   EXPECT_GT(comparison.probability(model), 1.0);
-  EXPECT_EQ(decide(system, comparison, none, true).discrepancy, 1.0);
-  EXPECT_EQ(decide(system, comparison, none, true).discrepancy_alone, 1.0);
+  const Decision decision =
+      decide(system, comparison, none, true, classes_of(system, comparison));
+  EXPECT_EQ(decision.discrepancy, 1.0);
+  EXPECT_EQ(decision.discrepancy_alone, 1.0);
 }
 
 TEST(NullDistribution, HoldsItsSize) {
