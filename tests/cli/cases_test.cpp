@@ -27,14 +27,7 @@ namespace fs = std::filesystem;
 /// A temporary folder, and the steps and checks of a case in it.
 class Workplace {
  public:
-  explicit Workplace(const CaseFile& file) : file_(file) {
-    std::string name = fs::temp_directory_path() / "chaintrue-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made: " + name);
-    folder_ = name;
-  }
-  ~Workplace() { fs::remove_all(folder_); }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
+  explicit Workplace(const CaseFile& file) : file_(file) {}
 
   void run(const Case& all) {
     for (std::size_t i = 0; i < all.steps.size() && !is_over(); ++i) {
@@ -174,7 +167,8 @@ class Workplace {
   }
 
   const CaseFile& file_;
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
   int code_ = -1;
 };
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/whole_file.hpp"
 #include "tests/gcode_witness/support/compared.hpp"
 #include "tests/gcode_witness/support/corpus.hpp"
 
@@ -22,7 +23,7 @@ using Rows = std::map<std::string, std::vector<std::string>>;
 
 Rows table(const std::string& name) {
   Rows rows;
-  std::istringstream lines(read_file(corpus_folder(CHAINTRUE_FIXTURES) + name));
+  std::istringstream lines(grid::files::read_whole_file(corpus_folder(CHAINTRUE_FIXTURES) + name));
   std::string line;
   std::getline(lines, line);
   while (std::getline(lines, line)) {

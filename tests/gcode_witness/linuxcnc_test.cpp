@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/files/whole_file.hpp"
 #include "tests/gcode_witness/support/compared.hpp"
 #include "tests/gcode_witness/support/corpus.hpp"
 #include "tests/gcode_witness/support/output_run.hpp"
@@ -61,7 +62,7 @@ TEST_F(LinuxCnc, GoesWhereWeGoOnRealFiles) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
     if (extension == ".canon" || extension == ".md" || extension == ".tsv") continue;
-    asked.push_back({entry.path().filename().string(), read_file(entry.path().string())});
+    asked.push_back({entry.path().filename().string(), grid::files::read_whole_file(entry.path())});
   }
   EXPECT_GE(asked.size(), 37U);
   gcode::Dialect dialect;

@@ -11,6 +11,7 @@
 
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"
+#include "tests/support/files.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -20,19 +21,13 @@ using ::testing::HasSubstr;
 
 class WholeFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "chaintrue.XXXXXX").string();
-    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] std::size_t files_in_folder() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  testing_support::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 template <class Action>

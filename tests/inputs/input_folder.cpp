@@ -6,32 +6,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
 namespace chaintrue::inputs {
-namespace {
 
 namespace fs = std::filesystem;
-
-fs::path temporary_folder() {
-  std::string name = fs::temp_directory_path() / "chaintrue-inputs-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for the test");
-  return name;
-}
-
-}  // namespace
+using testing_support::read_text;
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
     text.replace(at, what.size(), by);
   return text;
-}
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 Rows rows_of(const std::string& table) {
@@ -46,16 +32,11 @@ Rows rows_of(const std::string& table) {
   return rows;
 }
 
-InputFolder::InputFolder() : folder_(temporary_folder()) {
+InputFolder::InputFolder() {
   add_made_files("inputs/made_files.tsv");
   for (const auto& row : rows_of("inputs/copied_files.tsv"))
     fs::copy_file(fs::path(CHAINTRUE_FIXTURES) / row[1], folder_ / row[0]);
   fs::copy(CHAINTRUE_FIXTURES "/../tests/inputs/files", folder_);
-}
-
-InputFolder::~InputFolder() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
 }
 
 void InputFolder::make_missing_files(const std::string& lines) const {
@@ -72,7 +53,7 @@ void InputFolder::make_missing_files(const std::string& lines) const {
 
 std::string InputFolder::text_of(const std::string& file) const {
   make_missing_files("@" + file);
-  return content_of(folder_ / file);
+  return read_text(folder_ / file);
 }
 
 void InputFolder::write(const std::string& file, const std::string& text) const {
@@ -95,11 +76,11 @@ Ran InputFolder::run(const std::string& lines) const {
   const int status = std::system(shell.c_str());
   Ran ran;
   ran.code = WEXITSTATUS(status);
-  ran.out = content_of(folder_ / "run.out");
-  ran.err = content_of(folder_ / "run.err");
+  ran.out = read_text(folder_ / "run.out");
+  ran.err = read_text(folder_ / "run.err");
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file())
-      ran.files[fs::relative(entry.path(), folder).string()] = content_of(entry.path());
+      ran.files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
   }
   fs::remove_all(folder);
   return ran;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/files.hpp"
+
 namespace chaintrue::inputs {
 
 struct Ran {
@@ -27,9 +29,6 @@ class InputFolder {
  public:
   /// Files made by the command are made when a run first names them.
   InputFolder();
-  ~InputFolder();
-  InputFolder(const InputFolder&) = delete;
-  InputFolder& operator=(const InputFolder&) = delete;
 
   /// Commands with "; " between, in one empty folder; "@" begins the name of a file of this folder.
   /// Returns how the last one ended and all files that were written. Throws if a file that is named
@@ -42,7 +41,8 @@ class InputFolder {
 
  private:
   void make_missing_files(const std::string& lines) const;
-  std::filesystem::path folder_;
+  testing_support::TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path();
   mutable std::map<std::string, std::string> lines_;  ///< of files that are not made yet
 };
 
@@ -50,6 +50,5 @@ class InputFolder {
 [[nodiscard]] std::string replaced(std::string text,
                                    const std::string& what,
                                    const std::string& by);
-[[nodiscard]] std::string content_of(const std::filesystem::path& path);
 
 }  // namespace chaintrue::inputs

@@ -3,11 +3,10 @@
 // called: its lengths compared with the map's, inverse and forward, and outside.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
+#include <string>
 
 #include "grid/files/linuxcnc_kinematics.hpp"
 #include "grid/files/whole_file.hpp"
@@ -15,6 +14,7 @@
 #include "grid/map/map_in_frame.hpp"
 #include "grid/random.hpp"
 #include "tests/map/synthetic_grid.hpp"
+#include "tests/support/files.hpp"
 
 extern "C" {
 #include "tests/linuxcnc/stub/kinematics.h"
@@ -28,24 +28,20 @@ using testing_support::sagging_map;
 class Module {
  public:
   explicit Module(const std::string& source) {
-    namespace fs = std::filesystem;
-    folder_ = fs::path(::testing::TempDir()) / ("chaintrue_kins_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-    const fs::path c = folder_ / "chaintrue_kins.c", library = folder_ / "chaintrue_kins.so";
+    const std::string c = folder_ / "chaintrue_kins.c", library = folder_ / "chaintrue_kins.so";
     write_whole_file(c, source);
     std::string line = CHAINTRUE_COMPILER;
     line += " -x c -std=c99 -Wall -Wextra -Werror -pedantic -Wno-unused-function -O1 -shared -fPIC -I";
     line += CHAINTRUE_LINUXCNC_STUB;
     line += " -o ";
-    line += library.string();
+    line += library;
     line += " ";
-    line += c.string();
+    line += c;
     compiled_ = std::system(line.c_str()) == 0;
     if (compiled_) handle_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   }
   ~Module() {
     if (handle_ != nullptr) dlclose(handle_);
-    std::filesystem::remove_all(folder_);
   }
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;
@@ -74,7 +70,7 @@ class Module {
     return reinterpret_cast<Function>(dlsym(handle_, name));
   }
 
-  std::filesystem::path folder_;
+  testing_support::TemporaryFolder folder_;
   bool compiled_ = false;
   void* handle_ = nullptr;
 };

@@ -1,32 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/report/made_pages.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
-#include "tests/support/sample_diagnosis.hpp"
 #include "tests/holes/hole_sets.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 namespace chaintrue::report::testing {
 
-namespace fs = std::filesystem;
-
 std::string made_by(const std::string& line, const std::string& file) {
-  std::string name = fs::temp_directory_path() / "chaintrue-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made: " + name);
-  const std::string shell = "cd " + name + " && PATH=$(dirname " CHAINTRUE_COMMAND "):$PATH && { " +
-                            line + "\n} >/dev/null 2>&1";
-  const int status = std::system(shell.c_str());
-  std::ifstream made(fs::path(name) / file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(made), {}};
-  fs::remove_all(name);
-  if (status != 0) throw std::runtime_error("failed: " + line);
-  return text;
+  const testing_support::TemporaryFolder folder;
+  if (testing_support::run_line(folder.path(), line).code != 0) throw std::runtime_error("failed: " + line);
+  return testing_support::read_text(folder / file);
 }
 
 std::string page_of(const grid::diagnosis::Diagnosis& found) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/gcode_witness/support/corpus.hpp"
 
+#include "grid/files/whole_file.hpp"
+
 #include <stdexcept>
 
 #include "tests/gcode_witness/support/records.hpp"
@@ -11,8 +13,8 @@ std::string corpus_folder(const std::string& fixtures) { return fixtures + "/gco
 
 std::vector<StoredProgram> stored_programs(const std::string& fixtures, const std::string& theme) {
   const std::string stem = corpus_folder(fixtures) + theme;
-  const auto programs = read_records(read_file(stem + ".records"));
-  const auto answers = read_records(read_file(stem + ".canon"));
+  const auto programs = read_records(grid::files::read_whole_file(stem + ".records"));
+  const auto answers = read_records(grid::files::read_whole_file(stem + ".canon"));
   std::vector<StoredProgram> result;
   for (std::size_t i = 0; i < programs.size(); ++i) {
     if (i >= answers.size() || answers[i].name != programs[i].name)

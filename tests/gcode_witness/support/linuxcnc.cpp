@@ -7,32 +7,15 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <unistd.h>
+#include "grid/files/whole_file.hpp"
+#include "tests/support/files.hpp"
 
 namespace chaintrue::witness {
 namespace {
 
-/// A temporary folder, removed at the end.
-class Scratch {
- public:
-  Scratch() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "chaintrue_witness_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw std::runtime_error(fmt::format("no folder {} can be made", pattern));
-    path_ = pattern;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] std::string file(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
+using grid::files::read_whole_file;
+using grid::files::write_whole_file;
+using testing_support::TemporaryFolder;
 
 std::string root() {
   if (const char* stated = std::getenv("RS274_ROOT"); stated != nullptr) return stated;
@@ -52,10 +35,10 @@ int run(const std::string& programs, const std::string& truth) {
 }
 
 std::string look() {
-  const Scratch scratch;
-  write_file(scratch.file("in"), "=== there 0\n\n");
-  if (run(scratch.file("in"), scratch.file("out")) == 0 &&
-      read_file(scratch.file("out")).find("ACCEPTED") != std::string::npos) {
+  const TemporaryFolder scratch;
+  write_whole_file(scratch / "in", "=== there 0\n\n");
+  if (run(scratch / "in", scratch / "out") == 0 &&
+      read_whole_file(scratch / "out").find("ACCEPTED") != std::string::npos) {
     return {};
   }
   return "LinuxCNC's interpreter is not here: run tests/gcode_witness/unpack_interpreter, which "
@@ -71,15 +54,15 @@ const std::string& linuxcnc_missing() {
 
 std::vector<Record> ask_linuxcnc(const std::vector<Record>& programs) {
   if (programs.empty()) return {};
-  const Scratch scratch;
-  write_file(scratch.file("in"), write_records(programs));
-  const int code = run(scratch.file("in"), scratch.file("out"));
+  const TemporaryFolder scratch;
+  write_whole_file(scratch / "in", write_records(programs));
+  const int code = run(scratch / "in", scratch / "out");
   if (code != 0) {
     throw std::runtime_error(fmt::format("linuxcnc_moves.py ended with {}: {}",
                                          code,
-                                         read_file(scratch.file("out") + ".log")));
+                                         read_whole_file(scratch / "out.log")));
   }
-  auto answers = read_records(read_file(scratch.file("out")));
+  auto answers = read_records(read_whole_file(scratch / "out"));
   if (answers.size() != programs.size())
     throw std::runtime_error("linuxcnc_moves.py did not answer every program");
   return answers;

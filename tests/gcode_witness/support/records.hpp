@@ -18,8 +18,4 @@ struct Record {
 /// \throws std::runtime_error if the text is not a bundle.
 [[nodiscard]] std::vector<Record> read_records(std::string_view text);
 
-/// A whole file. \throws std::runtime_error where it cannot be read.
-[[nodiscard]] std::string read_file(const std::string& path);
-void write_file(const std::string& path, std::string_view text);
-
 }  // namespace chaintrue::witness

@@ -69,8 +69,8 @@ std::string as_commands(const std::string& csv) {
 void add_telling_files(InputFolder& folder) {
   folder.add_made_files("lab/inputs/made_files.tsv");
   const std::string fixtures = CHAINTRUE_FIXTURES "/";
-  folder.write("every.json", content_of(fixtures + "good/machine_every_key.json"));
-  folder.write("half_turn.json", content_of(fixtures + "effects/second_harmonic.json"));
+  folder.write("every.json", testing_support::read_text(fixtures + "good/machine_every_key.json"));
+  folder.write("half_turn.json", testing_support::read_text(fixtures + "effects/second_harmonic.json"));
   folder.write("grid_in_inches.csv", as_inches(folder.text_of("grid.csv")));
   folder.write("few_in_inches.csv", as_inches(folder.text_of("few.csv")));
   folder.write("commanded.csv", as_commands(folder.text_of("grid.csv")));
@@ -92,7 +92,7 @@ void add_telling_files(InputFolder& folder) {
   folder.write("moved_plotter.json", replaced(folder.text_of("wide_plotter.json"), "3000", "2996"));
   folder.write("narrow_holes.json", narrow_holes(folder.text_of("holes.json")));
   // Links with a slightly long pitch, instead of the catalogue's cause.
-  Json own = Json::parse(content_of(fixtures + "effects/catalogue/own_chain_pitch_error.json"));
+  Json own = Json::parse(testing_support::read_text(fixtures + "effects/catalogue/own_chain_pitch_error.json"));
   own["parameters"][0]["upper"] = 0.001;
   folder.write("own.json", own.dump(1));
   // Belts that are pulled behind each move, where the log alone is read as of an upright frame.
