@@ -3,6 +3,7 @@
 /// Opens pages in a real browser and reports problems.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,11 +16,13 @@ struct Window {
 };
 
 struct Visit {
-  int exit_code = 0;
-  /// The document after its scripts have run.
-  std::string dom;
-  /// Everything that the page wrote to the console; empty for a good page.
-  std::vector<std::string> console;
+  /// Of any page: lines on the console, charts that failed, charts with fewer marks than the rows of their largest
+  /// table, marks without a position. Empty for a good page.
+  std::vector<std::string> problems;
+  /// How many items a mark has: "specification mark", all charts of that specification together.
+  std::map<std::string, int> marks;
+  /// What the page and its probe left in document.documentElement.dataset.
+  std::map<std::string, std::string> found;
 };
 
 [[nodiscard]] bool has_browser();
@@ -67,15 +70,5 @@ inline constexpr std::string_view kOverlappingLegends = R"(
     }
     document.documentElement.dataset.overlaps = lies_on.length + ": " + lies_on.slice(0, 5).join("; ");
 )";
-
-/// Problems of the visited page: console lines, charts that failed, charts with fewer marks than
-/// the rows of their largest table, marks without a position. Empty for a good page.
-[[nodiscard]] std::vector<std::string> problems_of(const Visit& visit);
-
-/// How many items the marks of that name have in the chart with that specification (all charts
-/// together).
-[[nodiscard]] int count_marks(const Visit& visit,
-                              std::string_view specification,
-                              std::string_view mark);
 
 }  // namespace chaintrue::report::testing

@@ -20,6 +20,8 @@ using grid::testing::sample_diagnosis;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
+using ::testing::StartsWith;
 
 constexpr Window kPhone{390, 844};
 /// The longest name of a cause next to its bar ends in an ellipsis on a narrower one.
@@ -93,9 +95,9 @@ std::string phone_probe() {
 }
 
 void expect_fits_a_phone(const Visit& visited) {
-  EXPECT_THAT(visited.dom, HasSubstr("data-overflow=\"0\""));
-  EXPECT_THAT(visited.dom, HasSubstr("data-cut-labels=\"0: \""));
-  EXPECT_THAT(visited.dom, HasSubstr("data-overlaps=\"0: \""));
+  EXPECT_EQ(visited.found.at("overflow"), "0");
+  EXPECT_EQ(visited.found.at("cutLabels"), "0: ");
+  EXPECT_EQ(visited.found.at("overlaps"), "0: ");
 }
 
 /// Blocks that must not be split fit on a sheet, and no table is wider than its box.
@@ -160,20 +162,10 @@ constexpr const char* kShaftsProbe = R"(
       page.dataset.common = Math.sign(charts[0].reduce((sum, [x, y], i) => sum + x * before[i][0] + y * before[i][1], 0));
       )";
 
-int number_after(const std::string& text, const std::string& words) {
-  const std::size_t at = text.find(words);
-  return at == std::string::npos ? -1 : std::stoi(text.substr(at + words.size()));
-}
+int number(const Visit& visited, const char* name) { return std::stoi(visited.found.at(name)); }
 
-struct Marks {
-  const char* specification;
-  const char* mark;
-  int count;
-};
-void expect_marks(const Visit& visited, const std::vector<Marks>& all) {
-  for (const Marks& marks : all)
-    EXPECT_EQ(count_marks(visited, marks.specification, marks.mark), marks.count)
-        << marks.specification << " " << marks.mark;
+void expect_marks(const Visit& visited, const std::map<std::string, int>& marks) {
+  EXPECT_THAT(visited.marks, IsSupersetOf(marks));
 }
 
 TEST(Browser, PagesAreDrawnWhole) {
@@ -201,23 +193,23 @@ TEST(Browser, PagesAreDrawnWhole) {
        {as_printed(diagnosis_of_the_demo()), paper(), paper_probe()},
        {map_of_a_tool_that_hangs_low(), {}, kShaftsProbe},
        {diagnosis_of_a_worn_chain(), {}, kShaftsProbe}});
-  for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_THAT(problems_of(visits[i]), IsEmpty()) << i;
+  for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_THAT(visits[i].problems, IsEmpty()) << i;
 
   {
     SCOPED_TRACE("sample");
     // Before, after, and after at a larger magnification.
     expect_marks(visits[0],
-                 {{"bed_arrows", "point_marks", 3 * kSamplePoints},
-                  {"bed_arrows", "shafts", 3 * kSamplePoints},
-                  {"error_map", "cell_marks", kSampleCells},
-                  {"error_map", "point_marks", kSamplePoints},
-                  {"held_out_target", "hit_marks", kSamplePoints},
-                  {"held_out_points", "point_marks", kSamplePoints},
-                  {"error_steps", "bars", 4}});
-    EXPECT_THAT(visits[0].dom, HasSubstr("data-tip=\"block: point 1 "));
-    EXPECT_THAT(visits[0].dom, HasSubstr("data-hidden=\"0: \""));
+                 {{"bed_arrows point_marks", 3 * kSamplePoints},
+                  {"bed_arrows shafts", 3 * kSamplePoints},
+                  {"error_map cell_marks", kSampleCells},
+                  {"error_map point_marks", kSamplePoints},
+                  {"held_out_target hit_marks", kSamplePoints},
+                  {"held_out_points point_marks", kSamplePoints},
+                  {"error_steps bars", 4}});
+    EXPECT_THAT(visits[0].found.at("tip"), StartsWith("block: point 1 "));
+    EXPECT_EQ(visits[0].found.at("hidden"), "0: ");
     expect_fits_a_phone(visits[1]);
-    EXPECT_THAT(visits[1].dom, HasSubstr("data-cut=\"0: \""));
+    EXPECT_EQ(visits[1].found.at("cut"), "0: ");
   }
   {
     SCOPED_TRACE("diagnosis");
@@ -225,41 +217,41 @@ TEST(Browser, PagesAreDrawnWhole) {
     // The cause; before, after, and after at a larger magnification. Two chains, four panels each. Length,
     // folded and angle before and after for two chains; the visits once for each.
     expect_marks(visits[2],
-                 {{"bed_arrows", "point_marks", 4 * kPoints},
-                  {"bed_arrows", "noise_ellipses", 4 * kPoints},
-                  {"residual_strip", "point_marks", 8 * kPoints},
-                  {"residual_scatter", "point_marks", 14 * kPoints},
-                  {"probability_bars", "bars", 4},
-                  {"gain_bars", "bars", 6},
-                  {"next_points", "next_marks", 2},
-                  {"next_points", "measured_marks", kPoints}});
+                 {{"bed_arrows point_marks", 4 * kPoints},
+                  {"bed_arrows noise_ellipses", 4 * kPoints},
+                  {"residual_strip point_marks", 8 * kPoints},
+                  {"residual_scatter point_marks", 14 * kPoints},
+                  {"probability_bars bars", 4},
+                  {"gain_bars bars", 6},
+                  {"next_points next_marks", 2},
+                  {"next_points measured_marks", kPoints}});
     expect_fits_a_phone(visits[3]);
     // About three screens of 800; nothing folded, it was 11,700.
-    EXPECT_LT(number_after(visits[4].dom, "data-high=\""), 2500);
-    EXPECT_GT(number_after(visits[4].dom, "data-high=\""), 0);
-    EXPECT_LT(number_after(visits[4].dom, "data-highest=\""), 60);
-    EXPECT_THAT(visits[4].dom, HasSubstr("data-fits=\"true\""));
+    EXPECT_LT(number(visits[4], "high"), 2500);
+    EXPECT_GT(number(visits[4], "high"), 0);
+    EXPECT_LT(number(visits[4], "highest"), 60);
+    EXPECT_EQ(visits[4].found.at("fits"), "true");
     // Without the law, with it, and with it once more at a larger magnification.
     expect_marks(visits[5],
-                 {{"residual_scatter", "point_marks", 16 * kPoints}, {"bed_arrows", "point_marks", 7 * kPoints}});
-    expect_marks(visits[6], {{"residual_scatter", "point_marks", 6 * kPoints}});
+                 {{"residual_scatter point_marks", 16 * kPoints}, {"bed_arrows point_marks", 7 * kPoints}});
+    expect_marks(visits[6], {{"residual_scatter point_marks", 6 * kPoints}});
     // Before and after; measured, cause, rival and remainder; measured and three more.
     expect_marks(visits[7],
-                 {{"hole_distances", "distance_lines", 6 * kSampleDistances + 23},
-                  {"residual_scatter", "point_marks", 4 * kSampleDistances}});
+                 {{"hole_distances distance_lines", 6 * kSampleDistances + 23},
+                  {"residual_scatter point_marks", 4 * kSampleDistances}});
   }
   // 28 marks and six repeated visits.
-  expect_marks(visits[8], {{"held_out_points", "point_marks", 34}});
+  expect_marks(visits[8], {{"held_out_points point_marks", 34}});
   for (const std::size_t printed : {9U, 10U, 11U}) {
-    EXPECT_THAT(visits[printed].dom, HasSubstr("data-tall=\"0: \"")) << printed;
-    EXPECT_THAT(visits[printed].dom, HasSubstr("data-cut=\"0\"")) << printed;
+    EXPECT_EQ(visits[printed].found.at("tall"), "0: ") << printed;
+    EXPECT_EQ(visits[printed].found.at("cut"), "0") << printed;
   }
   {
     SCOPED_TRACE("arrows");
-    EXPECT_EQ(number_after(visits[12].dom, "data-shafts=\""), 28);
-    EXPECT_EQ(number_after(visits[12].dom, "data-down=\""), 28) << "where it landed minus where it was sent";
+    EXPECT_EQ(number(visits[12], "shafts"), 28);
+    EXPECT_EQ(number(visits[12], "down"), 28) << "where it landed minus where it was sent";
     // The effect of the worn chain alone, and the measurements before naming it.
-    EXPECT_EQ(number_after(visits[13].dom, "data-common=\""), 1);
+    EXPECT_EQ(number(visits[13], "common"), 1);
   }
 }
 
@@ -275,11 +267,11 @@ TEST(Browser, FaultsOfAPageAreFound) {
        {with(html, "\"from\":{\"data\":\"cells\"}", "\"from\":{\"data\":\"beyond\"}")},
        {html, {}, "console.error('the needle');"},
        {html}});
-  EXPECT_THAT(problems_of(visits[0]), Contains(HasSubstr("console: ")));
-  EXPECT_THAT(problems_of(visits[1]), Contains(HasSubstr("error_map is empty: ")));
-  EXPECT_THAT(problems_of(visits[2]), Contains(HasSubstr("error_map is empty: ")));
-  EXPECT_THAT(problems_of(visits[3]), Contains(HasSubstr("the needle")));
-  EXPECT_THAT(problems_of(visits[4]), IsEmpty());
+  EXPECT_THAT(visits[0].problems, Contains(HasSubstr("console: ")));
+  EXPECT_THAT(visits[1].problems, Contains(HasSubstr("error_map is empty: ")));
+  EXPECT_THAT(visits[2].problems, Contains(HasSubstr("error_map is empty: ")));
+  EXPECT_THAT(visits[3].problems, Contains(HasSubstr("the needle")));
+  EXPECT_THAT(visits[4].problems, IsEmpty());
 }
 
 // Folded sections are not printed; the sheets of start are one page each.

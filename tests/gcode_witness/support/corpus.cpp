@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/gcode_witness/support/corpus.hpp"
 
-#include "grid/files/whole_file.hpp"
-
 #include <stdexcept>
 
+#include "grid/files/whole_file.hpp"
 #include "tests/gcode_witness/support/records.hpp"
 
 namespace chaintrue::witness {
