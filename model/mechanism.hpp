@@ -31,8 +31,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "model/failure.hpp"
 #include "model/effects/effect_table.hpp"
+#include "model/failure.hpp"
 #include "model/machine.hpp"
 #include "model/mechanism_change.hpp"
 
@@ -173,6 +173,8 @@ class Mechanism {
 /// mechanism says how it is made anew with others.
 class MechanismBase : public Mechanism {
  public:
+  [[nodiscard]] std::string_view kind() const final { return kind_; }
+  [[nodiscard]] std::span<const std::string_view> lengths() const final { return lengths_; }
   [[nodiscard]] std::span<const MechanismParameter> parameters() const final { return parameters_; }
   [[nodiscard]] const Eigen::VectorXd& values() const final { return values_; }
   [[nodiscard]] std::span<const effects::Effect* const> effects() const final { return effects_; }
@@ -185,11 +187,16 @@ class MechanismBase : public Mechanism {
       const std::vector<AppliedEffect>& applied) const override;
 
  protected:
-  MechanismBase(effects::EffectTable effects,
+  /// `kind` and `lengths` live as long as the program.
+  MechanismBase(std::string_view kind,
+                std::span<const std::string_view> lengths,
+                effects::EffectTable effects,
                 std::vector<MechanismParameter> parameters,
                 Eigen::VectorXd values,
                 std::vector<AppliedEffect> applied)
-      : effects_(effects.begin(), effects.end()),
+      : kind_(kind),
+        lengths_(lengths),
+        effects_(effects.begin(), effects.end()),
         parameters_(std::move(parameters)),
         values_(std::move(values)),
         applied_(std::move(applied)) {}
@@ -203,6 +210,8 @@ class MechanismBase : public Mechanism {
   void require_all(const Eigen::VectorXd& lengths_mm) const;
 
  private:
+  std::string_view kind_;
+  std::span<const std::string_view> lengths_;
   std::vector<const effects::Effect*> effects_;
   std::vector<MechanismParameter> parameters_;
   Eigen::VectorXd values_;

@@ -21,6 +21,8 @@ namespace {
 using effects::ActingEffect;
 using effects::acts_on;
 
+constexpr std::array<std::string_view, 2> kChainLengths = {"left", "right"};
+
 // Steps of the five-point difference
 //   f'(0) = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h)                                   (1)
 // At 4 mm its truncation, h^4 f^(5) / 30, is below 1e-9 of the derivative of an angle that varies
@@ -153,8 +155,12 @@ ReadingModel::ReadingModel(const Machine& machine, Model model)
 ReadingModel::ReadingModel(const Machine& machine,
                            Model model,
                            std::vector<MechanismParameter> parameters)
-    : MechanismBase(
-          effects::effects_of(machine), std::move(parameters), values_of(machine), machine.effects),
+    : MechanismBase("chains",
+                    kChainLengths,
+                    effects::effects_of(machine),
+                    std::move(parameters),
+                    values_of(machine),
+                    machine.effects),
       machine_(sound(machine)),
       model_(model),
       frame_(machine),
@@ -179,11 +185,6 @@ std::shared_ptr<const Mechanism> ReadingModel::made_anew(const Eigen::VectorXd& 
         with_setting(std::move(changed), kMachineSettings[i], values[static_cast<Eigen::Index>(i)]);
   }
   return std::shared_ptr<const Mechanism>(new ReadingModel(changed, model_, stated()));
-}
-
-std::span<const std::string_view> ReadingModel::lengths() const {
-  static constexpr std::array<std::string_view, 2> kChainLengths = {"left", "right"};
-  return kChainLengths;
 }
 
 MechanismExtent ReadingModel::extent() const {

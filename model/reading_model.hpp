@@ -94,8 +94,6 @@ class ReadingModel final : public MechanismBase {
   /// The machine with its values and effects.
   [[nodiscard]] const Machine& machine() const { return machine_; }
 
-  [[nodiscard]] std::string_view kind() const override { return "chains"; }
-  [[nodiscard]] std::span<const std::string_view> lengths() const override;
   [[nodiscard]] MechanismExtent extent() const override;
   /// Values of effects are not left out.
   [[nodiscard]] std::vector<MachineProblem> problems_of_effects(

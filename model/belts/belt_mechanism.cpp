@@ -79,12 +79,14 @@ BeltMechanism::BeltMechanism(BeltMachine machine,
                              std::vector<MechanismParameter> parameters,
                              Eigen::VectorXd values,
                              std::vector<AppliedEffect> applied)
-    : MechanismBase(
-          belts::belt_effects(), std::move(parameters), std::move(values), std::move(applied)),
+    : MechanismBase("belts",
+                    kBeltLengths,
+                    belts::belt_effects(),
+                    std::move(parameters),
+                    std::move(values),
+                    std::move(applied)),
       machine_(std::move(machine)),
       acting_(effects::resolve(belts::belt_effects(), this->applied())) {}
-
-std::span<const std::string_view> BeltMechanism::lengths() const { return kBeltLengths; }
 
 MechanismExtent BeltMechanism::extent() const {
   const PerBelt<Anchor>& a = machine_.anchors;

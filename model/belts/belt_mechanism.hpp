@@ -35,8 +35,6 @@ class BeltMechanism final : public MechanismBase {
                          std::optional<double> anchor_sigma_mm = std::nullopt,
                          std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
-  [[nodiscard]] std::string_view kind() const override { return "belts"; }
-  [[nodiscard]] std::span<const std::string_view> lengths() const override;
   /// Points inside the anchors' rectangle that are farther from its edges than arm and extension
   /// are long.
   [[nodiscard]] MechanismExtent extent() const override;

@@ -53,7 +53,9 @@ PlotterMechanism::PlotterMechanism(const PlotterMachine& machine)
 PlotterMechanism::PlotterMechanism(PlotterMachine machine,
                                    std::vector<MechanismParameter> parameters,
                                    std::vector<AppliedEffect> applied)
-    : MechanismBase(plotter::plotter_effects(),
+    : MechanismBase("plotter",
+                    kCordLengths,
+                    plotter::plotter_effects(),
                     std::move(parameters),
                     values_of(machine),
                     std::move(applied)),
@@ -62,8 +64,6 @@ PlotterMechanism::PlotterMechanism(PlotterMachine machine,
       acting_(effects::resolve(plotter::plotter_effects(), this->applied())) {
   require_none(problems_of(machine_));
 }
-
-std::span<const std::string_view> PlotterMechanism::lengths() const { return kCordLengths; }
 
 MechanismExtent PlotterMechanism::extent() const {
   const DrawingArea& area = machine_.area;
@@ -76,8 +76,8 @@ std::shared_ptr<const Mechanism> PlotterMechanism::made_anew(
   const auto settings = settings_of(changed);
   for (std::size_t i = 0; i < settings.size(); ++i)
     *settings[i] = values[static_cast<Eigen::Index>(i)];
-  return std::shared_ptr<const Mechanism>(new PlotterMechanism(
-      std::move(changed), stated(), std::move(applied)));
+  return std::shared_ptr<const Mechanism>(
+      new PlotterMechanism(std::move(changed), stated(), std::move(applied)));
 }
 
 bool PlotterMechanism::has(effects::Part part) const {
@@ -105,12 +105,11 @@ tl::expected<LengthsPrediction, MechanismFailure> PlotterMechanism::predict(
   for (const Side side : kSides) {
     const Eigen::Index row = side == Side::left ? 0 : 1;
     const plotter::Number& cord = (*cords)[side].length_mm;
-    const effects::LengthState state{
-        .length_mm = effects::variable(cord.value, effects::kLength),
-        .turn_mm = 2.0 * std::numbers::pi * machine_.pulley_radius_mm,
-        .tooth_mm = machine_.cord.tooth_mm,
-        .direction = direction[side],
-        .order = visit.order};
+    const effects::LengthState state{.length_mm = effects::variable(cord.value, effects::kLength),
+                                     .turn_mm = 2.0 * std::numbers::pi * machine_.pulley_radius_mm,
+                                     .tooth_mm = machine_.cord.tooth_mm,
+                                     .direction = direction[side],
+                                     .order = visit.order};
     effects::Number sum = state.length_mm;
     for (const effects::ActingEffect& own : acting_) {
       if (own.effect->add != nullptr && effects::acts_on(own.side, side))

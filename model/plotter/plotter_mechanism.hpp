@@ -29,8 +29,6 @@ class PlotterMechanism final : public MechanismBase {
   /// \throws std::invalid_argument for a machine with problems, with the first of them.
   explicit PlotterMechanism(const PlotterMachine& machine);
 
-  [[nodiscard]] std::string_view kind() const override { return "plotter"; }
-  [[nodiscard]] std::span<const std::string_view> lengths() const override;
   /// The drawing area.
   [[nodiscard]] MechanismExtent extent() const override;
   /// Fails with a PlotterReason's name.
