@@ -57,15 +57,15 @@ struct ChainInputs {
 };
 
 /// With derivatives by the place.
-inline ChainInputs<Dual<2>> by_place(const EquilibriumConstants& m, BedPoint place) {
+inline ChainInputs<Dual<2>> inputs_by_place(const EquilibriumConstants& m, BedPoint place) {
   ChainInputs<Dual<2>> inputs(m, place);
   inputs.x.d[0] = inputs.y.d[1] = 1.0;
   return inputs;
 }
 /// With the derivative by one parameter.
-inline ChainInputs<Dual<1>> by_parameter(const EquilibriumConstants& m,
-                                         BedPoint place,
-                                         Parameter parameter) {
+inline ChainInputs<Dual<1>> inputs_by_parameter(const EquilibriumConstants& m,
+                                                BedPoint place,
+                                                Parameter parameter) {
   ChainInputs<Dual<1>> inputs(m, place);
   inputs.numbers[static_cast<std::size_t>(parameter)].d[0] = 1.0;
   return inputs;
@@ -139,13 +139,23 @@ Unknowns<T> residual(const EquilibriumConstants& m,
   return result;
 }
 
-/// S and the chain on the sprocket.
-template <class T>
-T length_of(const EquilibriumConstants& m, const ChainInputs<T>& in, const ChainPull<T>& p) {
-  using std::atan2;
-  const T phi = atan2(p.v + in[Parameter::chain_weight_n_per_mm] * p.s, p.h);
-  const T& r = in[Parameter::sprocket_radius_mm];
-  return p.s + (m.sg > 0.0 ? r * phi : r * (std::numbers::pi - phi));
+/// The chains with these unknowns.
+template <int N>
+PerSide<ChainNumbers<N>> chains_at(const EquilibriumConstants& m,
+                                   const ChainInputs<Dual<N>>& in,
+                                   const Unknowns<Dual<N>>& q) {
+  PerSide<ChainNumbers<N>> chains;
+  const Dual<N>& r = in[Parameter::sprocket_radius_mm];
+  for (const Side side : kSides) {
+    const ChainPull<Dual<N>> p = pull_of(in, q, side);
+    const Dual<N> weight = in[Parameter::chain_weight_n_per_mm] * p.s;
+    const Dual<N> vb = p.v + weight;
+    const Dual<N> nb = p.n + m.sin_tilt / m.cos_tilt * weight;
+    const Dual<N> phi = atan2(vb, p.h);
+    const Dual<N> wrap = m.sg > 0.0 ? r * phi : r * (std::numbers::pi - phi);
+    chains[side] = {p.s + wrap, phi, p.s, sqrt(p.h * p.h + vb * vb + nb * nb), p.h};
+  }
+  return chains;
 }
 
 /// The unknowns of a pose.

@@ -23,23 +23,20 @@ ChainState chain_state(const EquilibriumConstants& m, double h, double v, double
   return state;
 }
 
-/// How the lengths move with the unknowns in answer to loads.
-template <bool kRotates, std::size_t kLoads>
-Eigen::Matrix<double, 2, kLoads> length_changes(const EquilibriumConstants& m,
-                                                const Pose& pose,
-                                                const std::array<EquilibriumLoad, kLoads>& loads) {
+/// The chains with the unknowns moved in answer to loads, one for each derivative of the inputs.
+template <bool kRotates, int N>
+PerSide<ChainNumbers<N>> moved_chains(const EquilibriumConstants& m,
+                                      const Pose& pose,
+                                      const ChainInputs<Dual<N>>& inputs,
+                                      const std::array<EquilibriumLoad, N>& loads) {
   const Unknowns<double> q = unknowns_of(pose);
   const PerSide<ChainTerms> t = terms_of(m, q);
-  const auto change = [&m](const ChainTerms& c, double h, double v, double s) {
-    return s + m.sg * m.r * (c.phi_h * h + c.phi_v * v + c.phi_s * s);
-  };
-  Eigen::Matrix<double, 2, kLoads> changes;
-  for (std::size_t i = 0; i < kLoads; ++i) {
-    const Unknowns<double> d = solve_linearised<kRotates>(m, t, loads[i], q[kTurn]);
-    changes.col(static_cast<Eigen::Index>(i)) << change(t.left, d[kH], d[kV], d[kSLeft]),
-        change(t.right, d[kH], -d[kV], d[kSRight]);
+  Unknowns<Dual<N>> moved = hanging::fixed<N>(q);
+  for (std::size_t k = 0; k < N; ++k) {
+    const Unknowns<double> d = solve_linearised<kRotates>(m, t, loads[k], q[kTurn]);
+    for (std::size_t i = 0; i < d.size(); ++i) moved[i].d[k] = d[i];
   }
-  return changes;
+  return chains_at(m, inputs, moved);
 }
 
 /// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not converge.
@@ -172,23 +169,24 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
 }
 
 template <bool kRotates>
-Eigen::Matrix2d EquilibriumKinematics<kRotates>::jacobian(const Pose& pose) const {
+PerSide<ChainNumbers<2>> EquilibriumKinematics<kRotates>::by_place(const Pose& pose) const {
   EquilibriumLoad by_x, by_y;
   by_x.u = {-1.0, 1.0};
   by_y.y = {1.0, 1.0};
-  return length_changes<kRotates>(m_, pose, std::array{by_x, by_y});
+  return moved_chains<kRotates, 2>(
+      m_, pose, inputs_by_place(m_, pose.position), std::array{by_x, by_y});
 }
 
 template <bool kRotates>
-Eigen::Vector2d EquilibriumKinematics<kRotates>::sensitivity(const Pose& pose,
-                                                             Parameter parameter) const {
-  if ((parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
-      (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
-      (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance) ||
-      (parameter == Parameter::ring_radius_mm && kRotates)) {
-    return Eigen::Vector2d::Zero();
-  }
-  const ChainInputs<Dual<1>> inputs = by_parameter(m_, pose.position, parameter);
+PerSide<ChainNumbers<1>> EquilibriumKinematics<kRotates>::by_parameter(const Pose& pose,
+                                                                       Parameter parameter) const {
+  const bool counts =
+      !((parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
+        (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
+        (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance) ||
+        (parameter == Parameter::ring_radius_mm && kRotates));
+  const ChainInputs<Dual<1>> inputs = counts ? inputs_by_parameter(m_, pose.position, parameter)
+                                             : ChainInputs<Dual<1>>(m_, pose.position);
   EquilibriumLoad load;
   if (parameter <= Parameter::motor_right_y_mm) {
     // A motor's place stands in (1) by itself.
@@ -197,16 +195,12 @@ Eigen::Vector2d EquilibriumKinematics<kRotates>::sensitivity(const Pose& pose,
       load.u[side] = -motor[0].d[0];
       load.y[side] = -motor[1].d[0];
     }
-    return length_changes<kRotates>(m_, pose, std::array{load});
+  } else {
+    const auto left =
+        hanging::slopes_of(residual(m_, inputs, hanging::fixed<1>(unknowns_of(pose))));
+    load = {{left[0], left[3]}, {left[1], left[4]}, left[6]};
   }
-  const Unknowns<Dual<1>> q = hanging::fixed<1>(unknowns_of(pose));
-  const auto left = hanging::slopes_of(residual(m_, inputs, q));
-  load = {{left[0], left[3]}, {left[1], left[4]}, left[6]};
-  const auto direct = [&](Side side) {
-    return length_of(m_, inputs, pull_of(inputs, q, side)).d[0];
-  };
-  return Eigen::Vector2d(direct(Side::left), direct(Side::right)) +
-         length_changes<kRotates>(m_, pose, std::array{load});
+  return moved_chains<kRotates, 1>(m_, pose, inputs, std::array{load});
 }
 
 template class EquilibriumKinematics<false>;

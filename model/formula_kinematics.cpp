@@ -56,16 +56,46 @@ PerSide<T> FormulaKinematics::lengths(const ChainInputs<T>& in) const {
   return result;
 }
 
+namespace {
+
+/// The sled's balance with straight chains:
+/// T_left cos - T_right cos = f, T_left sin + T_right sin = W.
+template <class T>
+PerSide<T> tensions(const ChainInputs<T>& in, const PerSide<StraightChain<T>>& chains) {
+  using std::cos;
+  using std::sin;
+  const T &left = chains.left.angle_rad, &right = chains.right.angle_rad;
+  const T& weight = in[Parameter::sled_weight_n];
+  const T& side = in[Parameter::side_force_n];
+  const T sine = sin(left + right);
+  return {(weight * cos(right) + side * sin(right)) / sine,
+          (weight * cos(left) - side * sin(left)) / sine};
+}
+
+}  // namespace
+
+template <int N>
+PerSide<ChainNumbers<N>> FormulaKinematics::chains(const ChainInputs<Dual<N>>& in) const {
+  const PerSide<StraightChain<Dual<N>>> straight = straight_chains(in);
+  const PerSide<Dual<N>> total = lengths(in), tension = tensions(in, straight);
+  PerSide<ChainNumbers<N>> result;
+  for (const Side side : kSides) {
+    result[side] = {total[side],
+                    straight[side].angle_rad,
+                    total[side] - straight[side].wrap_mm,
+                    tension[side],
+                    tension[side] * cos(straight[side].angle_rad)};
+  }
+  return result;
+}
+
 PoseResult FormulaKinematics::inverse(BedPoint p) const {
   if (const auto failure = domain_failure(limits_of(m_), p)) return tl::unexpected(*failure);
   const ChainInputs<double> in(m_, p);
   const PerSide<StraightChain<double>> chains = straight_chains(in);
-  const double left = chains.left.angle_rad, right = chains.right.angle_rad;
-  const double sine = std::sin(left + right);
-  if (!(sine > 0.0)) return tl::unexpected(PoseReason::above_sprockets);
-  // Sled's balance with straight chains: T_left cos - T_right cos = f, T_left sin + T_right sin = W.
-  const PerSide<double> tension{(m_.W * std::cos(right) + m_.f * std::sin(right)) / sine,
-                                (m_.W * std::cos(left) - m_.f * std::sin(left)) / sine};
+  if (!(std::sin(chains.left.angle_rad + chains.right.angle_rad) > 0.0))
+    return tl::unexpected(PoseReason::above_sprockets);
+  const PerSide<double> tension = tensions(in, chains);
   if (!(tension.left > 0.0 && tension.right > 0.0)) return tl::unexpected(PoseReason::slack);
   const PerSide<double> total = lengths(in);
   Pose pose;
@@ -88,18 +118,15 @@ PoseResult FormulaKinematics::forward(ChainLengths lengths) const {
   return forward_by_inverse(*this, limits_of(m_), lengths);
 }
 
-Eigen::Matrix2d FormulaKinematics::jacobian(const Pose& pose) const {
-  const PerSide<Dual<2>> l = lengths(by_place(m_, pose.position));
-  Eigen::Matrix2d j;
-  j << l.left.d[0], l.left.d[1], l.right.d[0], l.right.d[1];
-  return j;
+PerSide<ChainNumbers<2>> FormulaKinematics::by_place(const Pose& pose) const {
+  return chains(inputs_by_place(m_, pose.position));
 }
 
-Eigen::Vector2d FormulaKinematics::sensitivity(const Pose& pose, Parameter parameter) const {
-  if (parameter == Parameter::sprocket_radius_mm && formula_ == Formula::straight)
-    return Eigen::Vector2d::Zero();
-  const PerSide<Dual<1>> l = lengths(by_parameter(m_, pose.position, parameter));
-  return {l.left.d[0], l.right.d[0]};
+PerSide<ChainNumbers<1>> FormulaKinematics::by_parameter(const Pose& pose,
+                                                         Parameter parameter) const {
+  const bool counts = parameter != Parameter::sprocket_radius_mm || formula_ != Formula::straight;
+  return chains(counts ? inputs_by_parameter(m_, pose.position, parameter)
+                       : ChainInputs<Dual<1>>(m_, pose.position));
 }
 
 }  // namespace chaintrue::model

@@ -21,16 +21,19 @@ class FormulaKinematics final : public Kinematics {
                     const PerSide<double>& tolerance_percent = {});
   [[nodiscard]] PoseResult inverse(BedPoint point) const override;
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
-  [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
-  /// Zero for parameters that are not in the formula: the firmware's sag factor is a separate
-  /// number, not a weight.
-  [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const override;
+  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override;
+  /// Lengths do not depend on parameters that are not in the formula: the firmware's sag factor is a
+  /// separate number, not a weight.
+  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
+                                                      Parameter parameter) const override;
 
  private:
   template <class T>
   [[nodiscard]] PerSide<StraightChain<T>> straight_chains(const ChainInputs<T>& in) const;
   template <class T>
   [[nodiscard]] PerSide<T> lengths(const ChainInputs<T>& in) const;
+  template <int N>
+  [[nodiscard]] PerSide<ChainNumbers<N>> chains(const ChainInputs<Dual<N>>& in) const;
 
   EquilibriumConstants m_;
   Formula formula_;

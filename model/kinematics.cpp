@@ -110,6 +110,19 @@ MechanismReason named(PoseReason reason) {
   return kReasons.at(static_cast<std::size_t>(reason));
 }
 
+Eigen::Matrix2d Kinematics::jacobian(const Pose& pose) const {
+  const PerSide<ChainNumbers<2>> chains = by_place(pose);
+  const auto &left = chains.left.length_mm.d, &right = chains.right.length_mm.d;
+  Eigen::Matrix2d j;
+  j << left[0], left[1], right[0], right[1];
+  return j;
+}
+
+Eigen::Vector2d Kinematics::sensitivity(const Pose& pose, Parameter parameter) const {
+  const PerSide<ChainNumbers<1>> chains = by_parameter(pose, parameter);
+  return {chains.left.length_mm.d[0], chains.right.length_mm.d[0]};
+}
+
 std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& parameters,
                                                   Model model) {
   require_sound(parameters);

@@ -21,6 +21,7 @@
 #include <tl/expected.hpp>
 
 #include "model/coordinates.hpp"
+#include "model/dual.hpp"
 #include "model/failure.hpp"
 #include "model/machine.hpp"
 
@@ -105,17 +106,27 @@ enum class Parameter {
 };
 inline constexpr std::size_t kParameters = static_cast<std::size_t>(Parameter::side_force_n) + 1;
 
+/// A chain at a pose, with exact derivatives; what effects of its length depend on.
+template <int N>
+struct ChainNumbers {
+  Dual<N> length_mm, angle_rad, free_length_mm, tension_at_sprocket_n, horizontal_n;
+};
+
 /// Stateless and thread safe; the hot path neither allocates nor throws.
 class Kinematics {
  public:
   virtual ~Kinematics() = default;
   [[nodiscard]] virtual PoseResult inverse(BedPoint point) const = 0;
   [[nodiscard]] virtual PoseResult forward(ChainLengths lengths) const = 0;
-  /// d(left, right)/d(x, y) at a pose returned by this object.
-  [[nodiscard]] virtual Eigen::Matrix2d jacobian(const Pose& pose) const = 0;
-  /// d(left, right)/d(parameter) at fixed (x, y).
-  [[nodiscard]] virtual Eigen::Vector2d sensitivity(const Pose& pose,
-                                                    Parameter parameter) const = 0;
+  /// At a pose returned by this object, with derivatives by x and y.
+  [[nodiscard]] virtual PerSide<ChainNumbers<2>> by_place(const Pose& pose) const = 0;
+  /// With derivatives by the parameter at fixed (x, y).
+  [[nodiscard]] virtual PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
+                                                              Parameter parameter) const = 0;
+  /// d(left, right)/d(x, y)
+  [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const;
+  /// d(left, right)/d(parameter)
+  [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const;
 };
 
 /// \throws std::invalid_argument where a parameter is not finite or out of its range, with its name

@@ -23,97 +23,29 @@ using effects::acts_on;
 
 constexpr std::array<std::string_view, 2> kChainLengths = {"left", "right"};
 
-// Steps of the five-point difference
-//   f'(0) = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h)                                   (1)
-// At 4 mm its truncation, h^4 f^(5) / 30, is below 1e-9 of the derivative of an angle that varies
-// over the 600 mm or more between sled and sprocket; rounding adds 1e-13.
-constexpr double kStepMm = 4.0;
-constexpr std::array<double, 4> kStencil = {-2.0, -1.0, 1.0, 2.0};
-constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
-
-// What a chain's length may depend on, or the slopes of that, in the order of LengthVariable.
-using StateNumbers = Eigen::Matrix<double, effects::kLengthVariables, 1>;
-const PerSide<StateNumbers> kFlat{StateNumbers::Zero(), StateNumbers::Zero()};
-
-void add_weighted(PerSide<StateNumbers>& sum, const Pose& pose, double weight) {
-  for (const Side side : kSides) {
-    const ChainState& chain = pose.chains[side];
-    sum[side][effects::kAngle] += weight * chain.angle_rad;
-    sum[side][effects::kFree] += weight * chain.free_length_mm;
-    sum[side][effects::kTension] += weight * chain.tension_at_sprocket_n;
-    sum[side][effects::kHorizontal] += weight * chain.horizontal_n;
-  }
-}
-
-// The slopes of a pose have to be known for these.
-bool depends_on_state(const PerSide<effects::Number>& added) {
-  constexpr std::array kStateVariables = {
-      effects::kAngle, effects::kFree, effects::kTension, effects::kHorizontal};
-  return std::any_of(kStateVariables.begin(), kStateVariables.end(), [&](std::size_t i) {
-    return added.left.d[i] != 0.0 || added.right.d[i] != 0.0;
-  });
-}
-
-double& coordinate_of(PerSide<MotorPosition>& motors, Setting setting) {
-  switch (setting) {
-    case Setting::motor_left_x_mm:
-      return motors.left.x_mm;
-    case Setting::motor_left_y_mm:
-      return motors.left.y_mm;
-    case Setting::motor_right_x_mm:
-      return motors.right.x_mm;
-    case Setting::motor_right_y_mm:
-      return motors.right.y_mm;
-    default:
-      throw std::invalid_argument(
-          "sensitivity: the sheet's settings move the point, not the machine");
-  }
-}
-
 double sign_of_change(double change, double last) {
   if (change > 0.0) return 1.0;
   if (change < 0.0) return -1.0;
   return last;
 }
 
-// f'(0) by (1), 0 where nothing that is added depends on it; with a smaller step where a neighbour
-// has no pose. `pose_at(t)` is the pose t mm away.
-template <class PoseAt>
-tl::expected<PerSide<StateNumbers>, PoseFailure> state_slope(const PerSide<effects::Number>& added,
-                                                             const PoseAt& pose_at) {
-  if (!depends_on_state(added)) return kFlat;
-  PoseFailure reason = PoseReason::not_converged;
-  for (const double step_mm : {kStepMm, kStepMm / 16.0, kStepMm / 256.0}) {
-    PerSide<StateNumbers> slope = kFlat;
-    bool complete = true;
-    for (std::size_t i = 0; i < kStencil.size() && complete; ++i) {
-      const PoseResult neighbour = pose_at(kStencil[i] * step_mm);
-      complete = neighbour.has_value();
-      if (complete) {
-        add_weighted(slope, *neighbour, kWeights[i] / step_mm);
-      } else {
-        reason = neighbour.error();
-      }
-    }
-    if (complete) return slope;
-  }
-  return tl::unexpected(reason);
-}
-
-/// d(reading)/d(anything) from the slopes of the pose's lengths, of its chains' states and of the
-/// tool's position.
-Eigen::Vector2d through_effects(const PerSide<effects::Number>& added,
-                                const PerSide<double>& elongation,
-                                const Eigen::Vector2d& length_slope,
-                                PerSide<StateNumbers> slope,
-                                const Eigen::Vector2d& position_slope) {
-  Eigen::Vector2d result;
-  for (const Side side : kSides) {
-    const Eigen::Index row = side == Side::left ? 0 : 1;
-    slope[side][effects::kLength] = length_slope[row];
-    slope[side].tail<2>() = position_slope;
-    const StateNumbers by = Eigen::Map<const StateNumbers>(added[side].d.data());
-    result[row] = (length_slope[row] + by.dot(slope[side])) / (1.0 + elongation[side]);
+/// What is added to a chain at this place, with the derivatives of all that it depends on.
+template <int N>
+Dual<N> with_derivatives(const effects::Number& added,
+                         const ChainNumbers<N>& chain,
+                         const Dual<N>& x_mm,
+                         const Dual<N>& y_mm) {
+  // In the order of LengthVariable.
+  const std::array<Dual<N>, effects::kLengthVariables> by = {chain.angle_rad,
+                                                             chain.free_length_mm,
+                                                             chain.length_mm,
+                                                             chain.tension_at_sprocket_n,
+                                                             chain.horizontal_n,
+                                                             x_mm,
+                                                             y_mm};
+  Dual<N> result = added.value;
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    for (std::size_t i = 0; i < N; ++i) result.d[i] += added.d[k] * by[k].d[i];
   }
   return result;
 }
@@ -164,16 +96,16 @@ ReadingModel::ReadingModel(const Machine& machine,
       machine_(sound(machine)),
       model_(model),
       frame_(machine),
-      acting_(effects::acting_effects(machine)),
-      equilibrium_(equilibrium_parameters(machine)) {
+      acting_(effects::acting_effects(machine)) {
+  EquilibriumParameters equilibrium = equilibrium_parameters(machine);
   for (const ActingEffect& one : acting_) {
-    if (one.effect->alter != nullptr) one.effect->alter(equilibrium_, one.values);
+    if (one.effect->alter != nullptr) one.effect->alter(equilibrium, one.values);
     if (one.effect->elongation == nullptr) continue;
     for (const Side side : kSides) {
       if (acts_on(one.side, side)) elongation_[side] += one.effect->elongation(one.values);
     }
   }
-  kinematics_ = make_kinematics(equilibrium_, model);
+  kinematics_ = make_kinematics(equilibrium, model);
 }
 
 std::shared_ptr<const Mechanism> ReadingModel::made_anew(const Eigen::VectorXd& values,
@@ -234,19 +166,14 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
   if (!pose) return tl::unexpected(pose.error());
   PointReading reading;
   reading.pose = *pose;
-  const PerSide<effects::Number> added{this->added(*pose, Side::left),
-                                       this->added(*pose, Side::right)};
-  for (const Side side : kSides)
-    reading.lengths[side] = counted(pose->lengths[side] + added[side].value, side);
-  const Eigen::Matrix2d lengths_by_point = kinematics_->jacobian(*pose);
-  for (const Eigen::Index axis : {0, 1}) {
-    const auto slope = state_slope(added, [&](double mm) {
-      return kinematics_->inverse(axis == 0 ? BedPoint{point.x_mm + mm, point.y_mm}
-                                            : BedPoint{point.x_mm, point.y_mm + mm});
-    });
-    if (!slope) return tl::unexpected(slope.error());
-    reading.position_jacobian.col(axis) = through_effects(
-        added, elongation_, lengths_by_point.col(axis), *slope, Eigen::Vector2d::Unit(axis));
+  const PerSide<ChainNumbers<2>> chains = kinematics_->by_place(*pose);
+  const auto x = Dual<2>::variable(point.x_mm, 0), y = Dual<2>::variable(point.y_mm, 1);
+  for (const Side side : kSides) {
+    const effects::Number added = this->added(*pose, side);
+    reading.lengths[side] = counted(pose->lengths[side] + added.value, side);
+    const Dual<2> slope = (chains[side].length_mm + with_derivatives(added, chains[side], x, y)) /
+                          (1.0 + elongation_[side]);
+    reading.position_jacobian.row(side == Side::left ? 0 : 1) << slope.d[0], slope.d[1];
   }
   return reading;
 }
@@ -254,22 +181,19 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
 Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting setting) const {
   if (setting == Setting::chain_zero_left_mm) return {1.0, 0.0};
   if (setting == Setting::chain_zero_right_mm) return {0.0, 1.0};
-  EquilibriumParameters changed = equilibrium_;
-  double& coordinate = coordinate_of(changed.motors, setting);
-  const double own = coordinate;
-  const PerSide<effects::Number> added{this->added(reading.pose, Side::left),
-                                       this->added(reading.pose, Side::right)};
-  const auto slope = state_slope(added, [&](double mm) {
-    coordinate = own + mm;
-    return make_kinematics(changed, model_)->inverse(reading.pose.position);
-  });
-  // Both enumerations begin with the motors' coordinates. A pose exists here but perhaps not at its
-  // neighbours within 16 um: at the very edge only the length's own slope is used.
-  return through_effects(added,
-                         elongation_,
-                         kinematics_->sensitivity(reading.pose, static_cast<Parameter>(setting)),
-                         slope.value_or(kFlat),
-                         Eigen::Vector2d::Zero());
+  if (setting > Setting::motor_right_y_mm) {
+    throw std::invalid_argument(
+        "sensitivity: the sheet's settings move the point, not the machine");
+  }
+  // Both enumerations begin with the motors' coordinates.
+  const PerSide<ChainNumbers<1>> chains =
+      kinematics_->by_parameter(reading.pose, static_cast<Parameter>(setting));
+  const auto slope = [&](Side side) {
+    const Dual<1> length = chains[side].length_mm +
+                           with_derivatives<1>(added(reading.pose, side), chains[side], 0.0, 0.0);
+    return length.d[0] / (1.0 + elongation_[side]);
+  };
+  return {slope(Side::left), slope(Side::right)};
 }
 
 tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,

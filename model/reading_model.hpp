@@ -53,10 +53,8 @@ enum class Setting {
 struct PointReading {
   Pose pose;
   ChainLengths lengths;
-  /// d(left, right)/d(x, y). Exact for the equilibrium and for effects of the length; where an
-  /// effect depends on a chain's angle, free length or tension, the derivative of those is a
-  /// five-point difference, accurate to 1e-9 of its size. At the knee of angular_kink it is the
-  /// one-sided derivative above the knee.
+  /// d(left, right)/d(x, y), exact. At the knee of angular_kink it is the one-sided derivative above
+  /// the knee.
   Eigen::Matrix2d position_jacobian = Eigen::Matrix2d::Zero();
 };
 
@@ -128,7 +126,6 @@ class ReadingModel final : public MechanismBase {
   Model model_;
   MarkFrame frame_;
   std::vector<effects::ActingEffect> acting_;
-  EquilibriumParameters equilibrium_;
   std::shared_ptr<const Kinematics> kinematics_;
   PerSide<double> elongation_;  ///< sum of the elongations of a chain
 };

@@ -18,22 +18,17 @@ int converge_inverse(const EquilibriumConstants& m, BedPoint p, Unknowns<double>
   return hanging::converge(equations_at(m, ChainInputs<Dual<kUnknowns>>(m, p)), {m.W, m.f}, q);
 }
 
-/// d(left, right)/d(what `inputs` have derivatives by).
+/// The chains with derivatives by what the inputs have them.
 template <int N>
-Eigen::Matrix<double, 2, N> length_slopes(const EquilibriumConstants& m,
-                                          const Pose& pose,
-                                          const ChainInputs<Dual<N>>& inputs) {
-  const Unknowns<Dual<N>> q =
+PerSide<ChainNumbers<N>> moved_chains_in_space(const EquilibriumConstants& m,
+                                               const Pose& pose,
+                                               const ChainInputs<Dual<N>>& inputs) {
+  return chains_at(
+      m,
+      inputs,
       hanging::with_derivatives<N>(equations_at(m, ChainInputs<Dual<kUnknowns>>(m, pose.position)),
                                    equations_at(m, inputs),
-                                   unknowns_of(pose));
-  Eigen::Matrix<double, 2, N> slopes;
-  for (const Side side : kSides) {
-    const Dual<N> length = length_of(m, inputs, pull_of(inputs, q, side));
-    slopes.row(side == Side::left ? 0 : 1) =
-        Eigen::Map<const Eigen::RowVector<double, N>>(length.d.data());
-  }
-  return slopes;
+                                   unknowns_of(pose)));
 }
 
 }  // namespace
@@ -59,13 +54,17 @@ PoseResult SpatialKinematics::forward(ChainLengths lengths) const {
   return forward_by_inverse(*this, limits_of(m_), lengths);
 }
 
-Eigen::Matrix2d SpatialKinematics::jacobian(const Pose& pose) const {
-  return length_slopes(m_, pose, by_place(m_, pose.position));
+PerSide<ChainNumbers<2>> SpatialKinematics::by_place(const Pose& pose) const {
+  return moved_chains_in_space(m_, pose, inputs_by_place(m_, pose.position));
 }
 
-Eigen::Vector2d SpatialKinematics::sensitivity(const Pose& pose, Parameter parameter) const {
-  if (parameter == Parameter::ring_radius_mm && m_.rotates) return Eigen::Vector2d::Zero();
-  return length_slopes(m_, pose, by_parameter(m_, pose.position, parameter));
+PerSide<ChainNumbers<1>> SpatialKinematics::by_parameter(const Pose& pose,
+                                                         Parameter parameter) const {
+  const bool counts = parameter != Parameter::ring_radius_mm || !m_.rotates;
+  return moved_chains_in_space(m_,
+                               pose,
+                               counts ? inputs_by_parameter(m_, pose.position, parameter)
+                                      : ChainInputs<Dual<1>>(m_, pose.position));
 }
 
 }  // namespace chaintrue::model

@@ -20,8 +20,9 @@ class SpatialKinematics final : public Kinematics {
   explicit SpatialKinematics(const EquilibriumParameters& parameters);
   [[nodiscard]] PoseResult inverse(BedPoint point) const override;
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
-  [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
-  [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const override;
+  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override;
+  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
+                                                      Parameter parameter) const override;
 
  private:
   EquilibriumConstants m_;
