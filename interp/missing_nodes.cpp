@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -58,14 +57,9 @@ std::optional<double> across(const Eigen::Ref<const Eigen::MatrixXd>& values,
 
 }  // namespace
 
-std::string_view sentence_of(MissingNodeReason /*the only one*/) {
-  return "fewer than three values are present in the row and in the column of a missing one";
-}
-
-tl::expected<FilledGrid, UnfillableNode> fill_missing(
-    const std::vector<double>& x_nodes,
-    const std::vector<double>& y_nodes,
-    const Eigen::Ref<const Eigen::MatrixXd>& values) {
+std::optional<FilledGrid> fill_missing(const std::vector<double>& x_nodes,
+                                       const std::vector<double>& y_nodes,
+                                       const Eigen::Ref<const Eigen::MatrixXd>& values) {
   if (values.rows() != static_cast<Eigen::Index>(x_nodes.size()) ||
       values.cols() != static_cast<Eigen::Index>(y_nodes.size())) {
     throw std::invalid_argument(fmt::format("{} x {} values for {} x {} nodes",
@@ -83,10 +77,7 @@ tl::expected<FilledGrid, UnfillableNode> fill_missing(
       const auto row = along(x_nodes, values.col(iy), x_nodes[static_cast<std::size_t>(ix)]);
       const auto column =
           along(y_nodes, values.row(ix).transpose(), y_nodes[static_cast<std::size_t>(iy)]);
-      if (!row && !column) {
-        return tl::unexpected(
-            UnfillableNode{MissingNodeReason::too_few_in_line, {ix, iy}});
-      }
+      if (!row && !column) return std::nullopt;
       const bool by_row = row && (!column || row->present >= column->present);
       FilledNode node{ix, iy, by_row ? row->value : column->value, 0.0, 0.0};
       node.by_line = node.value;

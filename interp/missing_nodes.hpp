@@ -15,11 +15,10 @@
 /// of a model, which are smooth at the scale of a cell; raw chain lengths are filled with errors of
 /// some millimetres next to the motors.
 
-#include <string_view>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
-#include <tl/expected.hpp>
 
 namespace chaintrue::interp {
 
@@ -36,25 +35,10 @@ struct FilledGrid {
   std::vector<FilledNode> filled;
 };
 
-enum class MissingNodeReason {
-  too_few_in_line,  ///< fewer than three present nodes in its row and in its column
-};
-[[nodiscard]] std::string_view sentence_of(MissingNodeReason reason);
-struct NodeIndex {
-  Eigen::Index ix = 0;
-  Eigen::Index iy = 0;
-};
-/// Has the shape of model's Failure, which interp may not include.
-struct UnfillableNode {
-  MissingNodeReason reason = MissingNodeReason::too_few_in_line;
-  NodeIndex place;
-  [[nodiscard]] std::string_view sentence() const { return sentence_of(reason); }
-};
-
-/// `values(ix, iy)`, NaN where missing. Throws std::invalid_argument where the shape does not fit
-/// the axes. Deterministic: holes are filled from present nodes only, so their order does not
-/// matter.
-[[nodiscard]] tl::expected<FilledGrid, UnfillableNode> fill_missing(
+/// `values(ix, iy)`, NaN where missing. Empty where a hole has fewer than three present nodes in its
+/// row and in its column. Throws std::invalid_argument where the shape does not fit the axes.
+/// Deterministic: holes are filled from present nodes only, so their order does not matter.
+[[nodiscard]] std::optional<FilledGrid> fill_missing(
     const std::vector<double>& x_nodes,
     const std::vector<double>& y_nodes,
     const Eigen::Ref<const Eigen::MatrixXd>& values);
