@@ -67,12 +67,12 @@ PenalisedFit fit_at(const PenalisedProblem& problem,
 tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& problem,
                                                      const FitOptions& options) {
   const reml::Likelihood likelihood(problem, options.prior);
-  const auto found = reml::search(likelihood, options.maximum_iterations);
+  const auto found = reml::search(likelihood);
   if (!found && found.error() == FitReason::rank_deficient) return rank_deficient();
   if (!found) {
-    return tl::unexpected(FitFailure{found.error(),
-                                     fmt::format("the choice of smoothing did not settle in {} steps",
-                                                 options.maximum_iterations)});
+    return tl::unexpected(FitFailure{
+        found.error(),
+        fmt::format("the choice of smoothing did not settle in {} steps", reml::kMostSteps)});
   }
   PenalisedFit fit = fit_at(problem, likelihood, found->theta, found->state);
   if (options.correct_covariance && (likelihood.has_ridge() || likelihood.finds_sigma2())) {

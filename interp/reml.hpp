@@ -115,7 +115,7 @@ struct PenalisedFit {
   Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
   Eigen::MatrixXd corrected_covariance;  ///< averaged over smoothing and sigma2
   double lambda = 1.0;                   ///< meaningless without a ridge
-  double inverse_lambda = 1.0;           ///< averaged as corrected_covariance is: the prior variance
+  double inverse_lambda = 1.0;  ///< averaged as corrected_covariance is: the prior variance
   double sigma2 = 1.0;
   double edf = 0.0;                 ///< trace of the hat matrix
   double minus_two_log_reml = 0.0;  ///< V of (3), plus the prior's terms where there is one
@@ -144,7 +144,6 @@ enum class SmoothingPrior {
 struct FitOptions {
   SmoothingPrior prior = SmoothingPrior::avoids_boundary;
   bool correct_covariance = true;  ///< fill corrected_covariance
-  int maximum_iterations = 100;
 };
 
 /// Chooses lambda and sigma2 and fits. Deterministic: same input, same bytes. Throws

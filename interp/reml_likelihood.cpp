@@ -20,14 +20,15 @@ void check(const PenalisedProblem& problem) {
   if (q == 0 || problem.gram.rows() != q || problem.moment.size() != q ||
       problem.prior_precision.rows() != q || problem.prior_precision.cols() != q ||
       problem.prior_mean.size() != q) {
-    fail(fmt::format("a fit with X'X of {} x {}, X'y of {}, a prior precision of {} x {} and a "
-                     "prior mean of {}",
-                     problem.gram.rows(),
-                     q,
-                     problem.moment.size(),
-                     problem.prior_precision.rows(),
-                     problem.prior_precision.cols(),
-                     problem.prior_mean.size()));
+    fail(
+        fmt::format("a fit with X'X of {} x {}, X'y of {}, a prior precision of {} x {} and a "
+                    "prior mean of {}",
+                    problem.gram.rows(),
+                    q,
+                    problem.moment.size(),
+                    problem.prior_precision.rows(),
+                    problem.prior_precision.cols(),
+                    problem.prior_mean.size()));
   }
   if (!problem.gram.allFinite() || !problem.moment.allFinite() ||
       !std::isfinite(problem.response_square)) {
@@ -56,10 +57,9 @@ ScaledCholesky::ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::Vecto
   if (!(diagonal.array() > 0.0).all()) return;
   scale_ = diagonal.array().rsqrt();
   factor_ = linear::Cholesky(scale_.asDiagonal() * matrix * scale_.asDiagonal());
-  positive_ = factor_.is_positive_definite() &&
-              (factor_.lower().diagonal().array().square() >=
-               kZeroPivot * static_cast<double>(matrix.rows()))
-                  .all();
+  positive_ = factor_.is_positive_definite() && (factor_.lower().diagonal().array().square() >=
+                                                 kZeroPivot * static_cast<double>(matrix.rows()))
+                                                    .all();
 }
 
 double ScaledCholesky::log_determinant() const {
@@ -167,7 +167,8 @@ std::optional<Likelihood::Factor> Likelihood::factor(const Theta& theta) const {
   if (rows_) {
     of_rows = (std::exp(theta[1]) + rows_->eigenvalues.array() / lambda).inverse();
     h = shared_prior_;
-    linear::add_product(h, 1.0, linear::transposed(rows_->shared), of_rows.asDiagonal() * rows_->shared);
+    linear::add_product(
+        h, 1.0, linear::transposed(rows_->shared), of_rows.asDiagonal() * rows_->shared);
     diagonal = h.diagonal();
   } else {
     linear::add_product(h, -per_sigma2, linear::transposed(coupling_), u);
@@ -194,8 +195,7 @@ Likelihood::BestFit Likelihood::solve(const Factor& factor) const {
     const Eigen::VectorXd residual = rows_->response - rows_->shared * s;
     const Eigen::VectorXd weighted = factor.of_rows.asDiagonal() * residual;
     b << rows_->to_ridge * (weighted / factor.lambda), s;
-    return {b,
-            residual.dot(weighted) + (s - shared_mean_).dot(shared_prior_ * (s - shared_mean_))};
+    return {b, residual.dot(weighted) + (s - shared_mean_).dot(shared_prior_ * (s - shared_mean_))};
   }
   Eigen::VectorXd right = moment_ / factor.sigma2;
   right.tail(pull.size()) += pull;
@@ -254,8 +254,7 @@ void Likelihood::add_derivatives(State& state, const Factor& factor, double devi
   const Theta trace(t0, -(q - t0 - t1));
   const Theta first(ridge_square, -(deviance - ridge_square - off.dot(force)));
   Eigen::Matrix2d second;
-  second << t00, -(t0 - t00 - t01), -(t0 - t00 - t01),
-      q - 2.0 * (t0 + t1) + t00 + 2.0 * t01 + t11;
+  second << t00, -(t0 - t00 - t01), -(t0 - t00 - t01), q - 2.0 * (t0 + t1) + t00 + 2.0 * t01 + t11;
 
   // u = (lambda v, 0) and (lambda v, force); u' A^-1 u by the root of the corner.
   const Eigen::VectorXd of_v = factor.lambda * (factor.u.transpose() * v);

@@ -21,9 +21,7 @@ constexpr double kGradientTolerance = 1e-7;
 struct Limits {
   Theta low = Theta::Zero();
   Theta high = Theta::Zero();
-  [[nodiscard]] Theta clamp(const Theta& theta) const {
-    return theta.cwiseMax(low).cwiseMin(high);
-  }
+  [[nodiscard]] Theta clamp(const Theta& theta) const { return theta.cwiseMax(low).cwiseMin(high); }
 };
 
 Limits limits_of(const Likelihood& likelihood) {
@@ -97,7 +95,8 @@ Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
 Theta newton_step(const State& state, const Theta& free) {
   const linear::SymmetricEigen solver(restricted(state.hessian, free));
   const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().lpNorm<Eigen::Infinity>());
-  const Eigen::VectorXd turned = solver.eigenvectors().transpose() * free.cwiseProduct(state.gradient);
+  const Eigen::VectorXd turned =
+      solver.eigenvectors().transpose() * free.cwiseProduct(state.gradient);
   const Theta step = -(solver.eigenvectors() *
                        turned.cwiseQuotient(solver.eigenvalues().cwiseAbs().cwiseMax(floor)));
   const double longest = step.lpNorm<Eigen::Infinity>();
@@ -105,16 +104,18 @@ Theta newton_step(const State& state, const Theta& free) {
 }
 
 double largest_free_gradient(const Theta& theta, const State& state, const Limits& limits) {
-  return free_of(theta, state.gradient, limits).cwiseProduct(state.gradient).lpNorm<Eigen::Infinity>();
+  return free_of(theta, state.gradient, limits)
+      .cwiseProduct(state.gradient)
+      .lpNorm<Eigen::Infinity>();
 }
 
 // V determines theta only to the square root of V's rounding; the gradient determines it to its own
 // rounding. Near a minimum Newton's steps continue as long as the gradient decreases.
 void polish(const Likelihood& likelihood, const Limits& limits, Theta& theta, State& state) {
-  constexpr int kMostSteps = 4;
+  constexpr int kMostPolishing = 4;
   // Longer steps creep along a flat V or leave the minimum.
   constexpr double kNear = 1e-2;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostPolishing; ++i) {
     const Theta step = newton_step(state, free_of(theta, state.gradient, limits));
     if (step.lpNorm<Eigen::Infinity>() > kNear) return;
     const Theta next = limits.clamp(theta + step);
@@ -223,8 +224,7 @@ class Walker {
 
 }  // namespace
 
-tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood,
-                                             int maximum_iterations) {
+tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood) {
   const auto rank_deficient = tl::unexpected(FitReason::rank_deficient);
   if (likelihood.has_ridge() && !(likelihood.balance() > 0.0)) return rank_deficient;
   const Limits limits = limits_of(likelihood);
@@ -236,7 +236,7 @@ tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood,
   bool converged = false;
   for (int iteration = 0; !converged; ++iteration) {
     if (largest_free_gradient(theta, *state, limits) < kGradientTolerance) break;
-    if (iteration == maximum_iterations) return tl::unexpected(FitReason::not_converged);
+    if (iteration == kMostSteps) return tl::unexpected(FitReason::not_converged);
     const Theta step = newton_step(*state, free_of(theta, state->gradient, limits));
     double fraction = 1.0;
     Theta next;

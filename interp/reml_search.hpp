@@ -11,6 +11,9 @@
 
 namespace chaintrue::interp::reml {
 
+/// Steps after which a search has not converged.
+inline constexpr int kMostSteps = 100;
+
 struct SearchResult {
   Theta theta;
   /// The search's limits; equal where there is nothing to search.
@@ -20,8 +23,7 @@ struct SearchResult {
 };
 
 /// A coarse scan, then Newton with a bounded step.
-[[nodiscard]] tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood,
-                                                           int maximum_iterations);
+[[nodiscard]] tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood);
 
 /// Points of the posterior of theta with their weights, of sum 1: steps of one standard error
 /// outward from the optimum while the density is above e^-4 of its peak, of lambda anew at each
