@@ -62,12 +62,15 @@ inline ChainInputs<Dual<2>> inputs_by_place(const EquilibriumConstants& m, BedPo
   inputs.x.d[0] = inputs.y.d[1] = 1.0;
   return inputs;
 }
-/// With the derivative by one parameter.
+/// With the derivative by one parameter; without where it does not count, as the ring's radius does
+/// not with brackets.
 inline ChainInputs<Dual<1>> inputs_by_parameter(const EquilibriumConstants& m,
                                                 BedPoint place,
-                                                Parameter parameter) {
+                                                Parameter parameter,
+                                                bool counts = true) {
   ChainInputs<Dual<1>> inputs(m, place);
-  inputs.numbers[static_cast<std::size_t>(parameter)].d[0] = 1.0;
+  if (counts && !(m.rotates && parameter == Parameter::ring_radius_mm))
+    inputs.numbers[static_cast<std::size_t>(parameter)].d[0] = 1.0;
   return inputs;
 }
 

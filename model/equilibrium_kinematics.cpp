@@ -180,13 +180,11 @@ PerSide<ChainNumbers<2>> EquilibriumKinematics<kRotates>::by_place(const Pose& p
 template <bool kRotates>
 PerSide<ChainNumbers<1>> EquilibriumKinematics<kRotates>::by_parameter(const Pose& pose,
                                                                        Parameter parameter) const {
-  const bool counts =
-      !((parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
-        (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
-        (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance) ||
-        (parameter == Parameter::ring_radius_mm && kRotates));
-  const ChainInputs<Dual<1>> inputs = counts ? inputs_by_parameter(m_, pose.position, parameter)
-                                             : ChainInputs<Dual<1>>(m_, pose.position);
+  const bool neglected =
+      (parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
+      (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
+      (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance);
+  const ChainInputs<Dual<1>> inputs = inputs_by_parameter(m_, pose.position, parameter, !neglected);
   EquilibriumLoad load;
   if (parameter <= Parameter::motor_right_y_mm) {
     // A motor's place stands in (1) by itself.

@@ -125,8 +125,7 @@ PerSide<ChainNumbers<2>> FormulaKinematics::by_place(const Pose& pose) const {
 PerSide<ChainNumbers<1>> FormulaKinematics::by_parameter(const Pose& pose,
                                                          Parameter parameter) const {
   const bool counts = parameter != Parameter::sprocket_radius_mm || formula_ != Formula::straight;
-  return chains(counts ? inputs_by_parameter(m_, pose.position, parameter)
-                       : ChainInputs<Dual<1>>(m_, pose.position));
+  return chains(inputs_by_parameter(m_, pose.position, parameter, counts));
 }
 
 }  // namespace chaintrue::model

@@ -60,11 +60,7 @@ PerSide<ChainNumbers<2>> SpatialKinematics::by_place(const Pose& pose) const {
 
 PerSide<ChainNumbers<1>> SpatialKinematics::by_parameter(const Pose& pose,
                                                          Parameter parameter) const {
-  const bool counts = parameter != Parameter::ring_radius_mm || !m_.rotates;
-  return moved_chains_in_space(m_,
-                               pose,
-                               counts ? inputs_by_parameter(m_, pose.position, parameter)
-                                      : ChainInputs<Dual<1>>(m_, pose.position));
+  return moved_chains_in_space(m_, pose, inputs_by_parameter(m_, pose.position, parameter));
 }
 
 }  // namespace chaintrue::model
