@@ -45,8 +45,7 @@ std::vector<MechanismChange> Mechanism::possible_changes() const {
   }
   if (changes.size() > 1) changes.push_back(std::move(all));
   for (MechanismChange& other : others) {
-    other.prior =
-        (kChangePriors.motors + kChangePriors.pitch) / static_cast<double>(others.size());
+    other.prior = (kChangePriors.motors + kChangePriors.pitch) / static_cast<double>(others.size());
     changes.push_back(std::move(other));
   }
   return changes;
@@ -57,7 +56,7 @@ std::shared_ptr<const Mechanism> MechanismBase::with_values(const Eigen::VectorX
     throw std::invalid_argument(fmt::format(
         "{} values of {} parameters of {}, or not finite", values.size(), values_.size(), kind()));
   }
-  return made_anew(values, applied_);
+  return rebuild(values, applied_);
 }
 
 std::vector<MachineProblem> MechanismBase::problems_of_effects(
@@ -79,7 +78,7 @@ std::shared_ptr<const Mechanism> MechanismBase::with_effects(
   require_none(problems_of_effects(applied));
   std::vector<AppliedEffect> all = applied_;
   all.insert(all.end(), applied.begin(), applied.end());
-  return made_anew(values_, std::move(all));
+  return rebuild(values_, std::move(all));
 }
 
 void MechanismBase::require_all(const Eigen::VectorXd& lengths_mm) const {

@@ -201,7 +201,7 @@ class MechanismBase : public Mechanism {
         values_(std::move(values)),
         applied_(std::move(applied)) {}
   /// The same mechanism with these values and these effects alone.
-  [[nodiscard]] virtual std::shared_ptr<const Mechanism> made_anew(
+  [[nodiscard]] virtual std::shared_ptr<const Mechanism> rebuild(
       const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const = 0;
   [[nodiscard]] virtual bool has(effects::Part /*part*/) const { return true; }
   [[nodiscard]] const std::vector<MechanismParameter>& stated() const { return parameters_; }

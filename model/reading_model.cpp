@@ -108,8 +108,8 @@ ReadingModel::ReadingModel(const Machine& machine,
   kinematics_ = make_kinematics(equilibrium, model);
 }
 
-std::shared_ptr<const Mechanism> ReadingModel::made_anew(const Eigen::VectorXd& values,
-                                                         std::vector<AppliedEffect> applied) const {
+std::shared_ptr<const Mechanism> ReadingModel::rebuild(const Eigen::VectorXd& values,
+                                                       std::vector<AppliedEffect> applied) const {
   Machine changed = machine_;
   changed.effects = std::move(applied);
   for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {

@@ -108,7 +108,7 @@ class ReadingModel final : public MechanismBase {
  private:
   friend class Session;
   ReadingModel(const Machine& machine, Model model, std::vector<MechanismParameter> parameters);
-  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+  [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
       const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
   /// What effects add to a chain, without those of the visit.
   [[nodiscard]] effects::Number added(const Pose& pose, Side side) const;

@@ -113,9 +113,9 @@ std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateM
 
 /// Redistributes the total weight of models with a pattern among the followed ones; those without
 /// keep theirs.
-void share_anew(const std::map<ModelKey, double>& shares,
-                double together,
-                ModelComparison& comparison) {
+void redistribute(const std::map<ModelKey, double>& shares,
+                  double together,
+                  ModelComparison& comparison) {
   // Floor for a model that no part supports, so that its logarithm is finite.
   constexpr double kNothing = 1e-300;
   for (CandidateModel& model : comparison.models) {
@@ -184,7 +184,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
     for (std::size_t k = 0; k < models.size(); ++k) sum[k] += of_part[p][k];
     result.push_back(summary(system, models, of_part[p], std::move(parts[p])));
   }
-  share_anew(shares_of_patterns(models, sum), pattern, comparison);
+  redistribute(shares_of_patterns(models, sum), pattern, comparison);
   return result;
 }
 

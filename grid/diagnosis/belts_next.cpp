@@ -179,7 +179,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
 }
 
 /// A place that is proposed twice has to be measured twice.
-void say_what_repeats(std::vector<NextMeasurement>& proposed) {
+void mark_repeats(std::vector<NextMeasurement>& proposed) {
   for (auto own = proposed.begin(); own != proposed.end(); ++own) {
     const bool repeats = std::any_of(proposed.begin(), own, [own](const NextMeasurement& other) {
       return own->kind == MeasurementKind::point && other.kind == own->kind &&
@@ -217,7 +217,7 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   for (std::size_t k = 0; k < next.candidates.size(); ++k)
     next.candidates[k].rows = predicted.rows[k];
   result.measurements = most_telling(predicted.alternatives, std::move(next.candidates));
-  say_what_repeats(result.measurements);
+  mark_repeats(result.measurements);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);
   return result;

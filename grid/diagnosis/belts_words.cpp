@@ -123,7 +123,7 @@ bool tells(const BeltsNext& next) {
 }
 
 /// For undecided causes: what separates them or, if none of it does, what would.
-void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
+void advise_measurements(const BeltsNext& next, Diagnosis& d) {
   if (!next.is_open) return;
   std::string text;
   double reached = 0.0;
@@ -162,7 +162,7 @@ void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
   d.what_to_do.push_back(std::move(text));
 }
 
-void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
+void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
   if (std::string arms = left_out_arms(belts, d); !arms.empty()) {
     d.what_to_do.push_back(std::move(arms));
   } else {
@@ -179,7 +179,7 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
                     "deny it.",
                     model::words(belt_of(law->enters).value())));
   }
-  say_what_to_measure(next, d);
+  advise_measurements(next, d);
   if (!d.belts->scale && !belts.distances.empty()) {
     d.what_to_do.emplace_back(
         "Tape the distances again: with the causes they fit no frame, so nothing is known about "
@@ -273,7 +273,7 @@ void put_belts_into_words(const MeasuredBelts& belts,
   d.notes.push_back(firmware_words(belts, alone, d));
   d.sentence = sentence(d);
   d.not_proved = not_proved_in_words(d);
-  say_what_to_do(belts, next, d);
+  advise(belts, next, d);
 }
 
 }  // namespace chaintrue::grid::diagnosis

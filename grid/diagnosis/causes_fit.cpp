@@ -104,12 +104,14 @@ double least_known_size(const std::vector<Cause>& causes) {
 }
 
 /// Of the readings in which other causes act, a set of these each; empty where there is no such map.
-std::vector<std::optional<CompensationMap>> other_maps(const Measured& measured,
-                                                       const JointFitOptions& options,
-                                                       const std::vector<std::vector<ActingCause>>& sets) {
+std::vector<std::optional<CompensationMap>> other_maps(
+    const Measured& measured,
+    const JointFitOptions& options,
+    const std::vector<std::vector<ActingCause>>& sets) {
   std::vector<std::optional<CompensationMap>> maps(sets.size());
   for_each_index(sets.size(), [&](std::size_t k) {
-    if (auto fit = joint_fit(with_effects(measured, sets[k]), options)) maps[k] = std::move(fit->map);
+    if (auto fit = joint_fit(with_effects(measured, sets[k]), options))
+      maps[k] = std::move(fit->map);
   });
   return maps;
 }
@@ -122,7 +124,8 @@ std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) 
   for (const OfferedCause& one : offered) {
     const bool is_of_machine = one.reason == OfferedCause::Reason::not_sure ||
                                one.reason == OfferedCause::Reason::gains_nothing;
-    if (is_of_machine && !is_of_the_paper(one.cause.cause) && one.cause.probability >= kLeastProbability)
+    if (is_of_machine && !is_of_the_paper(one.cause.cause) &&
+        one.cause.probability >= kLeastProbability)
       open.push_back(&one.cause);
   }
   std::stable_sort(open.begin(), open.end(), [](const Cause* a, const Cause* b) {
@@ -133,10 +136,10 @@ std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) 
 }
 
 /// (2)
-void count_what_is_left_open(const Measured& measured,
-                             const CausesFitOptions& options,
-                             const CompensationMap& plain,
-                             CausesFit& result) {
+void add_open_causes(const Measured& measured,
+                     const CausesFitOptions& options,
+                     const CompensationMap& plain,
+                     CausesFit& result) {
   constexpr double kLeastFactor = 1.05;
   const CompensationMap map = result.fit.map;
   const std::vector<Cause>& built_on = result.built_on;
@@ -197,8 +200,10 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
     return noted({*std::move(plain), {}, {}, std::nullopt, 0.0, std::move(why)});
   };
   if (const std::size_t count = readings_of(measured); count > kMostWeighed)
-    return without_causes(joint_fit(measured, options.fit),
-                          fmt::format("{} readings are too many for the comparison (at most {})", count, kMostWeighed));
+    return without_causes(
+        joint_fit(measured, options.fit),
+        fmt::format(
+            "{} readings are too many for the comparison (at most {})", count, kMostWeighed));
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
@@ -230,7 +235,7 @@ CausesFit fit_on_causes(const Measured& measured,
   }
   const CompensationMap plain_map = result.fit.map;
   const auto with_open = [&] {
-    count_what_is_left_open(ordered, options, plain_map, result);
+    add_open_causes(ordered, options, plain_map, result);
     return noted(std::move(result));
   };
   if (sure.empty()) return with_open();

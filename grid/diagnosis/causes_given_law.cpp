@@ -39,12 +39,13 @@ std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& a, const Laws
   const LawsFound::Heaviest& first = laws.heaviest.front();
   const LawEvidence& evidence = laws.evidence[first.evidence];
   const WeighedLaw& law = evidence.laws[first.law];
-  Eigen::VectorXd rows = LawColumns(a.system).of(evidence.curves[law.curve], law.at) * law.amplitude;
+  Eigen::VectorXd rows =
+      LawColumns(a.system).of(evidence.curves[law.curve], law.at) * law.amplitude;
   if (a.decision.listed.empty() && !may_name_a_cause(a, rows)) return std::nullopt;
   return rows;
 }
 
-std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const Analysis& given_law) {
+std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law, const Analysis& given_law) {
   std::vector<CauseGivenLaw> changed;
   for (Cause& cause : causes_found(given_law)) {
     if (holds(without_law, cause.cause)) continue;
@@ -95,7 +96,7 @@ std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
   const auto rows = rows_of_claimed_law(a, laws);
   if (!rows) return {};
   const Analysis given = analyse_without(a, *rows, rules);
-  std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
+  std::vector<CauseGivenLaw> changed = changed_causes(a, given);
   take_names_back(given, a);
   return changed;
 }

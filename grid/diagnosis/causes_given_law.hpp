@@ -24,8 +24,8 @@ namespace chaintrue::grid::diagnosis {
 
 /// Causes that only one of two comparisons names: first those named given the law, the likeliest
 /// first.
-[[nodiscard]] std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law,
-                                                            const Analysis& given_law);
+[[nodiscard]] std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law,
+                                                        const Analysis& given_law);
 
 /// Withdraws the names that are less likely than not given the law. Probabilities become those
 /// given the law.

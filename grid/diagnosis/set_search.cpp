@@ -19,7 +19,7 @@ constexpr double kLeastSquare = 1e-8;
 constexpr std::size_t kTakenOut = 3;
 
 /// The reduction of e'e by one column, given its square and its inner product with e.
-double taken_alone(const Regressor& regressor, double c, double square) {
+double score_alone(const Regressor& regressor, double c, double square) {
   return regressor.fixed ? 2.0 * c - square : c * c / square;
 }
 
@@ -43,7 +43,7 @@ void add_best(const RegressorSystem& system,
     if (k > 0 && !(own.cause == system.regressors[k - 1].cause)) take();
     const auto at = as_index(k);
     if (!(square(at) > kLeastSquare)) continue;
-    scores.emplace_back(taken_alone(own, c(at), square(at)), static_cast<int>(k));
+    scores.emplace_back(score_alone(own, c(at), square(at)), static_cast<int>(k));
   }
   take();
 }

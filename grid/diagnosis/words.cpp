@@ -142,7 +142,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
 }
 
 /// Before changing a part because of one reading, repeat the reading.
-void say_what_to_read_again(Diagnosis& d) {
+void advise_rereading(Diagnosis& d) {
   const std::vector<std::size_t> points = influential_points(d);
   if (points.size() != 1) return;
   const bool is_bad = any_of(d.outliers, [&](const Outlier& b) {
@@ -153,7 +153,7 @@ void say_what_to_read_again(Diagnosis& d) {
       fmt::format("Measure point {} again first: the answer depends on it.", points.front() + 1));
 }
 
-void say_what_to_type(Diagnosis& d) {
+void advise_settings(Diagnosis& d) {
   if (settings_off(d).empty() || d.what_to_do.size() >= 3) return;
   d.what_to_do.emplace_back(
       d.causes.empty()
@@ -162,8 +162,8 @@ void say_what_to_type(Diagnosis& d) {
             "plotter prints the lines to type in.");
 }
 
-void say_what_to_do(Diagnosis& d) {
-  say_what_to_read_again(d);
+void advise(Diagnosis& d) {
+  advise_rereading(d);
   say_remedies(d);
   if (!d.next_measurements.empty()) {
     const NextMeasurement& first = d.next_measurements.front();
@@ -209,7 +209,7 @@ void say_what_to_do(Diagnosis& d) {
         "error that turns with it is the sheet's or the tape's; one that stays is the machine's; "
         "one that is gone was that day's.");
   }
-  say_what_to_type(d);
+  advise_settings(d);
   if (d.what_to_do.empty()) {
     d.what_to_do.push_back(fmt::format("Type in the calibrated settings; these {} show no more.",
                                        name(d.observations)));
@@ -263,7 +263,7 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
                          name(d.observations))
                    : sentence(d, session.units.size());
   d.not_proved = not_proved(session, d);
-  say_what_to_do(d);
+  advise(d);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -5,7 +5,6 @@
 #include "grid/containers.hpp"
 #include "interp/linear_algebra.hpp"
 
-
 namespace chaintrue::grid::estimation {
 namespace {
 
@@ -55,12 +54,13 @@ void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
   const Eigen::Index more = following.rows();
   append_all(free.columns, places.free_columns);
   free.constant.conservativeResize(before + more);
-  free.constant.tail(more) = -linear::product(inverse, linear::product(motion, alongside(places) - places.moved));
+  free.constant.tail(more) =
+      -linear::product(inverse, linear::product(motion, alongside(places) - places.moved));
   free.following.conservativeResize(before + more, following.cols());
   free.following.bottomRows(more) = following;
 }
 
-std::vector<MarkPoint> placed_as_a_whole(const PlacesOnSheet& places) {
+std::vector<MarkPoint> placed_rigidly(const PlacesOnSheet& places) {
   std::vector<MarkPoint> marks = places.marks;
   if (places.free_columns.empty()) return marks;
   const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);

@@ -44,6 +44,6 @@ struct PlacesOnSheet {
 void add_free_directions(const PlacesOnSheet& places, FreeDirections& free);
 
 /// The marks with the free directions corrected and all else unchanged.
-[[nodiscard]] std::vector<model::MarkPoint> placed_as_a_whole(const PlacesOnSheet& places);
+[[nodiscard]] std::vector<model::MarkPoint> placed_rigidly(const PlacesOnSheet& places);
 
 }  // namespace chaintrue::grid::estimation

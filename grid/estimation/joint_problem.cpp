@@ -278,7 +278,7 @@ void JointProblem::eliminate_free_directions(const LinearisedSystem& system,
       now(unknowns_->columns_of(k)) = from[k].settings;
       places.moved.segment<2>(row) = to_mark * (lengths * now + correction_at(p, at, state));
     }
-    laid_marks_[k] = placed_as_a_whole(places);
+    laid_marks_[k] = placed_rigidly(places);
     add_free_directions(places, free_);
   }
   if (free_.columns.empty()) return;
@@ -319,7 +319,8 @@ State JointProblem::state_of(const interp::PenalisedFit& fit) const {
     state.surface.coefficients[side] =
         observed_->polynomial_coefficients() *
             all.segment(unknowns_->polynomial(side), observed_->polynomials()) +
-        observed_->penalised_basis() * all.segment(unknowns_->first_penalised_of(side), observed_->penalised());
+        observed_->penalised_basis() *
+            all.segment(unknowns_->first_penalised_of(side), observed_->penalised());
   }
   return state;
 }
@@ -335,9 +336,10 @@ Eigen::MatrixXd JointProblem::map_covariance(const interp::PenalisedFit& fit,
                      unknowns_->polynomial(side),
                      columns.basis,
                      observed_->polynomials()) = observed_->polynomial_coefficients();
-    to_splines.block(
-        columns.spline(side), unknowns_->first_penalised_of(side), columns.basis, observed_->penalised()) =
-        observed_->penalised_basis();
+    to_splines.block(columns.spline(side),
+                     unknowns_->first_penalised_of(side),
+                     columns.basis,
+                     observed_->penalised()) = observed_->penalised_basis();
   }
   Eigen::MatrixXd result = to_splines * covariance(fit) * to_splines.transpose();
   if (!has_surface_) return result;

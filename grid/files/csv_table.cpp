@@ -177,7 +177,7 @@ bool is_empty(const CsvCell& cell) {
 }
 
 /// Rows of separators alone, and what was written below the last row of numbers: a note in words.
-void drop_what_is_no_row(std::vector<CsvRow>& rows, Problems& problems) {
+void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
   std::erase_if(rows, [](const CsvRow& row) { return all_of(row, is_empty); });
   while (rows.size() > 1) {
     const CsvRow& last = rows.back();
@@ -222,7 +222,7 @@ CsvTable read_csv(std::string_view text,
                   Problems& problems) {
   CsvTable table;
   std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
-  drop_what_is_no_row(rows, problems);
+  drop_notes(rows, problems);
   if (rows.empty()) {
     problems.add("",
                  text.empty() ? "an empty file" : "only blank lines and comments",

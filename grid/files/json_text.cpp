@@ -40,7 +40,7 @@ struct QuotedText {
   }
 };
 
-QuotedText quote_what_is_no_number(std::string_view source) {
+QuotedText quote_non_numbers(std::string_view source) {
   QuotedText quoted;
   quoted.text.reserve(source.size());
   bool in_string = false;
@@ -365,7 +365,7 @@ Json parse_json(const std::string& text, Problems& problems) {
     problems.add("", "an empty file", "JSON text", ProblemKind::empty_file);
     problems.throw_if_any();
   }
-  const QuotedText source = quote_what_is_no_number(text);
+  const QuotedText source = quote_non_numbers(text);
   Builder builder(source, text, problems);
   if (!Json::sax_parse(source.text, &builder)) problems.throw_if_any();
   return builder.take();

@@ -122,7 +122,7 @@ void SettingReader::refuse_others() {
 }
 
 void SettingReader::warn_of_others(std::string_view says_what) {
-  const auto holds_what_was_read = [&](const std::string& folder) {
+  const auto is_folder_of_input = [&](const std::string& folder) {
     const auto first = read_.lower_bound(folder);
     return first != read_.end() && first->starts_with(folder);
   };
@@ -130,7 +130,7 @@ void SettingReader::warn_of_others(std::string_view says_what) {
   for (const auto& [path, setting] : texts_) {
     if (read_.contains(path)) continue;
     std::size_t part = path.find_first_of(kParts);
-    while (part != std::string::npos && holds_what_was_read(path.substr(0, part + 1)))
+    while (part != std::string::npos && is_folder_of_input(path.substr(0, part + 1)))
       part = path.find_first_of(kParts, part + 1);
     const bool is_leaf = part == std::string::npos;
     std::string name = is_leaf ? (folders_.empty() ? path : path.substr(path.rfind('/') + 1))

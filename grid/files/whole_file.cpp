@@ -58,7 +58,7 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
 }
 
 /// Rejects files that look like text because a program shows them as a table.
-void refuse_what_is_no_text(const std::string& text, const std::string& name) {
+void check_is_text(const std::string& text, const std::string& name) {
   struct Kind {
     std::string_view beginning;
     std::string_view found;
@@ -80,7 +80,8 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   };
   for (const Kind& kind : kKinds) {
     if (text.starts_with(kind.beginning))
-      refuse_file(name, std::string(kind.found), std::string(kind.expected), ProblemKind::file_kind);
+      refuse_file(
+          name, std::string(kind.found), std::string(kind.expected), ProblemKind::file_kind);
   }
 }
 
@@ -128,7 +129,7 @@ std::string utf8_of(std::string text) {
 
 std::string read_text(std::FILE* file, const fs::path& path) {
   std::string text = utf8_of(read_to_the_end(file, path));
-  refuse_what_is_no_text(text, name_in_messages(path));
+  check_is_text(text, name_in_messages(path));
   return text;
 }
 
@@ -141,7 +142,8 @@ std::string name_in_messages(const fs::path& path) {
 std::string read_whole_file(const fs::path& path) {
   if (path == "-") return read_text(stdin, path);
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) refuse_file(path.string(), "a directory", "a file", ProblemKind::unreadable_file);
+  if (fs::is_directory(path, ignored))
+    refuse_file(path.string(), "a directory", "a file", ProblemKind::unreadable_file);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) {
     const std::string name = path.string();
@@ -175,7 +177,9 @@ void write_whole_files(const std::vector<OutputFile>& outputs) {
         output.path == "-" ? "-" : fs::weakly_canonical(output.path, error).string();
     const bool is_device = fs::is_character_file(output.path, error);
     if (!is_device && !names.insert(place).second)
-      refuse_file(output.path.string(), "a name given twice", "a file of its own for each output",
+      refuse_file(output.path.string(),
+                  "a name given twice",
+                  "a file of its own for each output",
                   ProblemKind::output_repeated);
     files.push_back(pending.emplace_back(std::make_unique<PendingFile>(output.path)).get());
     files.back()->write(output.text);

@@ -29,7 +29,7 @@ using Settings = model::ControllerSettings;
 using Number = std::optional<double> Settings::*;
 
 /// Those that export types in.
-std::vector<Number> numbers_that_differ(const Settings& a, const Settings& b) {
+std::vector<Number> differing_numbers(const Settings& a, const Settings& b) {
   std::vector<Number> numbers = {&Settings::motor_spacing_mm,
                                  &Settings::motor_offset_y_mm,
                                  &Settings::rotation_radius_mm,
@@ -52,7 +52,7 @@ std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
                                                 const Check& found) {
   if (found.is_valid_as_it_is() || map.machine() == nullptr) return std::nullopt;
   const model::Controller& own = map.machine()->controller;
-  const std::vector<Number> numbers = numbers_that_differ(own.settings, others);
+  const std::vector<Number> numbers = differing_numbers(own.settings, others);
   const unsigned all = (1U << numbers.size()) - 1U;
   double least = chi_squared(found) - kFarBetter;
   std::optional<ChangedSettings> result;

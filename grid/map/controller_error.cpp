@@ -92,8 +92,7 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
 std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame) {
   std::vector<BedPoint> hull;
   for (const model::MarkPoint corner : map.contents().hull) {
-    hull.push_back(frame == MapFrame::bed ? map.to_bed(corner)
-                                          : model::identity_placement(corner));
+    hull.push_back(frame == MapFrame::bed ? map.to_bed(corner) : model::identity_placement(corner));
   }
   return measured_places(MapInFrame(map, frame), hull);
 }
@@ -138,7 +137,7 @@ namespace {
 
 /// An ideal controller uses the machine file. What a diagnosis added later did not affect the
 /// commands.
-bool is_what_the_controller_believes(const model::Machine& machine) {
+bool is_controller_machine(const model::Machine& machine) {
   return machine.controller.kind != model::ControllerKind::ideal ||
          none_of(machine.effects,
                  [](const auto& effect) { return effect.probability.has_value(); });
@@ -149,7 +148,7 @@ bool is_what_the_controller_believes(const model::Machine& machine) {
 std::optional<ErrorSummary> error_in_use(const CompensationMap& map) {
   // A controller without stated settings uses the file, not the calibration.
   const auto machine = stated_machine(map);
-  if (!machine || !is_what_the_controller_believes(*machine)) return std::nullopt;
+  if (!machine || !is_controller_machine(*machine)) return std::nullopt;
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
   if (places.empty()) return std::nullopt;
   const auto errors = controller_errors(paid_out_by(*machine), places);
@@ -160,8 +159,7 @@ std::optional<ErrorSummary> error_in_use(const CompensationMap& map) {
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
   if (places.empty()) return;
-  accuracy.expected_tool =
-      summary_of_errors(places, Eigen::VectorXd::Zero(2 * std::ssize(places)));
+  accuracy.expected_tool = summary_of_errors(places, Eigen::VectorXd::Zero(2 * std::ssize(places)));
   // A place's mirror image differs by less, through rounding: the first is kept.
   constexpr double kWorse = 1.0 + 1e-6;
   double worst_mm = -1.0;

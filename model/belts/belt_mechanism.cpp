@@ -97,8 +97,8 @@ MechanismExtent BeltMechanism::extent() const {
           std::min(a.tl.y_mm, a.tr.y_mm) - reach};
 }
 
-std::shared_ptr<const Mechanism> BeltMechanism::made_anew(
-    const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const {
+std::shared_ptr<const Mechanism> BeltMechanism::rebuild(const Eigen::VectorXd& values,
+                                                        std::vector<AppliedEffect> applied) const {
   BeltMachine changed = machine_;
   for (std::size_t i = 0; i < kCoordinates.size(); ++i)
     changed.anchors[kCoordinates[i].belt].*kCoordinates[i].member =

@@ -65,7 +65,7 @@ class BeltMechanism final : public MechanismBase {
                 std::vector<MechanismParameter> parameters,
                 Eigen::VectorXd values,
                 std::vector<AppliedEffect> applied);
-  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+  [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
       const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
   [[nodiscard]] tl::expected<belts::AnchorNumber, BeltFailure> print(const belts::BeltVisit& visit,
                                                                      FramePoint place) const;

@@ -70,7 +70,7 @@ MechanismExtent PlotterMechanism::extent() const {
   return {area.left_mm, area.right_mm, area.bottom_mm, area.top_mm};
 }
 
-std::shared_ptr<const Mechanism> PlotterMechanism::made_anew(
+std::shared_ptr<const Mechanism> PlotterMechanism::rebuild(
     const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const {
   PlotterMachine changed = machine_;
   const auto settings = settings_of(changed);

@@ -48,7 +48,7 @@ class PlotterMechanism final : public MechanismBase {
   PlotterMechanism(PlotterMachine machine,
                    std::vector<MechanismParameter> parameters,
                    std::vector<AppliedEffect> applied);
-  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+  [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
       const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
   [[nodiscard]] bool has(effects::Part part) const override;
   /// Where straight cords of these lengths end.

@@ -40,7 +40,8 @@ Eigen::VectorXd rows_of_wave(const MeasuredGrid& without, const Analysis& a) {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(a.system.e.size());
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {
     const std::size_t point = a.session.units[u].index;
-    const Eigen::Vector2d added(with.points[point].lengths->left_mm - without.points[point].lengths->left_mm, 0.0);
+    const Eigen::Vector2d added(
+        with.points[point].lengths->left_mm - without.points[point].lengths->left_mm, 0.0);
     const SystemUnit& unit = a.system.units[u];
     rows.segment<2>(unit.first_row) = unit.whitening * added;
   }
@@ -65,9 +66,10 @@ TEST(CausesGivenLaw, EqualThoseOfReadingsWithoutTheLaw) {
 
 TEST(CausesGivenLaw, KeepTheVerdictIfNothingIsRemoved) {
   const Analysis a = analysed(with_friction(0.6));
-  const Analysis again = analyse_without(a, Eigen::VectorXd::Zero(a.system.e.size()), calibrated_rules());
+  const Analysis again =
+      analyse_without(a, Eigen::VectorXd::Zero(a.system.e.size()), calibrated_rules());
   EXPECT_EQ(again.decision.verdict, a.decision.verdict);
-  EXPECT_THAT(causes_that_change(a, again), IsEmpty());
+  EXPECT_THAT(changed_causes(a, again), IsEmpty());
 }
 
 TEST(CausesGivenLaw, RemoveNothingWithoutAClaimedLaw) {
@@ -91,8 +93,9 @@ TEST(CausesGivenLaw, DropANameThatOnlyTheLawMadeLikely) {
   ASSERT_EQ(a.decision.listed.size(), 1U);
   const int column = a.decision.regressors.front();
   const CauseId cause = a.system.regressors[static_cast<std::size_t>(column)].cause;
-  const Analysis given = analyse_without(a, a.system.g.col(column) * a.estimate.coefficient(0), calibrated_rules());
-  const std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
+  const Analysis given =
+      analyse_without(a, a.system.g.col(column) * a.estimate.coefficient(0), calibrated_rules());
+  const std::vector<CauseGivenLaw> changed = changed_causes(a, given);
   ASSERT_EQ(changed.size(), 1U);
   EXPECT_EQ(changed.front().cause, cause);
   EXPECT_THAT(changed.front().parameters, IsEmpty());
@@ -105,7 +108,8 @@ TEST(CausesGivenLaw, DropANameThatOnlyTheLawMadeLikely) {
 
 // A little weaker than what is visible with the wave.
 TEST(CausesGivenLaw, ReportWhatTheLawHides) {
-  const Diagnosis found = diagnose(with_wave(with_friction(0.24)), testing_support::verdict_alone()).value();
+  const Diagnosis found =
+      diagnose(with_wave(with_friction(0.24)), testing_support::verdict_alone()).value();
   ASSERT_NE(claimed_law(found), nullptr);
   ASSERT_FALSE(found.unexplained->causes_given_law.empty()) << found.sentence;
   const CauseGivenLaw& own = found.unexplained->causes_given_law.front();

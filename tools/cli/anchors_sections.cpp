@@ -46,7 +46,7 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
 }
 
 /// Causes more likely than not, except those that yield with the pull in every frame.
-void say_what_else_acts(const BeltsFit& fit, Section& section) {
+void list_open_causes(const BeltsFit& fit, Section& section) {
   constexpr double kLikely = 0.5;
   std::vector<std::string> causes;
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
@@ -61,7 +61,7 @@ void say_what_else_acts(const BeltsFit& fit, Section& section) {
                   diagnosis::joined(causes, "and")));
 }
 
-void say_what_acts(const BeltsFit& fit, Section& section) {
+void list_causes(const BeltsFit& fit, Section& section) {
   if (fit.causes.empty()) return;
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
@@ -77,14 +77,14 @@ void say_what_acts(const BeltsFit& fit, Section& section) {
             "At the motors' pull belts are {} longer than they count; these anchors allow for it.",
             share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
-  say_what_else_acts(fit, section);
+  list_open_causes(fit, section);
   say(section,
       "The sigmas of the anchors allow for other causes at their usual size, such as a belt with a "
       "wrong zero.",
       Detail::verbose);
 }
 
-void say_what_was_left_out(const BeltsFit& fit, Section& section) {
+void list_left_out(const BeltsFit& fit, Section& section) {
   if (fit.one_left_out.readings == 0) return;
   std::string text = fmt::format(
       "Lower belts predicted by the upper two, at places left out one by one: {:.2f} mm rms, "
@@ -260,7 +260,7 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsEr
     say(section,
         worst_sentence(error->worst_at.x_mm, error->worst_at.y_mm, error->expected.maximum_mm));
   }
-  say_what_acts(fit, section);
+  list_causes(fit, section);
   if (fit.places.empty()) return section;
   say(section,
       fmt::format("{} places, {} readings: the error of one belt's reading is {:.2f} mm (one "
@@ -327,7 +327,7 @@ Section fitted_anchors_section(const BeltsFit& fit) {
 Section tests_section(const FittedBelts& fitted) {
   Section section{.title = "What was left out, and the scale", .is_titled = false};
   if (!fitted.fit.places.empty()) {
-    say_what_was_left_out(fitted.fit, section);
+    list_left_out(fitted.fit, section);
     say_bad_readings(fitted, section);
   }
   say_the_scale(fitted, section);

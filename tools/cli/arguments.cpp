@@ -174,7 +174,7 @@ std::vector<GivenOption> Verb::given_options() const {
   return given;
 }
 
-void Verb::refuse_what_does_nothing(Facts facts) const {
+void Verb::refuse_idle_options(Facts facts) const {
   OptionProblems problems;
   const CLI::Option* refused = nullptr;
   for (const CLI::Option* option : app_->get_options()) {

@@ -130,7 +130,7 @@ class Verb {
   [[nodiscard]] std::vector<GivenOption> given_options() const;
   /// \throws InputError with a sentence for each option that was given and would do nothing
   /// with this.
-  void refuse_what_does_nothing(Facts facts) const;
+  void refuse_idle_options(Facts facts) const;
   /// As it is typed: "gcode check".
   [[nodiscard]] std::string path() const;
   /// On the command line that was parsed.

@@ -152,7 +152,7 @@ int run_check(Verb verb, const CheckCommand& command) {
     if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
     if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
   }
-  verb.refuse_what_does_nothing(facts);
+  verb.refuse_idle_options(facts);
   bool is_after = false;
   const CheckResult check =
       of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map, is_after);

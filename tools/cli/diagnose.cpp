@@ -78,7 +78,7 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   require_kind(file,
                {FileKind::grid, FileKind::holes, FileKind::belts, FileKind::drawing},
                file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
-  verb.refuse_what_does_nothing(facts_of(opened));
+  verb.refuse_idle_options(facts_of(opened));
   const bool of_belts = file.kind == FileKind::belts;
   const bool of_drawing = file.kind == FileKind::drawing;
   grid::Measured input;

@@ -359,7 +359,7 @@ std::string written_map_after(Verb verb, const Exported& exported, const ExportC
 int export_groundcontrol(Verb verb, const ExportCommand& command) {
   const InputFile file = open_input(command.input);
   const Exported exported = export_of(file, command, verb.is_given("--force"));
-  verb.refuse_what_does_nothing(facts_of(file));
+  verb.refuse_idle_options(facts_of(file));
   if (exported.is_refused) return kCheckFailed;
   write_outputs({{command.map_after, written_map_after(verb, exported, command)},
                  {command.output, exported.settings.text}});

@@ -6,7 +6,7 @@
 /// \code
 ///   verb.add_flag("--below", ...).acts_on(facts::map | facts::machine, "to be left out: ...");
 ///   ...
-///   verb.refuse_what_does_nothing(facts::plotter);
+///   verb.refuse_idle_options(facts::plotter);
 /// \endcode
 #pragma once
 

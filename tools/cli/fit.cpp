@@ -212,14 +212,14 @@ Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
 int run_fit(Verb verb, const FitCommand& command) {
   std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
   if (opened.front().kind == FileKind::drawing) {
-    verb.refuse_what_does_nothing(facts::drawing);
+    verb.refuse_idle_options(facts::drawing);
     return fit_the_drawing(
         {verb, std::move(opened.front()), command.output, command.verbose, command.json});
   }
   for (const InputFile& file : opened)
     require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belt_holes, FileKind::belts});
   const Facts facts = facts_of(command, opened);
-  verb.refuse_what_does_nothing(facts);
+  verb.refuse_idle_options(facts);
   if ((facts & (facts::belts | facts::belt_holes)) != 0) {
     return fit_the_belts({verb,
                           std::move(opened),

@@ -95,7 +95,7 @@ tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles
 }
 
 /// Bad points with their numbers in the file of the belts, where others were left out.
-files::FittedAnchors numbered_as_in_the_file(files::FittedAnchors found, const BeltFiles& all) {
+files::FittedAnchors with_file_numbers(files::FittedAnchors found, const BeltFiles& all) {
   for (grid::BadBeltReading& bad : found.fit.bad)
     bad.point = grid::index_in_file(all.indices, bad.point);
   for (std::size_t& point : found.fit.bad_points) point = grid::index_in_file(all.indices, point);
@@ -113,7 +113,7 @@ int fit_the_belts(const BeltsFitCommand& command) {
   const auto found = fitted(all);
   if (!found) throw Failed(command.files.front().name, found.error());
   const std::string text =
-      files::write_anchors(numbered_as_in_the_file(*found, all), made_by(command.verb));
+      files::write_anchors(with_file_numbers(*found, all), made_by(command.verb));
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);

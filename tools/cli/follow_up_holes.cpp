@@ -74,7 +74,7 @@ Lines lines_of(const Diagnosis& found,
 
 }  // namespace
 
-bool is_of_these(const Diagnosis& found, const std::vector<MeasuredHoles>& sets) {
+bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& sets) {
   constexpr double kSamePlaceMm = 1e-3;
   std::vector<grid::Hole> holes;
   std::size_t distances = 0;

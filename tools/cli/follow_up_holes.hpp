@@ -16,7 +16,7 @@
 namespace chaintrue::cli {
 
 /// Whether the diagnosis used exactly these holes and distances.
-[[nodiscard]] bool is_of_these(const Diagnosis& found, const std::vector<MeasuredHoles>& sets);
+[[nodiscard]] bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& sets);
 
 /// Holes to cut, with unused names, and distances without values, for the set at this position;
 /// empty if none is in this set.

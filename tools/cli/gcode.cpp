@@ -46,7 +46,7 @@ void open_map(Verb verb, GcodeOptions& options) {
     facts = facts_of_map(options.map_file->kind);
     if (facts == facts::plotter) require_gcode(*options.map_file);
   }
-  verb.refuse_what_does_nothing(facts);
+  verb.refuse_idle_options(facts);
   options.forced = verb.has_option("--force") && verb.is_given("--force");
 }
 

@@ -96,7 +96,7 @@ std::string map_after(const std::string& map) {
 }
 
 /// Conditions at the machine for the program to be cut correctly.
-void say_what_it_is_for(const GcodeMachine& machine, const GcodeOptions& options) {
+void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   if (machine.map() == nullptr) return;
   if (options.settings.empty() && options.machine.empty()) {
     if (const std::string after = map_after(options.map); !after.empty()) {
@@ -278,7 +278,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
                options.tolerance_mm);
   }
   fmt::print(stderr, "{}", in_words(promised));
-  say_what_it_is_for(machine, options);
+  describe_use(machine, options);
   if (is_usual(options))
     say_next(with_map_words(options, {"gcode", "verify", options.program, options.output}));
   return kDone;

@@ -59,7 +59,7 @@ void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Sec
   sections.push_back(std::move(section));
 }
 
-void say_what_changed(const InputFile& result) {
+void report_difference(const InputFile& result) {
   const auto made_by = files::made_by_of(result.text, result.name);
   if (!made_by) return;
   for (const std::string& name : files::changed_since(*made_by, files::sources_read())) {

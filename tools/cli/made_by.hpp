@@ -22,6 +22,6 @@ void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Sec
 
 /// A note on standard error if an input has the same name as a source of this result but another
 /// content.
-void say_what_changed(const InputFile& result);
+void report_difference(const InputFile& result);
 
 }  // namespace chaintrue::cli

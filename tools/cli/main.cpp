@@ -35,7 +35,7 @@ int report_bad_input(const grid::files::InputError& error) {
 
 /// A closed stream's number would go to the next file that is opened; occupy it with a descriptor
 /// that can be neither read nor written.
-void take_up_closed_streams() {
+void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
     const int taken = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
@@ -95,8 +95,8 @@ int main(int argc, char** argv) {
   ::umask(022);  // emscripten begins with 0777: nobody could read what is written
 #endif
   if (argc > 0) cli::set_called_as(argv[0]);
-  cli::take_up_closed_streams();
-  cli::keep_lines_whole();
+  cli::open_closed_streams();
+  cli::write_whole_lines();
   grid::files::remove_pending_files_on_signals();
   // A limit on file sizes is then an error of writing, reported like any other.
   std::signal(SIGXFSZ, SIG_IGN);

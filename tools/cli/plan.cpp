@@ -105,7 +105,7 @@ bool drills_marks(const PlanOptions& options, const Machine* machine) {
 
 int run_follow_up(Verb verb, PlanOptions options) {
   const InputFile file = open_input(options.follow_up.file);
-  verb.refuse_what_does_nothing(with_program(options, facts_after(file), false));
+  verb.refuse_idle_options(with_program(options, facts_after(file), false));
   options.follow_up.machine = options.machine;
   options.follow_up.output = options.output;
   options.follow_up.drawing = options.drawing;
@@ -125,7 +125,7 @@ int run_check_plan(Verb verb, PlanOptions options) {
   const Machine* machine = map.machine();
   request.margin_mm =
       options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
-  verb.refuse_what_does_nothing(
+  verb.refuse_idle_options(
       with_program(options, facts::check, drills_marks(options, map.machine())));
   return plan_the_check(map, options.check, outputs_of(options));
 }
@@ -135,7 +135,7 @@ int run_plan(Verb verb, PlanOptions options) {
   if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
   const bool of_tape = options.holes.holes != 0;
   const Machine machine = read_machine_input(options.machine);
-  verb.refuse_what_does_nothing(with_program(
+  verb.refuse_idle_options(with_program(
       options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
   if (of_tape) {
     options.holes.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));

@@ -102,7 +102,7 @@ std::string made_from_others(const PlanAfterOptions& options,
                        fmt::join(names, " and "));
   };
   const bool points = is_of(found, sources.grids);
-  const bool distances = is_of_these(found, sources.sets);
+  const bool distances = is_diagnosis_of(found, sources.sets);
   if (points && distances) return {};
   if ((points && sources.sets.empty()) || (distances && sources.grids.empty())) {
     return fmt::format(
@@ -159,7 +159,7 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
 std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
                                              const std::vector<MeasuredGrid>& grids,
                                              const std::vector<MeasuredHoles>& sets) {
-  if (!is_of(found, grids) || !is_of_these(found, sets)) return std::nullopt;
+  if (!is_of(found, grids) || !is_diagnosis_of(found, sets)) return std::nullopt;
   Sources sources{{}, grids, sets};
   for (std::size_t k = 0; k < grids.size(); ++k)
     sources.all.push_back({grids[k].name, false, false, k});
@@ -191,7 +191,7 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
     fmt::print(stderr, "{}", others);
     return kBadInput;
   }
-  say_what_changed(after);
+  report_difference(after);
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found, sources)});
   outputs.push_back({options.output, lines_of(found, sources)});

@@ -128,7 +128,7 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
                file.name);
     return kBadInput;
   }
-  say_what_changed(after);
+  report_difference(after);
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found)});
   outputs.push_back({options.output, points_of(found, read.belts) + distances_of(found)});

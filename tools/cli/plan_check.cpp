@@ -40,7 +40,7 @@ std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
 
 /// Whether a worn chain would be distinguished from a shifted zero. Three sigmas are one chance in
 /// 400, two one in 20.
-std::string_view what_shows(const model::PerSide<double>& sigmas) {
+std::string_view detectable_change(const model::PerSide<double>& sigmas) {
   const double least = std::min(sigmas.left, sigmas.right);
   if (least >= 3.0) return "certainly show it";
   if (least >= 2.0) return "probably show it";
@@ -71,7 +71,7 @@ int plan_the_check(const CompensationMap& map,
              "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).\n",
              plan->marks.size(),
              100.0 * model::kPitchGrowthSigma,
-             what_shows(plan->expected_sigmas),
+             detectable_change(plan->expected_sigmas),
              plan->expected_sigmas.left,
              plan->expected_sigmas.right);
   say_next({"check", options.map, wanted.list});

@@ -151,10 +151,10 @@ int query_anchors(const QueryCommand& command, const InputFile& file) {
 int run_query(Verb verb, const QueryCommand& command) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map, FileKind::anchors, FileKind::plotter});
-  verb.refuse_what_does_nothing((file.kind == FileKind::map       ? facts::map
-                                 : file.kind == FileKind::anchors ? facts::anchors
-                                                                  : facts::plotter) |
-                                (command.outside.way == "fade" ? facts::fade : 0U));
+  verb.refuse_idle_options((file.kind == FileKind::map       ? facts::map
+                            : file.kind == FileKind::anchors ? facts::anchors
+                                                             : facts::plotter) |
+                           (command.outside.way == "fade" ? facts::fade : 0U));
   if (file.kind == FileKind::anchors) return query_anchors(command, file);
   if (file.kind == FileKind::plotter)
     return answer_alone({*load_plotter_map(file, load_plotter(file).plotter)}, command);

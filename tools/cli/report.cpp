@@ -77,7 +77,7 @@ std::string source_of(const InputFile& file) {
 int run_report(Verb verb, const ReportCommand& command) {
   const InputFile file = open_input(command.input);
   require_kind(file, {FileKind::map, FileKind::diagnosis, FileKind::anchors});
-  verb.refuse_what_does_nothing(fact_of(file.kind));
+  verb.refuse_idle_options(fact_of(file.kind));
   const std::string source = source_of(file);
   Reported made = file.kind == FileKind::map         ? of_map(file, command.certificate, source)
                   : file.kind == FileKind::diagnosis ? of_diagnosis(file, source)

@@ -98,7 +98,7 @@ Facts facts_of(const SimulateOptions& options) {
 }
 
 int run_simulate(Verb verb, const SimulateOptions& options) {
-  verb.refuse_what_does_nothing(facts_of(options));
+  verb.refuse_idle_options(facts_of(options));
   if (!options.belts.empty()) return simulate_the_belts(options);
   Machine machine = read_machine_input(options.machine);
   files::declare_effects(options.declared, machine);

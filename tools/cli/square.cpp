@@ -148,7 +148,7 @@ std::string as_json(const model::CutSquare& square, const SquareTask& task) {
   return text;
 }
 
-void say_what_to_do(const SquareOptions& options, const SquareTask& task) {
+void advise(const SquareOptions& options, const SquareTask& task) {
   if (options.program.empty()) {
     std::vector<std::string> again = {"square"};
     if (!options.map.empty()) again.insert(again.end(), {"--map", options.map});
@@ -209,7 +209,7 @@ int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeM
                        plotter == nullptr ? square_program(task, options.depth_mm)
                                           : square_program(task, plotter->set)});
   write_outputs(outputs);
-  say_what_to_do(options, task);
+  advise(options, task);
   return kDone;
 }
 
@@ -218,7 +218,7 @@ int run_square(Verb verb, const SquareOptions& options) {
   const Facts kind = machine == nullptr               ? facts::machine
                      : plotter_of(machine) != nullptr ? facts::plotter
                                                       : facts::map;
-  verb.refuse_what_does_nothing(kind | (options.program.empty() ? 0U : facts::program));
+  verb.refuse_idle_options(kind | (options.program.empty() ? 0U : facts::program));
   return square_with(options, machine);
 }
 

@@ -95,7 +95,7 @@ void QuietTalk::end(bool is_to_be_reported) {
 
 QuietTalk::~QuietTalk() { end(true); }
 
-void keep_lines_whole() {
+void write_whole_lines() {
   struct stat out {};
   struct stat err {};
   if (::fstat(STDOUT_FILENO, &out) != 0 || ::fstat(STDERR_FILENO, &err) != 0) return;

@@ -40,6 +40,6 @@ class QuietTalk {
 
 /// Whether standard output and standard error are the same: lines must then end before others
 /// begin.
-void keep_lines_whole();
+void write_whole_lines();
 
 }  // namespace chaintrue::cli
