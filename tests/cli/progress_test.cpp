@@ -106,7 +106,7 @@ grid::MeasuredGrid demo_grid() {
   return grid::files::read_grid(CHAINTRUE_FIXTURES "/grids/seven_by_four.json").grid;
 }
 
-TEST(LongWork, OfAFitAndACheckReportsEachStep) {
+TEST(LongWork, FitAndCheckReportEachStep) {
   Told fitted, checked;
   grid::FitOptions options;
   options.progress = fitted.progress();
@@ -118,7 +118,7 @@ TEST(LongWork, OfAFitAndACheckReportsEachStep) {
   EXPECT_GT(checked.steps[1].share, 0.9);  // 33 of 34 points
 }
 
-TEST(LongWork, OfADiagnosisReportsEachStep) {
+TEST(LongWork, DiagnosisReportsEachStep) {
   Told told;
   grid::diagnosis::DiagnosisOptions options;
   options.progress = told.progress();
@@ -126,7 +126,7 @@ TEST(LongWork, OfADiagnosisReportsEachStep) {
   EXPECT_THAT(told.numbers(), ElementsAre(1, 2, 3, 4));
 }
 
-TEST(LongWork, OfAPlanAndASimulationReportsItsShare) {
+TEST(LongWork, PlanAndSimulationReportTheirShare) {
   Told planned, read;
   grid::HolesPlanRequest request;
   request.progress = planned.progress();

@@ -104,7 +104,7 @@ TEST(BeltEffects, ALevelPrintRemovesTheConfiguredHeights) {
               1e-11);
 }
 
-TEST(BeltEffects, WhatCannotBeIsReported) {
+TEST(BeltEffects, ReportImpossibleValues) {
   EXPECT_TRUE(
       effects::problems_in(belt_effects(), {{"belt_zero", "all", {{"offset_mm", 2.0}}}}).empty());
   const auto problems =

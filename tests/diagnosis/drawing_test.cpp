@@ -47,9 +47,10 @@ TEST(DrawingDiagnosis, TreatsABadZeroAsASetting) {
   EXPECT_EQ(found->verdict, Verdict::nothing_found);
   EXPECT_THAT(found->sentence, HasSubstr("Settings are off, and nothing else is wrong: zero left"));
   ASSERT_TRUE(found->drawing);
-  const auto zero = std::find_if(found->drawing->settings.begin(),
-                                 found->drawing->settings.end(),
-                                 [](const DrawnSetting& own) { return own.name == "zero_left_mm"; });
+  const auto zero =
+      std::find_if(found->drawing->settings.begin(),
+                   found->drawing->settings.end(),
+                   [](const DrawnSetting& own) { return own.name == "zero_left_mm"; });
   ASSERT_NE(zero, found->drawing->settings.end());
   // The fixture was drawn with zeros 23 mm off; three of its sigmas of 2 mm.
   EXPECT_NEAR(zero->found, 23.0, 6.0);
@@ -57,8 +58,8 @@ TEST(DrawingDiagnosis, TreatsABadZeroAsASetting) {
 }
 
 TEST(DrawingDiagnosis, ACauseThatNoSettingsMakeIsNamedWithItsSize) {
-  const auto found = diagnose(
-      drawn_with(model::mural(1500.0), {{"servo_arm", "", {{"offset_mm", 10.0}}}}, 5));
+  const auto found =
+      diagnose(drawn_with(model::mural(1500.0), {{"servo_arm", "", {{"offset_mm", 10.0}}}}, 5));
   ASSERT_TRUE(found) << found.error().sentence();
   ASSERT_THAT(found->causes, SizeIs(1));
   EXPECT_EQ(found->causes.front().cause.effect->id, "servo_arm");
@@ -81,7 +82,7 @@ TEST(DrawingDiagnosis, RejectsABadMeasureByName) {
   EXPECT_THAT(found->sentence, HasSubstr(words_of(drawing, 3)));
 }
 
-TEST(DrawingDiagnosis, RefusesASlipAsTheFitDoes) {
+TEST(DrawingDiagnosis, RefusesTheSlipsThatTheFitRefuses) {
   TestDrawing drawing = drawn_with(model::mural(1500.0), {}, 7);
   for (auto& m : drawing.measures) m.value_mm /= 25.4;
   const auto found = diagnose(drawing);

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
-#include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
+#include "grid/diagnosis/findings.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
@@ -82,8 +82,7 @@ TEST(Discrepancy, LowRankEqualsTheDenseCovariance) {
     const Eigen::LLT<Eigen::MatrixXd> llt(v);
     const Eigen::VectorXd e = llt.solve(marginalised.e);
     const double log_det =
-        marginalised.log_det +
-        2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+        marginalised.log_det + 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
     // A ten-thousandth of the field's variance, which is strength squared, is truncated at any
     // position.
     const double tolerance = 1e-4 * strength * strength;
@@ -100,8 +99,7 @@ TEST(Discrepancy, LowRankEqualsTheDenseCovariance) {
 }
 
 TEST(Remainder, ACauseIsNamedBesideAPattern) {
-  const auto found =
-      diagnose(with_dent(session_of({kLongLeft}, 11, 10, 6)), verdict_alone());
+  const auto found = diagnose(with_dent(session_of({kLongLeft}, 11, 10, 6)), verdict_alone());
   ASSERT_TRUE(found);
   EXPECT_EQ(found->verdict, Verdict::named) << found->sentence;
   ASSERT_FALSE(found->causes.empty());
@@ -110,8 +108,8 @@ TEST(Remainder, ACauseIsNamedBesideAPattern) {
   EXPECT_GT(found->unexplained->probability, 0.99);
   // 0.6 to 0.8 is 8 degrees from equal, and equal changes of the chains move the tool along y.
   EXPECT_THAT(found->unexplained->enters, testing::AnyOf(Enters::equal, Enters::y));
-  EXPECT_GT(found->unexplained->length_mm, 120.0);       // a dent of one sigma 250 mm, to a factor
-  EXPECT_LT(found->unexplained->length_mm, 500.0);       // of two
+  EXPECT_GT(found->unexplained->length_mm, 120.0);  // a dent of one sigma 250 mm, to a factor
+  EXPECT_LT(found->unexplained->length_mm, 500.0);  // of two
   EXPECT_THAT(found->sentence, HasSubstr("Also, a pattern of"));
 }
 
@@ -139,7 +137,7 @@ TEST(Remainder, ProposesMarksBeforeACauseIsNamed) {
   EXPECT_EQ(open, 1) << "no session asks the question";
 }
 
-TEST(Remainder, PredictsMeasuredRowsAsTheFit) {
+TEST(Remainder, PredictsMeasuredRowsLikeTheFit) {
   const Analysis a = analysis_of(with_dent(session_of({kLongLeft}, 11, 10, 6)));
   const auto alternatives = alternatives_about(a, a.session);
   ASSERT_TRUE(alternatives);
@@ -182,7 +180,7 @@ TEST(Budget, PartsAddUpToTheError) {
       along += 0.5 * (whole + line.mean_square_mm2 - std::pow(*line.without_mm, 2));
     }
     EXPECT_NEAR(along, whole, 1e-9 * whole);  // rounding
-    EXPECT_NEAR(sum, whole, 1e-9 * whole);  // rounding
+    EXPECT_NEAR(sum, whole, 1e-9 * whole);    // rounding
     EXPECT_NEAR(share, 1.0, 1e-9);
     EXPECT_EQ(found->budget->lines.back().what, BudgetLine::What::inseparable);
   }
@@ -200,7 +198,8 @@ TEST(Budget, APartIsTheErrorFromItsCause) {
   ASSERT_NE(cause, found->budget->lines.end());
   ASSERT_TRUE(cause->part_mm);
   EXPECT_GT(*cause->part_mm, 0.1);
-  EXPECT_LT(*cause->part_mm, 0.6);  // far from the left motor both chains hang steeply: a lever of 3
+  EXPECT_LT(*cause->part_mm,
+            0.6);  // far from the left motor both chains hang steeply: a lever of 3
 }
 
 }  // namespace

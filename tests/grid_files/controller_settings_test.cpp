@@ -25,7 +25,7 @@ TEST(ControllerSettings, UseTheNamesOfTheirFile) {
   EXPECT_EQ(settings.front().text, "2438.4");
 }
 
-TEST(ControllerSettings, OfAnExportEqualTheExported) {
+TEST(ControllerSettings, RoundTripThroughAnExport) {
   model::Machine machine = imported();
   *machine.controller.settings.motor_spacing_mm += 1.23456789;
   const GroundcontrolText text =
@@ -65,7 +65,7 @@ TEST(ControllerSettings, DistinguishChainSettings) {
   EXPECT_THAT(of_the_chain(changes), SizeIs(2));
 }
 
-TEST(ControllerSettings, OfAWallPlotterAreItsAnchors) {
+TEST(ControllerSettings, ReadAWallPlottersAnchors) {
   model::Machine machine;
   machine.controller.kind = model::ControllerKind::fluidnc_wallplotter;
   std::vector<std::string> names;

@@ -45,7 +45,7 @@ class Damage : public ::testing::TestWithParam<FixtureFile> {
   std::size_t step_ = 1;
 };
 
-TEST_P(Damage, CutOffAnywhere) {
+TEST_P(Damage, RefusesFilesCutOffAnywhere) {
   for (std::size_t place = 0; place < text_.size(); place += step_) {
     expect_refused_or_whole(text_.substr(0, place), place);
   }

@@ -12,11 +12,12 @@ namespace {
 
 FileKind kind(const std::string& text) { return kind_of(text, "file"); }
 
-TEST(FileKind, OfJsonFollowsFromItsType) {
+TEST(FileKind, JsonIsRecognisedByItsType) {
   EXPECT_EQ(kind(R"({"file_type": "chaintrue_map"})"), FileKind::map);
   EXPECT_EQ(kind(R"({"name": "chaintrue_map", "file_type": "chaintrue_grid"})"), FileKind::grid);
-  EXPECT_EQ(kind(R"({"machine": {"file_type": "chaintrue_machine"}, "file_type": "chaintrue_belts"})"),
-            FileKind::belts);
+  EXPECT_EQ(
+      kind(R"({"machine": {"file_type": "chaintrue_machine"}, "file_type": "chaintrue_belts"})"),
+      FileKind::belts);
   EXPECT_EQ(kind("\xEF\xBB\xBF \n {\"file_type\": \"chaintrue_anchors\"}"), FileKind::anchors);
   EXPECT_EQ(kind(R"({"x": NaN, "file_type": "chaintrue_diagnosis"})"), FileKind::diagnosis);
   EXPECT_EQ(kind(R"({"file_type": "chaintrue_gird"})"), FileKind::other);
@@ -24,7 +25,7 @@ TEST(FileKind, OfJsonFollowsFromItsType) {
   EXPECT_EQ(kind("[1, 2]"), FileKind::other);
 }
 
-TEST(FileKind, OfHolesFollowsFromTheirMachine) {
+TEST(FileKind, HolesAreRecognisedByTheirMachine) {
   const std::string begin = R"({"file_type": "chaintrue_holes", )";
   EXPECT_EQ(kind(begin + R"("machine": {"anchors": {}}})"), FileKind::belt_holes);
   EXPECT_EQ(kind(begin + R"("holes": [{"name": "anchors"}]})"), FileKind::holes);

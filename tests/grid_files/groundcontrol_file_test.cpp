@@ -79,7 +79,7 @@ void expect_the_way_there_and_back(const std::string& ini) {
   }
 }
 
-TEST(GroundcontrolSettings, OfEveryFixtureRoundTrip) {
+TEST(GroundcontrolSettings, RoundTripForEveryFixture) {
   std::vector<std::filesystem::path> files;
   for (const auto& folder : {std::filesystem::path(CHAINTRUE_FIXTURES) / "good", kSettings}) {
     if (!std::filesystem::exists(folder)) continue;
@@ -129,7 +129,7 @@ std::string random_ini(std::mt19937_64& bits) {
   return text;
 }
 
-TEST(GroundcontrolSettings, OfRandomFilesRoundTrip) {
+TEST(GroundcontrolSettings, RoundTripForRandomFiles) {
   constexpr std::uint64_t kSeed = 20260816;
   SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   std::mt19937_64 bits(kSeed);

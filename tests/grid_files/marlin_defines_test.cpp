@@ -33,31 +33,31 @@ struct Meaning {
 };
 
 TEST(MarlinDefines, MatchTheCompiler) {
-  const Meaning meanings[] = {
-      {"#define X_BED_SIZE 650 // mm", "650"},
-      {"# define X_BED_SIZE /* motor to motor */ 650.5f", "650.5"},
-      {"#define X_BED_SIZE \\\n  650", "650"},
-      {"/* #define X_BED_SIZE 1\n */\n#define X_BED_SIZE 650", "650"},
-      {"//#define X_BED_SIZE 1", std::nullopt},
-      {"#define A 20+30\n#define X_BED_SIZE A*2", "80"},
-      {"#define A 650.0\n#define X_BED_SIZE (-A/4)", "-162.5"},
-      {"#define X_BED_SIZE 4.0 - sqrt( sq(3) + sq(4.0) )", "-1"},
-      // Whole numbers are cut, wherever they stand.
-      {"#define X_BED_SIZE 575/2", std::nullopt},
-      {"#define X_BED_SIZE 0.5 + sq(575/2)", std::nullopt},
-      {"#define X_BED_SIZE 1/0", std::nullopt},
-      {"#define X_BED_SIZE X_BED_SIZE", std::nullopt},
-      {"#define A B B\n#define B A A\n#define X_BED_SIZE A", std::nullopt},
-      {"#define X_BED_SIZE", std::nullopt},
-      {"#define X_BED_SIZE 6 50", std::nullopt},
-      {"#define X_BED_SIZE 650,5", std::nullopt}};
+  const Meaning meanings[] = {{"#define X_BED_SIZE 650 // mm", "650"},
+                              {"# define X_BED_SIZE /* motor to motor */ 650.5f", "650.5"},
+                              {"#define X_BED_SIZE \\\n  650", "650"},
+                              {"/* #define X_BED_SIZE 1\n */\n#define X_BED_SIZE 650", "650"},
+                              {"//#define X_BED_SIZE 1", std::nullopt},
+                              {"#define A 20+30\n#define X_BED_SIZE A*2", "80"},
+                              {"#define A 650.0\n#define X_BED_SIZE (-A/4)", "-162.5"},
+                              {"#define X_BED_SIZE 4.0 - sqrt( sq(3) + sq(4.0) )", "-1"},
+                              // Whole numbers are cut, wherever they stand.
+                              {"#define X_BED_SIZE 575/2", std::nullopt},
+                              {"#define X_BED_SIZE 0.5 + sq(575/2)", std::nullopt},
+                              {"#define X_BED_SIZE 1/0", std::nullopt},
+                              {"#define X_BED_SIZE X_BED_SIZE", std::nullopt},
+                              {"#define A B B\n#define B A A\n#define X_BED_SIZE A", std::nullopt},
+                              {"#define X_BED_SIZE", std::nullopt},
+                              {"#define X_BED_SIZE 6 50", std::nullopt},
+                              {"#define X_BED_SIZE 650,5", std::nullopt}};
   for (const Meaning& own : meanings) EXPECT_EQ(value_of(own.text), own.value) << own.text;
 }
 
 TEST(MarlinDefines, CountWhereTheirConditionHolds) {
   const auto in = [](const char* condition) {
     return fmt::format(
-        "#define ON\n#define OFF false\n#if {}\n#define X_BED_SIZE 1\n#else\n#define X_BED_SIZE 2\n#endif",
+        "#define ON\n#define OFF false\n#if {}\n#define X_BED_SIZE 1\n#else\n#define X_BED_SIZE "
+        "2\n#endif",
         condition);
   };
   const Meaning meanings[] = {{"ENABLED(ON)", "1"},
@@ -79,13 +79,14 @@ TEST(MarlinDefines, CountWhereTheirConditionHolds) {
   EXPECT_EQ(value_of("#if ENABLED(A)\n#define X_BED_SIZE 1\n#elif 1\n#define X_BED_SIZE 2\n"
                      "#elif 1\n#define X_BED_SIZE 3\n#endif"),
             "2");
-  EXPECT_EQ(value_of("#define X_BED_SIZE 1\n#ifndef X_BED_SIZE\n#define X_BED_SIZE 2\n#endif"), "1");
+  EXPECT_EQ(value_of("#define X_BED_SIZE 1\n#ifndef X_BED_SIZE\n#define X_BED_SIZE 2\n#endif"),
+            "1");
   EXPECT_EQ(value_of("#define X_BED_SIZE 1\n#undef X_BED_SIZE\n#define X_BED_SIZE 2"), "2");
   // An excerpt need not contain the names in its #if.
   EXPECT_EQ(value_of("#if ENABLED(POLARGRAPH)\n#define X_BED_SIZE 1\n#endif"), "1");
 }
 
-TEST(MarlinDefines, OfAShippedConfigurationGiveThePlotter) {
+TEST(MarlinDefines, DescribeThePlotterOfAShippedConfiguration) {
   const std::string text = R"(
 #define POLARGRAPH
 #if ENABLED(POLARGRAPH)

@@ -36,7 +36,7 @@ TEST(QuinticSpline, BeatsTheBicubicOnSmoothDataAsTheStudyFound) {
 }
 
 // Not a cubic, but a sum of one function of x and one of y.
-TEST(MissingNodes, OfASumOverTheAxesAreFilledExactly) {
+TEST(MissingNodes, FillASumOverTheAxesExactly) {
   const auto x = even(0, 6, 7);
   const auto y = even(0, 4, 5);
   const Eigen::MatrixXd whole =
@@ -71,7 +71,7 @@ TEST(MissingNodes, FillACubicExactly) {
   }
 }
 
-TEST(MissingNodes, OfASmoothResidualCostAtMostTwoHundredths) {
+TEST(MissingNodes, FillASmoothResidualToTwoHundredths) {
   const auto x = even(kBed.x_min, kBed.x_max, 9);
   const auto y = even(kBed.y_min, kBed.y_max, 5);
   // The part of the unmodelled 0.8 mm that remains after calibration: its higher half.

@@ -43,7 +43,7 @@ TEST(ToolError, PointsDownWhereTheToolHangsLow) {
     EXPECT_NEAR(point.as_stated_mm.y(), -kLowMm, kRoundingMm);
 }
 
-TEST(ToolError, OfALeftOutPointPointsToItsTypedPlace) {
+TEST(ToolError, PointsFromALeftOutPointToItsTypedPlace) {
   MeasuredGrid grid = grid_of_a_tool_that_hangs_low();
   constexpr std::size_t kMiddle = 10;
   grid.points[kMiddle].mark.y_mm -= 3.0;

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "grid/map/fit.hpp"
-#include "model/reading_model.hpp"
 #include "model/controllers/payout.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -45,16 +45,17 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 7; ++column) {
       const model::BedPoint command{-1080.0 + 360.0 * column, -510.0 + 340.0 * row};
-      grid.points.push_back({model::identity_placement(*true_one->command(*answer->lengths(command))),
-                             std::nullopt,
-                             command,
-                             std::nullopt});
+      grid.points.push_back(
+          {model::identity_placement(*true_one->command(*answer->lengths(command))),
+           std::nullopt,
+           command,
+           std::nullopt});
     }
   }
   return grid;
 }
 
-TEST(SettingsToType, OfASoundMachineDoNotChange) {
+TEST(SettingsToType, StayTheSameForASoundMachine) {
   const Machine machine = imported_machine();
   const auto map = fit(grid_of(machine, machine.controller.settings));
   ASSERT_TRUE(map) << map.error().sentence();

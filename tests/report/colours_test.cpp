@@ -23,11 +23,21 @@ const std::set<std::string> kMeanings = {
 const std::set<std::string> kGround = {
     "#1b2330", "#5b6675", "#a98a5b", "#8a6d3f", "#d8b98a", "#ffffff", "#f4f6f8"};
 /// Scales of a quantity from little to much, and the lines of a sweep.
-const std::set<std::string> kScales = {
-    "#fdfdf5", "#d6e8d0", "#8fc6c4", "#4a94b8", "#2f5d9b", "#253471",  // expected error
-    "#9bbdd6",                                                         // the stem of a point
-    "#440154", "#3b528b", "#1f8a86", "#c07a00", "#c0281c",             // error along a program
-    "#56b4e9", "#999933", "#e69f00"};                                  // lines of a sweep
+const std::set<std::string> kScales = {"#fdfdf5",
+                                       "#d6e8d0",
+                                       "#8fc6c4",
+                                       "#4a94b8",
+                                       "#2f5d9b",
+                                       "#253471",  // expected error
+                                       "#9bbdd6",  // the stem of a point
+                                       "#440154",
+                                       "#3b528b",
+                                       "#1f8a86",
+                                       "#c07a00",
+                                       "#c0281c",  // error along a program
+                                       "#56b4e9",
+                                       "#999933",
+                                       "#e69f00"};  // lines of a sweep
 
 std::set<std::string> colours_in(const std::string& text) {
   static const std::regex kColour("#[0-9a-fA-F]{6}\\b");
@@ -39,7 +49,7 @@ std::set<std::string> colours_in(const std::string& text) {
   return found;
 }
 
-TEST(Colours, OfChartsAreOnTheList) {
+TEST(Colours, ChartsUseListedColours) {
   std::set<std::string> used;
   for (const EmbeddedFile& chart : embedded_files("chart")) {
     for (const std::string& colour : colours_in(std::string(chart.text))) {
@@ -53,12 +63,12 @@ TEST(Colours, OfChartsAreOnTheList) {
   for (const std::string& colour : kScales) EXPECT_TRUE(used.contains(colour)) << colour;
 }
 
-TEST(Colours, OfThePageMatchTheCharts) {
+TEST(Colours, ThePageMatchesTheCharts) {
   const std::string style(embedded_text("asset", "page.css"));
   EXPECT_THAT(style, ::testing::HasSubstr(std::string("--blue: ") + kAfterColor));
 }
 
-TEST(Colours, OfPythonPlotsMatchTheCharts) {
+TEST(Colours, PythonPlotsMatchTheCharts) {
   const std::string text =
       testing_support::read_text(CHAINTRUE_FIXTURES "/../tools/python/chaintrue/_plots.py");
   ASSERT_FALSE(text.empty());

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "model/reading_model.hpp"
-#include "tests/support/sample_diagnosis.hpp"
 #include "tests/report/made_pages.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -29,11 +29,12 @@ TEST(DiagnosisPage, FoldsALawIntoOnePeriod) {
   EXPECT_THAT(page_of(diagnosis_with_laws()), HasSubstr("full period of 63.5"));
 }
 
-TEST(DiagnosisPage, OfHolesShowsDistances) {
+TEST(DiagnosisPage, ShowsDistancesOfHoles) {
   const Diagnosis found = diagnosis_of_holes();
   EXPECT_EQ(found.outliers.size(), 1U);
   const std::string html = page_of(found);
-  for (const char* text : {"8 of 9 times", "(0, -500), measured to A, C."}) EXPECT_THAT(html, HasSubstr(text));
+  for (const char* text : {"8 of 9 times", "(0, -500), measured to A, C."})
+    EXPECT_THAT(html, HasSubstr(text));
   EXPECT_THAT(html, Not(HasSubstr("Over one sprocket turn")));
 }
 

@@ -43,7 +43,7 @@ void expect_readable(const std::vector<DrawnHole>& holes) {
   }
 }
 
-TEST(HoleLabels, OfPlannedHolesAreUnambiguous) {
+TEST(HoleLabels, AreUnambiguousForPlannedHoles) {
   for (const int holes : {4, 9, 16, grid::kMostPlannedHoles}) {
     SCOPED_TRACE(::testing::Message() << holes << " holes");
     const auto plan = grid::plan_holes(model::Machine{}, {.holes = holes});
@@ -62,7 +62,7 @@ TEST(HoleLabels, OfPlannedHolesAreUnambiguous) {
 }
 
 // Holes that a plan puts together are 150 mm apart and more: 55 units of a sheet of 2.4 m.
-TEST(HoleLabels, OfRandomHolesAreUnambiguous) {
+TEST(HoleLabels, AreUnambiguousForRandomHoles) {
   constexpr double kApart = 55.0, kHigh = 450.0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);

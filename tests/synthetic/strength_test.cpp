@@ -22,7 +22,7 @@ StatedNoise noise_of(double length_mm, double position_mm) {
   return noise;
 }
 
-TEST(Signature, OfAPaperEffectIsTheShiftOfTheMap) {
+TEST(Signature, OfPaperEffectsEqualsTheMapsShift) {
   const Machine machine;
   const std::vector<model::Visit> visits = regular_session(machine, 5, 4);
   const auto shift =
@@ -36,7 +36,7 @@ TEST(Signature, OfAPaperEffectIsTheShiftOfTheMap) {
   }
 }
 
-TEST(Signature, OfAMachineEffectIsTheShiftOfTheTool) {
+TEST(Signature, OfMachineEffectsEqualsTheToolsShift) {
   const Machine machine;
   const std::vector<model::Visit> visits = regular_session(machine, 5, 4);
   const model::AppliedEffect stretch{"chain_stretch", "", {{"compliance_per_n", 1e-7}}};
@@ -62,7 +62,8 @@ TEST(Strength, FollowsNoiseAndPoints) {
   const StrengthTable table(machine, session, noise_of(0.2, 0.3));
   const EffectStrength s = table.strength(kink, EffectSide::left);
   // 4.5 mm/rad is the usual size.
-  EXPECT_NEAR(s.detectable_size * s.signal_to_noise / 4.5, kDetectableSignalToNoise, 1e-9);  // rounding
+  EXPECT_NEAR(
+      s.detectable_size * s.signal_to_noise / 4.5, kDetectableSignalToNoise, 1e-9);  // rounding
   EXPECT_GT(s.share_left, 0.0);
   EXPECT_LE(s.share_left, 1.0);
   const StrengthTable twice(machine, session, noise_of(0.4, 0.6));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What everything that has a file shares: its contents, equality, pickle, and a notebook's view."""
+"""What every object with a file has in common: contents, equality, pickling and a notebook's view."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from ._records import Record, table
 from ._run import File, run
 
 PathLike = Union[str, "os.PathLike[str]"]
-"""A path of a file."""
+"""The path of a file."""
 Sources = Sequence[tuple[str, str]]
-"""Files that were read, by name without folders and SHA-256."""
+"""The files that were read: name without folders, and SHA-256."""
 
 
 class Written:
-    """What has the text of a JSON file, and does not change."""
+    """An immutable object with the text of a JSON file."""
 
     _text: str
 
@@ -33,11 +33,11 @@ class Written:
         return self.to_dict()
 
     def to_dict(self) -> dict[str, Any]:
-        """The contents of its JSON file (docs/formats) as dictionaries and lists."""
+        """The contents of the JSON file (docs/formats) as dictionaries and lists."""
         return json.loads(self._text)
 
     def write(self, path: PathLike) -> None:
-        """Writes its JSON file, whole or not at all; the same object gives the same bytes."""
+        """Writes the JSON file atomically; the same object gives the same bytes."""
         _core.write(os.fspath(path), self._text)
 
     def __eq__(self, other: object) -> bool:
@@ -49,14 +49,14 @@ class Written:
         return hash(json.dumps(self._content()))
 
     def _content(self) -> dict[str, Any]:
-        """What makes two of them equal: all but where it comes from."""
+        """The contents that equality compares: everything but the origin."""
         return {k: v for k, v in self._contents.items() if k not in ("made_by", "content_hash")}
 
 
 def key(
     name: str, meaning: str, shown: Callable[[Any], Any] = Record.of, missing: Any = None
 ) -> Any:
-    """A property of a Written thing: what its file has under this name, `missing` where it has nothing."""
+    """A property that returns the file's value of this name, or `missing`."""
 
     def get(self: Written) -> Any:
         return shown(self._contents.get(name, missing))
@@ -66,7 +66,7 @@ def key(
 
 
 class Filed(Written):
-    """A thing of the library, by the text of its file."""
+    """An object of the library, held as the text of its file."""
 
     _sources: Sources
 
@@ -82,7 +82,7 @@ class Filed(Written):
         return thing
 
     def _become(self, contents: dict[str, Any], sources: Sources, few: bool = False) -> None:
-        """What a file with these contents is; keys without a value are left out."""
+        """The object that a file with these contents describes; keys without a value are dropped."""
         kind = type(self).__name__.lower()
         text = text_of(contents, f"chaintrue_{kind}")
         self._text, _ = _core.parse(kind, text, "arrays", "", few)
@@ -90,7 +90,7 @@ class Filed(Written):
 
     @classmethod
     def from_dict(cls, contents: dict[str, Any]) -> Any:
-        """The thing whose to_dict() this is, held to what a file is held to."""
+        """The object with this to_dict(), checked as a file is."""
         return told(cls, parsed(cls, json.dumps(contents), "the dictionary"))
 
     @property
@@ -104,7 +104,7 @@ class Filed(Written):
         return f"<chaintrue.{type(self).__name__} {self.name!r}: {in_words(self._facts())}>"
 
     def _facts(self) -> dict[str, Any]:
-        """What repr and a notebook tell, a value for each word."""
+        """The values that repr and a notebook show, by label."""
         return {}
 
     def _repr_html_(self) -> str:
@@ -112,7 +112,7 @@ class Filed(Written):
 
 
 class Made(Filed):
-    """A result, which knows what it was made from, and has a page of its own, which a notebook shows."""
+    """A result with its sources and an HTML report, which a notebook shows."""
 
     made_by: Optional[Record] = key(
         "made_by",
@@ -122,18 +122,18 @@ class Made(Filed):
 
     @property
     def _file(self) -> File:
-        """By the name of the file that it was read from, which stands in a program's head."""
+        """The name of the file that it was read from, for a program's header."""
         return File(self._sources[0][0], self._text) if self._sources else super()._file
 
     @classmethod
     def _by(cls, *words: Union[str, File], sources: Sources) -> Any:
-        """What a verb makes, by the sources of its inputs in place of the run's own files."""
+        """The output of a verb, with the sources of its inputs instead of the run's temporary files."""
         result = cls.__name__.lower() + ".json"
         files, _, _ = run(*words, "-o", result, out=[result], sources=sources)
         return cls._of(files[result])
 
     def _page(self, source: str, *options: str) -> str:
-        """As `chaintrue report` makes it of a file with that name."""
+        """The page that `chaintrue report` writes for a file of that name."""
         page = "page.html"
         file = File(pathlib.PurePath(source).name or "Python", self._text)
         return run("report", file, "-o", page, *options, out=[page])[0][page]
@@ -143,43 +143,43 @@ class Made(Filed):
 
 
 def inputs(things: Iterable[Filed]) -> list[Union[str, File]]:
-    """The words that name these things' files to a verb."""
+    """The arguments that pass these objects' files to a verb."""
     words = [word for thing in things for word in ("--with", thing._file)]
     return words[1:]
 
 
 def parsed(kind: type[Filed], text: str, file: str) -> tuple[str, list[str]]:
-    """A text as this version writes it, and what was assumed of it."""
+    """A file's text in this version's form, and the assumptions made in reading it."""
     return _core.parse(kind.__name__.lower(), text, file, "", True)
 
 
 def from_file(
     kind: type[Filed], path: PathLike, machine: Optional[Filed] = None, few: bool = False
 ) -> tuple[str, list[str], Sources]:
-    """The same of a file, on that machine, and the files that were read for it."""
+    """The same for a file, with that machine, and the files that were read for it."""
     stated = "" if machine is None else machine._text
     return _core.read(kind.__name__.lower(), os.fspath(path), stated, few)
 
 
 def _again(kind: type[Filed], text: str, sources: Sources) -> Any:
-    """What was pickled."""
+    """Restores a pickled object."""
     return told(kind, (*parsed(kind, text, f"the stored {kind.__name__}"), sources))
 
 
 def sources_of(*things: Optional[Filed]) -> list[tuple[str, str]]:
-    """The files of all of them, each once."""
+    """The files of all objects, each once."""
     return list(dict.fromkeys(source for thing in things if thing is not None for source in thing._sources))
 
 
 def facts_table(title: str, facts: dict[str, Any]) -> str:
-    """A table with a row for each fact; "mm error" is called "error, mm"."""
+    """A table with one row per value; "mm error" is shown as "error, mm"."""
     names = [f"{key[3:]}, mm" if key.startswith("mm ") else key for key in facts]
     values = [str(fact) for fact in facts.values()]
     return f"<b>{html.escape(title)}</b>" + table({"": names, " ": values})
 
 
 def framed(page: str, height: int = 640) -> str:
-    """A whole page inside a notebook's: neither sees the other's style."""
+    """A page in a frame of the notebook, so that their styles stay apart."""
     return (
         f'<iframe sandbox="allow-scripts" srcdoc="{html.escape(page)}" '
         f'style="width:100%;height:{height}px;border:0"></iframe>'
@@ -200,13 +200,13 @@ def in_words(facts: dict[str, Any]) -> str:
 
 
 def text_of(contents: dict[str, Any], file_type: str) -> str:
-    """A file's text of contents made here; keys without a value are left out."""
+    """The text of a file with these contents; keys without a value are dropped."""
     head = {"file_type": file_type, "format_version": _core.format_version(file_type)}
     return json.dumps({**head, **{k: v for k, v in contents.items() if v is not None}})
 
 
 def rows(numbers: Any, name: str, columns: int = 2) -> numpy.ndarray:
-    """An (n, columns) float64 array of finite numbers, or ValueError."""
+    """Returns an (n, columns) float64 array of finite numbers; raises ValueError otherwise."""
     array = numpy.asarray(numbers, dtype=numpy.float64)
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}")
@@ -217,7 +217,7 @@ def rows(numbers: Any, name: str, columns: int = 2) -> numpy.ndarray:
 
 
 def same_count(counts: dict[str, Optional[int]]) -> None:
-    """That all have as many rows as the first, None where there is no such list; or ValueError."""
+    """Raises ValueError unless all arrays have as many rows as the first; None is skipped."""
     first, *others = counts
     for name in others:
         if counts[name] is not None and counts[name] != counts[first]:

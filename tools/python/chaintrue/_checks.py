@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""New readings against a map, or against anchors."""
+"""Checks of maps and anchors with new readings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ._run import run
 
 
 class Check(Written):
-    """Whether a map, or anchors, still hold. Its file is what `chaintrue check --json` writes."""
+    """Whether a map or anchors are still valid; the file is that of `chaintrue check --json`."""
 
     def __init__(self, text: str, page: str):
         self._text = text
@@ -32,13 +32,13 @@ class Check(Written):
 
     @property
     def valid(self) -> bool:
-        """It holds as it is, and the new readings are enough to say so."""
+        """True if it is valid as it is and the new readings suffice to say so."""
         has_changed = "settings_have_changed" in self._contents
         return self.decided and self.verdict == "valid" and not has_changed
 
     @property
     def residuals(self) -> Records:
-        """How far the new readings lie from what was expected, with sigmas; mm."""
+        """Residuals of the new readings and their sigmas, mm."""
         return records(self._contents.get("residuals") or self._contents.get("places"))
 
     def to_frame(self) -> Any:
@@ -46,7 +46,7 @@ class Check(Written):
         return self.residuals.to_frame()
 
     def plot(self, ax: Any = None) -> Any:
-        """The probabilities of what may have changed; the axes are given back."""
+        """Plots the probability of each possible change; returns the axes."""
         return _plots.probabilities(self.hypotheses, "what", ax)
 
     def __repr__(self) -> str:

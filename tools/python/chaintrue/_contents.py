@@ -10,12 +10,12 @@ import numpy
 from ._base import rows, same_count
 
 Readings = Iterable[dict[str, Any]]
-"""What was measured besides, as in a file: {"what": "link_pitch_mm", "side": "left", "value": 6.353,
+"""An additional reading, as in a file: {"what": "link_pitch_mm", "side": "left", "value": 6.353,
 "sigma": 0.001}."""
 
 
 def points_of(marks: Any, lengths: Any, commanded: Any, order: Any) -> list[dict[str, Any]]:
-    """The "points" of a grid."""
+    """The "points" entry of a grid."""
     places = rows(marks, "marks")
     points: list[dict[str, Any]] = [{"x_mm": x, "y_mm": y} for x, y in places.tolist()]
     if lengths is not None:
@@ -28,7 +28,7 @@ def points_of(marks: Any, lengths: Any, commanded: Any, order: Any) -> list[dict
 
 
 def add_visits(points: list[dict[str, Any]], commanded: Any, order: Any, rows_are: str) -> None:
-    """Adds commanded places and numbers of visits, where they are given."""
+    """Adds commanded places and visit numbers, if given."""
     if commanded is not None:
         sent = rows(commanded, "commanded")
         same_count({rows_are: len(points), "commanded places": len(sent)})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Why a machine errs."""
+"""Diagnoses: the causes of a machine's errors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._records import Record, Records, records
 
 
 class Cause(Record):
-    """A cause: a dictionary, and each key an attribute."""
+    """A cause: a dictionary whose keys are attributes too."""
 
     effect: str
     """Its name in the catalogue (chaintrue effects): chain_pitch_error."""
@@ -25,7 +25,7 @@ class Cause(Record):
 
 
 class Diagnosis(Made):
-    """Why a machine errs, and how sure that is (docs/diagnosis.md)."""
+    """The causes of a machine's errors and their probabilities (docs/diagnosis.md)."""
 
     name: str = key("grid_name", "What was diagnosed, as its file calls it.", missing="")
     sentence: str = key("sentence", "The answer.")
@@ -54,7 +54,7 @@ class Diagnosis(Made):
 
     @property
     def machine(self) -> Optional[Machine]:
-        """The Machine with what was found in it: what to fit on. None of four belts."""
+        """The Machine extended by the causes found, to fit on; None for four belts."""
         return machine_in(self._contents, "extended_machine")
 
     def to_frame(self) -> Any:
@@ -62,7 +62,7 @@ class Diagnosis(Made):
         return self.causes.to_frame()
 
     def plot(self, ax: Any = None) -> Any:
-        """The probabilities of what was weighed; the axes are given back."""
+        """Plots the probabilities of the hypotheses; returns the axes."""
         return _plots.probabilities(self.hypotheses, "effect", ax)
 
     def __repr__(self) -> str:

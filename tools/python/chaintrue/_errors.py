@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What goes wrong, with fields for a program and a sentence for a person."""
+"""Errors, with fields for a program and a sentence for a person."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Problem(NamedTuple):
-    """One thing that is wrong in an input."""
+    """One problem in an input."""
 
     file: str
     """Its name, or "arrays"."""
@@ -18,11 +18,11 @@ class Problem(NamedTuple):
     expected: str
     """What was expected."""
     message: str
-    """All of it in a sentence, with the likely mistake where one is recognised."""
+    """The whole problem in a sentence, with the likely mistake if it is recognised."""
 
 
 class GcodeProblem(NamedTuple):
-    """One line of a program that is refused."""
+    """One problem in a refused program."""
 
     line: int
     """From 1; 0 is the file."""
@@ -34,7 +34,7 @@ class GcodeProblem(NamedTuple):
 
 
 class InputError(ValueError):
-    """Bad input, with everything that is wrong in it.
+    """Bad input, with every problem in it.
 
     problems  a Problem each
     """
@@ -50,7 +50,7 @@ class InputError(ValueError):
 
 
 class Failure(RuntimeError):
-    """What cannot be done with sound input.
+    """A task that is impossible with valid input.
 
     sentence  what happened, and what to do
     reason    a stable name: no_machine, not_converged, unreachable ...; empty where there is none
@@ -69,7 +69,7 @@ class Failure(RuntimeError):
 
 
 class GcodeError(Failure):
-    """A program that is refused: nothing of it is written.
+    """A refused program; nothing is written.
 
     problems  a GcodeProblem each
     """

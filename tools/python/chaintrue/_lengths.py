@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a map says of places."""
+"""Lengths that a map gives for places."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class Lengths:
         return frame(self.columns())
 
     def plot(self, ax: Any = None) -> Any:
-        """The places, coloured by the tool's sigma; the axes are given back."""
+        """Plots the places, coloured by the tool's sigma; returns the axes."""
         return _plots.lengths(self, ax)
 
     def _repr_html_(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps of two chains and anchors of four belts: fitted, and asked."""
+"""Maps of two chains and anchors of four belts: fits and queries."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Measured = Union[Grid, Holes, Belts]
 
 
 class Accuracy(Record):
-    """What a map says of its own error. Errors of the tool and of the chains have rms_mm and
+    """A map's expected and held-out errors. Errors of the tool and of the chains have rms_mm and
     maximum_mm; those of points left out contain the readings' noise."""
 
     expected_tool: Record
@@ -28,24 +28,24 @@ class Accuracy(Record):
     expected_worst_at: Record
     """x_mm and y_mm of its largest."""
     leave_one_out: Record
-    """Of each point by the others: chain, tool, tool_x_rms_mm, tool_y_rms_mm."""
+    """Each point predicted by the others: chain, tool, tool_x_rms_mm, tool_y_rms_mm."""
     blocked: Record
     """The same for whole parts of the bed."""
 
 
 class AnchorsAccuracy(Record):
-    """What a fit of anchors says of its own error, mm."""
+    """The errors of fitted anchors, mm."""
 
     spread_mm: float
     """One reading of a belt, one sigma."""
     rms_mm: float
-    """The same as the machine counts it."""
+    """The same, as the firmware computes it."""
     foretold: Record
-    """Readings that were left out, as the others foretell them."""
+    """Left-out readings predicted by the others."""
 
 
 class _Asked(Made):
-    """A result that answers for places and for lengths."""
+    """A result that converts places to lengths and back."""
 
     @functools.cached_property
     def _answering(self) -> Any:
@@ -66,7 +66,7 @@ class _Asked(Made):
 
 
 class Map(_Asked):
-    """A compensation map: what the chains must be for every place of the bed."""
+    """A compensation map: the chain lengths for every place of the bed."""
 
     notes: list[str] = key("notes", "What its reader should know, in sentences.", missing=[])
     accuracy: Accuracy = key(
@@ -85,7 +85,7 @@ class Map(_Asked):
 
     @property
     def sentence(self) -> str:
-        """How far the tool is off, and what is left with this map."""
+        """The tool's error today, and the error that remains with this map."""
         return self._answering.sentence()
 
     @property
@@ -107,7 +107,7 @@ class Map(_Asked):
         return self._inverse(lengths, _is_bed(frame))
 
     def plot(self, ax: Any = None) -> Any:
-        """The expected error of the tool over the bed, and the points; the axes are given back."""
+        """Plots the tool's expected error over the bed, and the points; returns the axes."""
         return _plots.calibration(self, ax)
 
     def _facts(self) -> dict[str, Any]:
@@ -122,7 +122,7 @@ class Anchors(_Asked):
 
     @property
     def accuracy(self) -> AnchorsAccuracy:
-        """What the fit says of its own error."""
+        """The errors of the fit."""
         fit = self._contents["fit"]
         return AnchorsAccuracy.of(
             {key: fit[key] for key in ("spread_mm", "rms_mm", "rms_of_mm", "foretold") if key in fit}
@@ -139,7 +139,7 @@ class Anchors(_Asked):
         return _core.maslow4_settings(self._text)
 
     def query(self, xy: ArrayLike) -> Lengths:
-        """What the belts must be at places, an array (..., 2) of x and y in mm; (2,) is one place."""
+        """The belt lengths at places, an array (..., 2) of x and y in mm; (2,) is one place."""
         return self._query(xy, False)
 
     def inverse(self, lengths: Union[ArrayLike, Lengths]) -> numpy.ma.MaskedArray:
@@ -148,7 +148,7 @@ class Anchors(_Asked):
         return self._inverse(lengths, False)
 
     def plot(self, ax: Any = None) -> Any:
-        """The anchors and the places; the axes are given back."""
+        """Plots the anchors and the places; returns the axes."""
         return _plots.belts(self._contents["fit"], ax)
 
     def _facts(self) -> dict[str, Any]:
@@ -175,7 +175,7 @@ def sorted_out(measured: Iterable[Measured], who: str) -> tuple[list[Any], list[
 
 
 def texts_of(*things: Iterable[Measured]) -> list[str]:
-    """Their files' texts, list after list."""
+    """The texts of their files, in the order of the lists."""
     return [thing._text for one in things for thing in one]
 
 
@@ -232,12 +232,12 @@ def read_anchors(path: PathLike) -> Anchors:
 
 
 def query(map: Union[Map, Anchors], points: ArrayLike, frame: str = "marks") -> Lengths:
-    """What Map.query gives; the same as calibration.query(points)."""
+    """Chain lengths at points: the same as calibration.query(points)."""
     return map.query(points) if isinstance(map, Anchors) else map.query(points, frame)
 
 
 def inverse(
     map: Union[Map, Anchors], lengths: Union[ArrayLike, Lengths], frame: str = "marks"
 ) -> numpy.ma.MaskedArray:
-    """What Map.inverse gives; the same as calibration.inverse(lengths)."""
+    """Places for chain lengths: the same as calibration.inverse(lengths)."""
     return map.inverse(lengths) if isinstance(map, Anchors) else map.inverse(lengths, frame)

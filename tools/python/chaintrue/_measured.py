@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Machines, and points that somebody measured with one: from files, and from arrays."""
+"""Machines and measured points, from files and from arrays."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Machine(Filed):
         return {"mm wide": bed["width_mm"], "mm high": bed["height_mm"]}
 
     def plot(self, ax: Any = None) -> Any:
-        """Bed and motors, with matplotlib; the axes are given back."""
+        """Plots bed and motors with matplotlib; returns the axes."""
         return _plots.machine(self._contents, ax)
 
 
@@ -87,12 +87,12 @@ class Grid(Filed):
 
     @property
     def commanded(self) -> Optional[NDArray[numpy.float64]]:
-        """(n, 2) array, mm: where the controller was told to go; None where a point has none."""
+        """(n, 2) array, mm: the commanded places; None for points without one."""
         return self._column(float, "commanded_x_mm", "commanded_y_mm")
 
     @property
     def order(self) -> Optional[NDArray[numpy.int_]]:
-        """(n,) array of whole numbers: which visit each was; None where that is not known."""
+        """(n,) array of visit numbers; None if the order is not known."""
         order = self._column(int, "order")
         return None if order is None else order[:, 0]
 
@@ -111,7 +111,7 @@ class Grid(Filed):
         return {"points": len(self), read: what}
 
     def plot(self, ax: Any = None) -> Any:
-        """The marks, and arrows from where the tool was sent; the axes are given back."""
+        """Plots the marks, with arrows from the commanded places; returns the axes."""
         return _plots.grid(self.marks, self.commanded, ax)
 
 
@@ -123,7 +123,7 @@ def machine_in(contents: dict[str, Any], key: str = "machine") -> Optional[Machi
 
 
 def read_machine(path: PathLike) -> Machine:
-    """The Machine of a chaintrue_machine file. What was assumed is a warning."""
+    """The Machine of a chaintrue_machine file; assumptions are issued as warnings."""
     return told(Machine, from_file(Machine, path))
 
 

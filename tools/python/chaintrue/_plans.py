@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where to measure."""
+"""Plans: where to measure."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Plan:
         return self.to_records().to_frame()
 
     def plot(self, ax: Any = None) -> Any:
-        """The places in the order of the visits; the axes are given back."""
+        """Plots the places in the order of the visits; returns the axes."""
         return _plots.plan(self.marks[self.visits], ax)
 
     def _facts(self) -> dict[str, Any]:

@@ -131,7 +131,7 @@ def lengths(answer: Any, ax: Any) -> Any:
 
 
 def probabilities(hypotheses: Iterable[dict[str, Any]], key: str, ax: Any) -> Any:
-    """The most probable of them, the first on top."""
+    """The most probable causes, the first on top."""
     axes = _axes(ax)
     shown = sorted(hypotheses, key=lambda one: one["probability"], reverse=True)[:_MOST_BARS]
     names = [" ".join(filter(None, (one[key], one.get("side"), _point(one)))) for one in shown]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Answers as records and as columns, which pandas takes where it is installed."""
+"""Answers as records and as columns for pandas, if it is installed."""
 
 from __future__ import annotations
 

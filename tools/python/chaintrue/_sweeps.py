@@ -47,7 +47,7 @@ class Sweep:
         return self.results.to_frame()
 
     def plot(self, ax: Any = None) -> Any:
-        """The tool's error over the number of points, a line for each level; the axes are given back."""
+        """Plots the tool's error over the number of points, a line for each level; returns the axes."""
         return _plots.sweep(self.errors, ax)
 
     def __len__(self) -> int:
@@ -90,7 +90,7 @@ def sweep(
 
 
 def _errors_of(cells: list[dict[str, str]]) -> Records:
-    """What one level of one factor comes to at one number of points, over all else."""
+    """The tool's error, pooled over all other factors, by factor, level and number of points."""
     found: dict[tuple[str, str, str], list[dict[str, str]]] = {}
     for factor in _FACTORS:
         for cell in cells:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was measured with a tape or by four belts: from files, and from arrays."""
+"""Tape and belt measurements, from files and from arrays."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Belts(Filed):
         return {"places": len(self), "taped distances": len(self._contents.get("distances", []))}
 
     def plot(self, ax: Any = None) -> Any:
-        """The anchors, and where the machine was sent; the axes are given back."""
+        """Plots the anchors and the commanded places; returns the axes."""
         return _plots.belts(self._contents, ax)
 
 
@@ -129,7 +129,7 @@ class Holes(Filed):
 
     @property
     def commanded(self) -> NDArray[numpy.float64]:
-        """(n, 2) array, mm: where the controller was told to drill."""
+        """(n, 2) array, mm: the commanded places of the holes."""
         return numpy.array([(hole["x_mm"], hole["y_mm"]) for hole in self._contents["holes"]])
 
     @property
@@ -143,7 +143,7 @@ class Holes(Filed):
         return {"holes": len(self), "distances": len(self._contents["distances"])}
 
     def plot(self, ax: Any = None) -> Any:
-        """The holes and the distances between them; the axes are given back."""
+        """Plots the holes and the distances between them; returns the axes."""
         return _plots.holes(self._contents, ax)
 
 

@@ -68,11 +68,11 @@ class Compensated:
     pieces: NDArray[numpy.float64]
 
     def write(self, path: PathLike) -> None:
-        """Writes the program, whole or not at all."""
+        """Writes the program atomically."""
         _core.write(os.fspath(path), self.text.encode("utf-8", "surrogateescape"))
 
     def plot(self, ax: Any = None) -> Any:
-        """The path, and arrows of the correction; the axes are given back."""
+        """Plots the path with arrows of the correction; returns the axes."""
         return _plots.path(self.pieces, ax)
 
     def _facts(self) -> dict[str, Any]:
@@ -161,7 +161,7 @@ def verify(
     calibration: Union[Map, Anchors],
     **options: Any,
 ) -> Verification:
-    """What the compensated program does on a simulated machine, against what the program means."""
+    """Compares the compensated program on a simulated machine with the original's path."""
     ran = compensated.text if isinstance(compensated, Compensated) else compensated
     files = [_file(program, "program.nc"), _file(ran, "compensated.nc")]
     _, answer, _ = run("gcode", "verify", *files, *_words(calibration, options), "--json")
@@ -186,7 +186,7 @@ _OTHERS = ("home", "machine", "settings")
 
 
 def _words(calibration: Union[Map, Anchors], options: dict[str, Any]) -> list[Union[str, File]]:
-    """Calibration and options as the command takes them."""
+    """Calibration and options as arguments of the command."""
     if not isinstance(calibration, (Map, Anchors)):
         raise TypeError(f"programs are compensated with a Map or Anchors, not {calibration!r}")
     words: list[Union[str, File]] = ["--map", calibration._file]
