@@ -32,7 +32,7 @@ class Operand {
   [[nodiscard]] Eigen::Index columns() const {
     return is_transposed_ ? stored_.rows() : stored_.cols();
   }
-  friend Operand transposed(const Operand& a) {
+  [[nodiscard]] friend Operand transposed(const Operand& a) {
     Operand result = a;
     result.is_transposed_ = !a.is_transposed_;
     return result;
@@ -42,7 +42,7 @@ class Operand {
   Eigen::Ref<const Eigen::MatrixXd> stored_;
   bool is_transposed_ = false;
 };
-[[nodiscard]] Operand transposed(const Operand& a);
+Operand transposed(const Operand& a);
 
 template <class B>
 concept VectorLike = B::ColsAtCompileTime == 1;
