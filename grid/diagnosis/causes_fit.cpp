@@ -208,11 +208,11 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
   weighed.progress = options.fit.progress;
-  auto [found, plain] = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
-  if (!found) return without_causes(std::move(plain), found.error().sentence());
-  if (!plain) return tl::unexpected(plain.error());
-  return fit_on_causes(measured, *found, *std::move(plain), options, [&] {
-    return naming_improves_the_map(found->analysis);
+  NamingAndPlainFit made = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
+  if (!made.naming) return without_causes(std::move(made.plain), made.naming.error().sentence());
+  if (!made.plain) return tl::unexpected(made.plain.error());
+  return fit_on_causes(measured, *made.naming, *std::move(made.plain), options, [&] {
+    return naming_improves_the_map(made.naming->analysis);
   });
 }
 
