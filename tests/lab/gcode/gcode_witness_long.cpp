@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/whole_file.hpp"
 #include "tests/gcode_witness/support/compared.hpp"
 #include "tests/gcode_witness/support/follow_run.hpp"
 #include "tests/gcode_witness/support/output_run.hpp"
@@ -59,8 +60,8 @@ int generate(const std::string& folder) {
   options.scope = Scope::path;
   for (std::uint64_t seed = 1; seed <= 120; ++seed)
     path.push_back({fmt::format("seed_{}", seed), random_program(seed, options)});
-  write_file(folder + "/generated.records", write_records(language));
-  write_file(folder + "/follower.records", write_records(path));
+  grid::files::write_whole_file(folder + "/generated.records", write_records(language));
+  grid::files::write_whole_file(folder + "/follower.records", write_records(path));
   return 0;
 }
 
