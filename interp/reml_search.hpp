@@ -11,7 +11,7 @@
 
 namespace chaintrue::interp::reml {
 
-/// Steps after which a search has not converged.
+/// The most steps of a search before it counts as not converged.
 inline constexpr int kMostSteps = 100;
 
 struct SearchResult {

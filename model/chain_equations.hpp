@@ -25,7 +25,7 @@
 
 namespace chaintrue::model {
 
-/// What lengths depend on: the numbers of Parameter, and the tool's place.
+/// The inputs of the lengths: the numbers of Parameter and the tool's place.
 template <class T>
 struct ChainInputs {
   std::array<T, kParameters> numbers;  ///< in the order of Parameter
@@ -48,7 +48,7 @@ struct ChainInputs {
   const T& operator[](Parameter parameter) const {
     return numbers[static_cast<std::size_t>(parameter)];
   }
-  /// From the place to a motor's axis: outwards, and up.
+  /// Outward and upward distances from the place to a motor's axis.
   [[nodiscard]] std::array<T, 2> to_motor(Side side) const {
     if (side == Side::left)
       return {x - (*this)[Parameter::motor_left_x_mm], (*this)[Parameter::motor_left_y_mm] - y};
@@ -56,7 +56,7 @@ struct ChainInputs {
   }
 };
 
-/// With derivatives by the place.
+/// With derivatives with respect to the place.
 inline ChainInputs<Dual<2>> inputs_by_place(const EquilibriumConstants& m, BedPoint place) {
   ChainInputs<Dual<2>> inputs(m, place);
   inputs.x.d[0] = inputs.y.d[1] = 1.0;

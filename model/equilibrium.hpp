@@ -40,7 +40,7 @@ struct EquilibriumConstants {
   double half_spacing = 0.0, bracket_height = 0.0, cg = 0.0;
   double W = 0.0, k = 0.0, f = 0.0;
   bool rotates = false;  ///< brackets
-  /// Of the frame, for the equilibrium in space.
+  /// The frame's tilt, for the equilibrium in space.
   double cos_tilt = 1.0, sin_tilt = 0.0;
   ChainMaterial chain;
 

@@ -187,7 +187,7 @@ PerSide<ChainNumbers<1>> EquilibriumKinematics<kRotates>::by_parameter(const Pos
   const ChainInputs<Dual<1>> inputs = inputs_by_parameter(m_, pose.position, parameter, !neglected);
   EquilibriumLoad load;
   if (parameter <= Parameter::motor_right_y_mm) {
-    // A motor's place stands in (1) by itself.
+    // A motor's place enters (1) directly.
     for (const Side side : kSides) {
       const auto motor = inputs.to_motor(side);
       load.u[side] = -motor[0].d[0];

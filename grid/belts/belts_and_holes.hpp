@@ -89,14 +89,14 @@ struct BeltsAndHolesFit {
   HolesWithBelts holes;
 };
 
-/// What is known without the holes.
+/// The state known without the holes.
 struct BeltsByThemselves {
   BeltsFit fit;
   belts::AnchorFit frame;
   Eigen::MatrixXd
       covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
 };
-/// Errors of readings alone: diagnosis/anchors_with_causes.hpp allows for causes. Without points the anchors of
+/// Allows for errors of readings only; diagnosis/anchors_with_causes.hpp also allows for causes. Without points, the anchors of
 /// the machine, each with kStatedAnchorMm.
 [[nodiscard]] tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(
     const MeasuredBelts& belts);

@@ -39,7 +39,7 @@ struct ReadingLines {
 };
 [[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
-/// With the residuals of the distances.
+/// Includes the residuals of the distances.
 struct FitResiduals : ReadingLines {
   Eigen::VectorXd distance_residual;  ///< in sigmas
 };
@@ -48,7 +48,7 @@ class FitDiagnostics {
  public:
   FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
 
-  /// Of places with too few readings about their fitted place.
+  /// Residuals at places with too few readings, about the fitted place.
   [[nodiscard]] const FitResiduals& equations() const { return equations_; }
   [[nodiscard]] double sigma_mm() const { return frame_.residual_sigma_mm; }
   [[nodiscard]] const AnchorFit& frame() const { return frame_; }

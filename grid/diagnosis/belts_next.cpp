@@ -50,7 +50,7 @@ const std::vector<Approach>& approaches(model::Orientation orientation) {
   return orientation == model::Orientation::flat ? flat : upright;
 }
 
-/// Future places, one more visit each, with what is proposed of them, and the state that predicts their
+/// Future places, one more visit each, with their proposed readings, and the state that predicts their
 /// readings.
 class NextPlaces {
  public:

@@ -71,9 +71,10 @@ Nearest nearest_other(const Analysis& a, int column) {
     const auto g = marginalised.g.col(as_index(k));
     if (excluded(a.system.regressors[k].cause)) continue;
     const double collinearity = collinearity_of(g, own);
-    // The first of those that differ by rounding alone, on any processor.
+    // Among columns that differ only by rounding the first wins, on any processor.
     constexpr double kRounding = 1e-9;
-    if (collinearity > nearest.collinearity + kRounding) nearest = {static_cast<int>(k), collinearity};
+    if (collinearity > nearest.collinearity + kRounding)
+      nearest = {static_cast<int>(k), collinearity};
   }
   return nearest;
 }

@@ -142,7 +142,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   if (naming.refusal) d.notes.push_back(*std::move(naming.refusal));
   take_findings(a, d);
   const std::vector<std::string> sessions = names_of_sessions(measured);
-  // Each fills its own fields; the longest first.
+  // Independent: each fills its own fields. The slowest come first.
   const std::function<void()> work[] = {
       [&] {
         if (!options.improvement) return;

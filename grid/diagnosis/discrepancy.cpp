@@ -11,7 +11,7 @@ namespace {
 /// Radius of a sled: that far from the border its rim begins to hang over.
 constexpr double kSledMm = 230.0;
 
-/// A unit with the places of its system.
+/// A unit and the places of its system.
 struct PlacedUnit {
   const SystemUnit& unit;
   const std::vector<SystemPlace>& places;

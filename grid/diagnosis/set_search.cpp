@@ -82,7 +82,7 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
   return {chosen.begin(), chosen.end()};
 }
 
-/// For any size, and set in at a visit.
+/// Effects of any size that set in at a visit.
 bool at_a_visit(const Regressor& d) {
   const auto& parameters = d.cause.effect->parameters;
   return !d.fixed && parameters.size() > 1 && parameters.back().integer;

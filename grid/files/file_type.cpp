@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kTypeKey = "file_type";
 
-/// Of the outermost object, also where the text behind it is not JSON.
+/// The outermost object's value, even if the rest of the text is not JSON.
 std::optional<std::string> type_in_head(const std::string& text) {
   using Event = Json::parse_event_t;
   std::optional<std::string> type;

@@ -16,7 +16,7 @@ namespace chaintrue::grid::files {
 
 /// Points this near count as repeats, so a set that is no wider than this has one row only.
 inline constexpr double kRepeatDistanceMm = 25.0;
-/// A map needs so many, spread over an area.
+/// The fewest points for a map; they must cover an area.
 inline constexpr std::size_t kFewestPoints = 8;
 
 /// A point as a file states it, before it is checked for completeness.

@@ -19,7 +19,7 @@ struct StatedDistance {
   /// A name, or the hole's number as text.
   std::string from;
   std::string to;
-  /// Empty on a line that was not filled in, or whose reading is wrong.
+  /// Empty if the line was not filled in or its reading is wrong.
   std::optional<double> distance_mm;
   std::optional<double> sigma_mm;
   /// A value was wrong and is already reported; true before any was read.

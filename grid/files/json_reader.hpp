@@ -125,7 +125,7 @@ class RecordTable {
   RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
 
   [[nodiscard]] const std::string& noun() const { return noun_; }
-  /// What is expected of an object; for a file's record a reference to that file's schema.
+  /// The schema of an object; for a file's record, a reference to that file's schema.
   [[nodiscard]] Expected expected() const;
   /// Schema of the object itself, also for a file's record.
   [[nodiscard]] Json schema() const;
@@ -144,7 +144,7 @@ class RecordTable {
   /// Makes a new default object.
   using Make = std::shared_ptr<void> (*)();
 
-  /// Completes the field by what its codec expects.
+  /// Adds to the field what its codec expects.
   void add(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty = {});
   /// An optional field with a default, which becomes part of the schema.
   void add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make);
@@ -175,7 +175,7 @@ class RecordTable {
   std::vector<Json> rules_;
 };
 
-/// Of a std::optional that holds a value.
+/// For a std::optional that holds a value.
 [[nodiscard]] std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
                                                           const OptionalAccess& access);
 

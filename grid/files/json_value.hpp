@@ -202,7 +202,7 @@ template <class E>
   return Value<E>(choice_codec(std::move(all), sizeof(E)));
 }
 
-/// The same where `name` of a value is its name.
+/// The same, with names from `name(value)`.
 template <class E>
 [[nodiscard]] Value<E> by_name(std::initializer_list<E> values) {
   std::vector<std::pair<std::string, E>> names;
@@ -241,7 +241,7 @@ template <class V>
   return list(number(range), fewest);
 }
 
-/// The schema with null allowed as well.
+/// The schema, with null allowed.
 [[nodiscard]] Json schema_or_null(Json schema);
 
 /// Empty where the file has null.

@@ -206,7 +206,7 @@ void check_map(const Cursor& at, MapContents& map) {
   }
 }
 
-/// Null for a map with the other kind of surface.
+/// Null if the map has the other kind of surface.
 template <class Surface>
 const Surface* surface_in(const MapContents& map) {
   return std::get_if<Surface>(&map.surface);

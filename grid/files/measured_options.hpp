@@ -13,7 +13,7 @@
 
 namespace chaintrue::grid::files {
 
-/// Replaces the tape of a file of holes, value by value.
+/// Overrides single values of the tape in a file of holes.
 struct TapeOptions {
   std::optional<double> sigma_mm;
   std::optional<double> zero_offset_mm;

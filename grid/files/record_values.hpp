@@ -35,7 +35,7 @@ inline constexpr int kMostNumbered = 1000000;
 /// A vector in the plane, or a number for each chain, as a pair of numbers.
 [[nodiscard]] Value<Eigen::Vector2d> pair_of_numbers(const Range& range);
 
-/// A list of numbers; rows of numbers, of which those that differ in length make no matrix: 0 x 0.
+/// A list of numbers, or rows of numbers; rows of different lengths give a 0 x 0 matrix.
 [[nodiscard]] Value<Eigen::VectorXd> vector_of_numbers();
 [[nodiscard]] Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest);
 

@@ -13,7 +13,7 @@ struct Level {
 
 AnchorNumber dot(const Level& a, const Level& b) { return a.x * b.x + a.y * b.y; }
 
-/// u of a belt; 0 where there is no room for one.
+/// u of a belt; 0 if its anchors leave no room for one.
 Level unit_pull(const BeltMachine& machine, Belt belt, FramePoint place) {
   const Anchor& anchor = machine.anchors[belt];
   const auto first = static_cast<int>(first_of(belt));

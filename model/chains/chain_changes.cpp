@@ -6,7 +6,7 @@
 namespace chaintrue::model {
 namespace {
 
-/// The chains that a word of `side` means.
+/// The chains that `side` names.
 std::vector<std::size_t> chains_of(std::string_view side) {
   if (side == "left") return {0};
   if (side == "right") return {1};

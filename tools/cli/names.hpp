@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the command calls by its name alone, of the libraries that it is made of.
+/// The libraries' types that the command uses without their namespace.
 #pragma once
 
 namespace chaintrue::grid {
