@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
@@ -83,6 +86,43 @@ std::vector<int> about(const std::vector<int>& visits, int visit) {
           visits.begin() + std::clamp<std::ptrdiff_t>(at + half + 1, 0, last)};
 }
 
+Eigen::VectorXd whitened_lengths(const RegressorSystem& system, const Eigen::VectorXd& added) {
+  Eigen::VectorXd column(system.e.size());
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    column.segment(system.units[u].first_row, system.units[u].rows) =
+        system.units[u].by_reading *
+        added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));
+  }
+  return column;
+}
+
+/// What one cause adds to the lengths. From its visit on it adds what it would add at any visit, so all visits share
+/// one evaluation.
+class AddedLengths {
+ public:
+  AddedLengths(const MeasuredBelts& belts, const belts::FrameState& state)
+      : belts_(belts), state_(state) {}
+
+  [[nodiscard]] Eigen::VectorXd of(const SizedCause& cause) {
+    if (cause.cause.effect->parameters.size() == 1) return added_by(belts_, {cause}, state_);
+    SizedCause from_the_start = cause;
+    from_the_start.values.back() = std::numeric_limits<int>::min();
+    const auto [known, is_new] = known_.try_emplace(from_the_start.values);
+    if (is_new) known->second = added_by(belts_, {from_the_start}, state_);
+    Eigen::VectorXd added = known->second;
+    for (std::size_t k = 0; k < belts_.points.size(); ++k) {
+      if (belts_.points[k].order.value_or(0) < cause.values.back())
+        added.segment<4>(belts::row_of(k, Belt::tl)).setZero();
+    }
+    return added;
+  }
+
+ private:
+  const MeasuredBelts& belts_;
+  const belts::FrameState& state_;
+  std::map<std::vector<double>, Eigen::VectorXd> known_;
+};
+
 class Columns {
  public:
   Columns(const MeasuredBelts& belts,
@@ -96,6 +136,7 @@ class Columns {
         visits_(visits_to_set_in(belts)) {}
 
   void add(const CauseId& cause) {
+    added_.emplace(belts_, state_);
     const auto& parameters = cause.effect->parameters;
     const SizedCause* found =
         find_where(known_, [&cause](const SizedCause& own) { return own.cause == cause; });
@@ -145,7 +186,7 @@ class Columns {
   }
 
   void add_one(const SizedCause& own, bool refined, double share) {
-    const Eigen::VectorXd column = column_of(belts_, state_, system_, own);
+    const Eigen::VectorXd column = whitened_lengths(system_, added_->of(own));
     if (!(column.norm() > 0.0)) return;
     Regressor regressor;
     regressor.cause = own.cause;
@@ -159,7 +200,7 @@ class Columns {
     } else {
       SizedCause smaller = own;
       smaller.values.front() *= refined ? kNearby : 0.5;
-      const Eigen::VectorXd other = column_of(belts_, state_, system_, smaller);
+      const Eigen::VectorXd other = whitened_lengths(system_, added_->of(smaller));
       regressor.power = refined ? power_about(column, other) : power_of(column, other);
       limit(regressor);
       regressor.coefficient_sigma = sigma_of(regressor);
@@ -181,6 +222,7 @@ class Columns {
   const std::vector<SizedCause>& known_;
   RegressorSystem& system_;
   std::vector<int> visits_;
+  std::optional<AddedLengths> added_;
 };
 
 }  // namespace
@@ -288,14 +330,7 @@ Eigen::VectorXd column_of(const MeasuredBelts& belts,
                           const belts::FrameState& state,
                           const RegressorSystem& system,
                           const SizedCause& cause) {
-  const Eigen::VectorXd added = added_by(belts, {cause}, state);
-  Eigen::VectorXd column(system.e.size());
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    column.segment(system.units[u].first_row, system.units[u].rows) =
-        system.units[u].by_reading *
-        added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));
-  }
-  return column;
+  return whitened_lengths(system, added_by(belts, {cause}, state));
 }
 
 }  // namespace chaintrue::grid::diagnosis
