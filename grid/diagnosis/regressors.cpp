@@ -99,6 +99,30 @@ Eigen::VectorXd added(const RegressorSystem& system,
   return column;
 }
 
+/// Whitened columns of effects about one state, whose own readings are predicted once.
+class Signatures {
+ public:
+  Signatures(const ObservationSet& session, const State& state, const RegressorSystem& system)
+      : session_(session), state_(state), system_(system) {}
+
+  /// As signature().
+  [[nodiscard]] std::optional<Eigen::VectorXd> of(CauseId cause, const std::vector<double>& values) {
+    if (!state_.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
+      return added(system_, state_.machine.sprocket, cause, values);
+    if (!problems_with_effect(state_, cause, values).empty()) return std::nullopt;
+    const auto with = predicted(session_, with_effect(state_, cause, values));
+    if (with && !without_) without_ = predicted(session_, state_);
+    if (!with || !without_) return std::nullopt;
+    return whitened(system_, *with - *without_);
+  }
+
+ private:
+  const ObservationSet& session_;
+  const State& state_;
+  const RegressorSystem& system_;
+  std::optional<Eigen::VectorXd> without_;
+};
+
 const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
 
 /// Continues through zero as a straight line: an odd effect changes its sign.
@@ -107,7 +131,7 @@ bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 class Builder {
  public:
   Builder(const ObservationSet& session, const State& state, RegressorSystem& system)
-      : session_(session), state_(state), system_(system) {}
+      : system_(system), signatures_(session, state, system) {}
 
   void add(CauseId cause, const std::vector<SizedCause>& known) {
     std::vector<double> values = model::effects::nominal_values(*cause.effect);
@@ -143,11 +167,11 @@ class Builder {
   }
 
   void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
-    auto g = signature(session_, state_, system_, cause, values);
+    const auto g = signatures_.of(cause, values);
     if (!g || !(g->norm() > 0.0)) return;
     std::vector<double> smaller = values;
     smaller.front() *= refined_ ? kNearby : 0.5;
-    const auto half = signature(session_, state_, system_, cause, smaller);
+    const auto half = signatures_.of(cause, smaller);
     if (!half) return;
     Regressor regressor;
     regressor.cause = cause;
@@ -184,7 +208,7 @@ class Builder {
     for (const double place : where) {
       values.back() = place;
       values.front() = 1.0;
-      const auto one = signature(session_, state_, system_, cause, values);
+      const auto one = signatures_.of(cause, values);
       if (!one || !(one->norm() > 0.0)) continue;
       for (int links = -kMostLinks; links <= kMostLinks; ++links) {
         if (links == 0) continue;
@@ -206,9 +230,8 @@ class Builder {
     }
   }
 
-  const ObservationSet& session_;
-  const State& state_;
   RegressorSystem& system_;
+  Signatures signatures_;
   bool refined_ = false;
 };
 
@@ -252,14 +275,7 @@ std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                          const RegressorSystem& system,
                                          CauseId cause,
                                          const std::vector<double>& values) {
-  if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction) {
-    return added(system, state.machine.sprocket, cause, values);
-  }
-  if (!problems_with_effect(state, cause, values).empty()) return std::nullopt;
-  const auto with = predicted(session, with_effect(state, cause, values));
-  const auto without = predicted(session, state);
-  if (!with || !without) return std::nullopt;
-  return whitened(system, *with - *without);
+  return Signatures(session, state, system).of(cause, values);
 }
 
 void add_regressors(const ObservationSet& session,
@@ -278,14 +294,15 @@ bool renew_regressors(const ObservationSet& session,
                       RegressorSystem& system) {
   system.regressors = regressors;
   system.g = RegressorColumns(session.rows);
+  Signatures signatures(session, state, system);
   for (Regressor& d : system.regressors) {
-    const auto g = signature(session, state, system, d.cause, d.values);
+    const auto g = signatures.of(d.cause, d.values);
     if (!g || !(g->norm() > 0.0)) return false;
     system.g.add(*g);
     if (d.fixed) continue;
     std::vector<double> nearby = d.values;
     nearby.front() *= kNearby;
-    const auto there = signature(session, state, system, d.cause, nearby);
+    const auto there = signatures.of(d.cause, nearby);
     if (!there) return false;
     d.power = power_about(*g, *there);
     d.refined = true;
