@@ -60,9 +60,9 @@ template <class B>
   add_product(c, 1.0, a, right);
   return c;
 }
-/// c += scale A A', of a symmetric c
+/// c += scale A A' for a symmetric c
 void add_outer(Eigen::MatrixXd& c, double scale, const Operand& a);
-/// c += scale A'A, of a symmetric c
+/// c += scale A'A for a symmetric c
 inline void add_gram(Eigen::MatrixXd& c, double scale, const Operand& a) {
   add_outer(c, scale, transposed(a));
 }
@@ -123,8 +123,8 @@ class Cholesky {
   bool is_positive_definite_ = true;
 };
 
-/// M = P' L D L' P of a symmetric, possibly semidefinite matrix: for few unknowns that the data may
-/// not determine.
+/// M = P' L D L' P of a symmetric, possibly semidefinite matrix: for a few unknowns that the data
+/// may leave undetermined.
 class PivotedCholesky {
  public:
   explicit PivotedCholesky(const Eigen::MatrixXd& matrix);

@@ -116,8 +116,9 @@ void Likelihood::diagonalise() {
     const linear::SymmetricEigen solver(linear::outer(f));
     const Eigen::MatrixXd q = solver.eigenvectors().rowwise().reverse();
     const Eigen::VectorXd g = solver.eigenvalues().reverse().cwiseMax(0.0);
-    // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R: orthonormal to
-    // rounding also where g is not above it, and it holds what the rows do not reach.
+    // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R. It is
+    // orthonormal to rounding even where g is at rounding level, and it spans the directions that
+    // no row reaches.
     const Eigen::MatrixXd turned = linear::product(linear::transposed(f), q);
     basis_ = linear::qr(turned).q;
     eigenvalues_ = Eigen::VectorXd::Zero(m);

@@ -62,8 +62,8 @@ inline ChainInputs<Dual<2>> inputs_by_place(const EquilibriumConstants& m, BedPo
   inputs.x.d[0] = inputs.y.d[1] = 1.0;
   return inputs;
 }
-/// With the derivative by one parameter; without where it does not count, as the ring's radius does
-/// not with brackets.
+/// With the derivative by one parameter, if it counts: the ring's radius does not count with
+/// brackets.
 inline ChainInputs<Dual<1>> inputs_by_parameter(const EquilibriumConstants& m,
                                                 BedPoint place,
                                                 Parameter parameter,

@@ -84,7 +84,8 @@ struct Uncertainty {
   double ring_radius_mm = 1.0;
 };
 
-/// An effect that acts on this machine: of the catalogue (chains/chain_effects.cpp), or declared for it.
+/// An effect that acts on this machine, from the catalogue (chains/chain_effects.cpp) or declared
+/// for it.
 struct AppliedEffect {
   std::string effect;
   /// "left", "right", "both", "x", "y" or "" where the effect has no side.

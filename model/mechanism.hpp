@@ -169,8 +169,8 @@ class Mechanism {
   [[nodiscard]] virtual std::vector<MechanismChange> possible_changes() const;
 };
 
-/// What the mechanisms of this library share: values, parameters and effects are held here, and a
-/// mechanism says how it is made anew with others.
+/// Base of this library's mechanisms. It holds values, parameters and effects; a derived class
+/// implements how a copy with others is made.
 class MechanismBase : public Mechanism {
  public:
   [[nodiscard]] std::string_view kind() const final { return kind_; }
@@ -218,7 +218,8 @@ class MechanismBase : public Mechanism {
   std::vector<AppliedEffect> applied_;
 };
 
-/// One sigma of how far a parameter has moved that nothing is known of beforehand, in its own unit.
+/// One sigma of the movement of a parameter about which nothing is known beforehand, in its own
+/// unit.
 inline constexpr double kParameterShiftSigma = 5.0;
 
 /// (1) at other values of the parameters.

@@ -284,7 +284,7 @@ class Session {
   }
 
  private:
-  /// Of the first visit no change is known.
+  /// The change before the first visit is unknown.
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   const ReadingModel& model_;

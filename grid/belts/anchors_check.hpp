@@ -16,9 +16,8 @@
 
 namespace chaintrue::grid {
 
-/// One place is enough; two or three far apart distinguish an anchor from a belt. The anchors are
-/// the fit's; the kind of length, arm and heights are those of `belts`. Precondition: it has
-/// points.
+/// One place is enough; two or three far apart distinguish an anchor from a belt. Anchors are taken
+/// from the fit; the kind of length, arm and heights from `belts`. Precondition: it has points.
 [[nodiscard]] tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit,
                                                               const MeasuredBelts& belts);
 

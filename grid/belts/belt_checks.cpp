@@ -56,7 +56,7 @@ constexpr double kBetter = 4.0;
 constexpr double kFarMm = 400.0;
 /// Far above the convergence error and far below the noise.
 constexpr double kRoundingMm = 1e-6;
-/// This many points reveal a swap as well as all do.
+/// This many points reveal a swap as well as all of them.
 constexpr std::size_t kMostLookedAt = 16;
 
 using BeltPairs = std::vector<BeltPair>;

@@ -50,8 +50,8 @@ std::optional<Placed> placed(const model::BeltMachine& in_force,
   return result;
 }
 
-/// Puts the rows of a set at `row` and after, those of sets before it being there already; false where the
-/// machine cannot hold the tool at one of its holes. `origin`: where the first set's commands count from.
+/// Writes the rows of a set from `row` on, after those of the sets before it; false if the machine
+/// cannot hold the tool at one of its holes. `origin`: where the first set's commands count from.
 bool put_set(const BeltHoles& holes,
              const AnchorVector& anchors,
              double factor,

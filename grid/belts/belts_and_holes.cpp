@@ -163,7 +163,7 @@ std::optional<BeltsFitFailure> refused(const MeasuredBelts& measured,
   return std::nullopt;
 }
 
-/// Anchors as the belts alone have them; a scale that they leave open is known beforehand.
+/// The anchors from the belts alone; a scale that they leave open has its prior.
 KnownFrame known_frame(const BeltsByThemselves& alone) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
   covariance(kAnchorUnknowns, kAnchorUnknowns) = kBeltScaleSigma * kBeltScaleSigma;

@@ -43,7 +43,8 @@
 
 namespace chaintrue::grid {
 
-/// Prior sigma of the scale: on no machine is the belt per turn 2 % off its nominal length.
+/// Prior sigma of the scale: no known machine has a belt per turn that is 2 % off its nominal
+/// length.
 inline constexpr double kBeltScaleSigma = 0.02;
 /// One sigma of a stated anchor coordinate without belt readings: the accuracy that six places
 /// about the middle give (docs/maslow4.md).
@@ -55,7 +56,8 @@ inline constexpr std::size_t kMostTapedByBelts = 400;
 struct BeltHole {
   std::string name;
   model::BedPoint commanded;
-  /// Where the upper two belts put it, from where commands count, mm; the sheet may lie elsewhere.
+  /// Where the upper two belts put it, relative to the origin of commands, mm; the sheet may lie
+  /// elsewhere.
   model::MarkPoint mark;
 };
 
@@ -71,7 +73,8 @@ struct BeltTapedDistance {
 };
 
 struct HolesWithBelts {
-  /// In force when the first set was cut: commands count from where its frame's diagonals cross.
+  /// The machine in force when the first set was cut; the origin of commands is where its frame's
+  /// diagonals cross.
   model::BeltMachine machine;
   std::vector<BeltHole> holes;  ///< of the first set, which defines the frame
   std::vector<BeltTapedDistance> distances;

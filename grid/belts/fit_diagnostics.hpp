@@ -52,7 +52,7 @@ class FitDiagnostics {
   [[nodiscard]] const FitResiduals& equations() const { return equations_; }
   [[nodiscard]] double sigma_mm() const { return frame_.residual_sigma_mm; }
   [[nodiscard]] const AnchorFit& frame() const { return frame_; }
-  /// For a. Not finite, or with a negative diagonal, where it is not determined.
+  /// For a. Not finite, or with a negative diagonal, if it is not determined.
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   /// cov(a)^-1.
   [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }

@@ -14,7 +14,7 @@
 
 namespace chaintrue::grid::belts {
 
-/// What is known without the holes: x_b, and S_b, 6 x 6.
+/// The prior without the holes: x_b and S_b (6 x 6).
 struct KnownFrame {
   FrameState state;
   Eigen::MatrixXd covariance;

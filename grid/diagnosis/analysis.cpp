@@ -137,7 +137,7 @@ void speak_of_leaders(const RegressorSystem& system,
   sort(decision.regressors);
 }
 
-/// Takes causes out that could not show, for this reason.
+/// Removes causes that could not show, with this reason.
 void drop_hidden(std::string_view reason, Analysis& a) {
   const MarginalisedSystem marginalised = marginalise(a.system, nothing_rejected(a.system));
   const auto shows = [&](const CauseId& cause) {
@@ -176,7 +176,7 @@ void test_significance(const AnalysisRules& rules, Analysis& a) {
       marginalise(causes,
                   a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers);
   const bool is_stated = rules.noise == NoiseSize::stated;
-  // The length of the residuals is given, so that nothing is known of the noise besides.
+  // Given the length of the residuals, nothing else is known about the noise.
   constexpr double kNothingStated = 1e-3;
   const SingleScore score(causes, marginalised, is_stated ? causes.noise_dof : kNothingStated);
   // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
@@ -257,7 +257,7 @@ tl::expected<void, DiagnosisFailure> compare_in_rounds(const AnalysisRules& rule
 void judge(const AnalysisRules& rules, Analysis& a) {
   const DiagnosisOptions& options = a.options;
   test_significance(rules, a);
-  // An average has no weights that hold without some of the readings.
+  // An average has no weights that remain valid without some of the readings.
   if (!options.given_cause) {
     a.sessions = session_posteriors(a.system, a.session.fewest_units, a.comparison);
     if (options.average_parts)

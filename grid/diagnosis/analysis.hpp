@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The steps from a session to a decision: calibrate, linearise, compare models, linearise anew
-/// about what was found, compare again.
+/// The steps from a session to a decision: calibrate, linearise, compare models, linearise
+/// again about the causes found, compare again.
 #pragma once
 
 #include <string_view>
@@ -19,15 +19,15 @@ namespace chaintrue::grid::diagnosis {
 struct Analysis {
   ObservationSet session;
   DiagnosisOptions options;
-  bool converged = true;  ///< calibrating came to rest
-  State state;          ///< settings about which the system is linear; no effect named is in it
+  bool converged = true;  ///< the calibration converged
+  State state;          ///< settings about which the system is linear, without any named effect
   std::vector<SizedCause> known;  ///< secants of these are taken at their values
   Candidates candidates;
   RegressorSystem system;
-  Eigen::VectorXd taken_out;  ///< of the system's rows, as analyse_without() has it; else empty
+  Eigen::VectorXd taken_out;  ///< of the system's rows, for analyse_without(); else empty
   ModelComparison comparison;
   NullDistribution null;
-  double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
+  double score = 0.0;          ///< of the strongest single effect: log Bayes factor against nothing
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
   /// Results by quarters of the bed; empty without a pattern or such parts.
   std::vector<PartPosterior> parts;
@@ -39,67 +39,72 @@ struct Analysis {
   Estimate estimate;  ///< of the decision's causes
 };
 
-/// What is stated of the noise. Where nothing is, what is left of it lies equally in every direction, however
-/// large it is, so that the strongest score has one distribution for all residuals of one length (E. Lehmann
-/// and J. Romano, Testing Statistical Hypotheses (2005), section 5.2: an unknown scale is conditioned out).
+/// What is stated about the noise. If nothing is stated, residuals of a given length point in every
+/// direction with equal probability, whatever the noise, so the strongest score has one
+/// distribution for all residuals of that length (E. Lehmann and J. Romano, Testing Statistical
+/// Hypotheses (2005), section 5.2: an unknown scale is conditioned out).
 enum class NoiseSize { stated, unknown };
 
-/// What differs between machines on the way from a session to a decision.
+/// The steps from a session to a decision that differ between machines.
 class AnalysisRules {
  public:
   virtual ~AnalysisRules() = default;
 
-  /// Comparisons, each about what the one before found.
+  /// Comparisons, each linearised about the result of the one before.
   int rounds = 2;
   NoiseSize noise = NoiseSize::stated;
-  /// Chance of noise to make some cause look as strong, below which causes are spoken of.
+  /// Causes are reported if the probability that noise makes some cause look as strong is below
+  /// this.
   double false_alarm = kFalseAlarm;
-  /// Of causes that could not show at any size that they may have, the settings free.
+  /// For causes that could not show at any size in their range, with the settings free.
   std::string_view hidden = "whatever its size, calibrating the settings would hide it";
 
-  /// The system about the state, with the regressors of all that is testable.
+  /// The system linearised about the state, with the regressors of all testable causes.
   [[nodiscard]] virtual tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const = 0;
   [[nodiscard]] virtual ComparisonOptions compared(const Analysis& a, bool last) const = 0;
-  /// Moves state and known causes to where the decision has them; false where another round finds the same.
+  /// Moves state and known causes to their values in the decision; false if another round would
+  /// find the same.
   [[nodiscard]] virtual bool refit(Analysis& a) const = 0;
-  /// Regressors that noise is tried with, about what does not hang on it.
+  /// The regressors against which noise is drawn, about a state that does not depend on it.
   [[nodiscard]] virtual RegressorSystem tried_with_noise(const Analysis& a) const { return a.system; }
-  /// What a decision has to leave out. `detected`: the strongest effect is beyond what noise does.
+  /// The units that a decision leaves out. `detected`: the strongest effect exceeds what noise
+  /// produces.
   virtual void restrain(bool /*detected*/, Analysis& /*a*/) const {}
 };
 
 /// To the last comparison, from a session and its candidates.
 [[nodiscard]] tl::expected<void, DiagnosisFailure> compare_in_rounds(const AnalysisRules& rules,
                                                                      Analysis& a);
-/// A decision from the comparison at hand, what is fitted being the member that gives its class the name, and its
-/// estimate.
+/// A decision from the current comparison, and its estimate. The member that names its class is
+/// fitted.
 void decide_by(const AnalysisRules& rules, bool detected, Analysis& a);
-/// The same with all that a verdict needs: how often noise alone lets some cause look as strong as the strongest
-/// does, without what the best model rejects; what quarters of the bed and each session make of it.
+/// The same with all that a verdict needs: how often noise alone makes some cause look as strong as
+/// the strongest, without the readings that the best model rejects, and the results of quarters of
+/// the bed and of each session.
 void judge(const AnalysisRules& rules, Analysis& a);
-/// The causes compared and judged once more about the same state, with `rows` (whitened, one each of the
-/// system) taken out of the readings.
+/// Compares and judges the causes again about the same state, after subtracting `rows` (whitened,
+/// one for each row of the system) from the readings.
 [[nodiscard]] Analysis analyse_without(Analysis analysis,
                                        const Eigen::VectorXd& rows,
                                        const AnalysisRules& rules);
 
-/// Of every machine but four belts.
+/// For every machine except four belts.
 [[nodiscard]] const AnalysisRules& calibrated_rules();
 
-/// Fails in words where the machine cannot be where it was measured.
+/// Fails with a sentence if the machine cannot reach a place where it was measured.
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
                                                                const DiagnosisOptions& options);
 
-/// The decided causes refitted without linearisation: sizes, places and settings moved until the secants taken
-/// at them fit as they are, with the units set aside that the decision leaves out. Sets the state, and of the
-/// causes whose size is no whole number the values.
+/// The decided causes refitted without linearisation: sizes, places and settings moved until the
+/// secants taken at them fit as they are, without the units that the decision leaves out. Sets the
+/// state, and the values of causes whose size is not a whole number.
 ///
 /// A secant is exact at its own size alone. Half a chain's weight gone, a pull of several newtons or the phase
 /// of a wave along a chain whose zero moves by a millimetre need several rounds; about where they end the
 /// models are compared again.
 void relinearise(Analysis& analysis);
 
-/// Noise and estimate of the decision at hand.
+/// Noise and estimate of the current decision.
 void estimate_decided(Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The anchors of a router on four belts, with sigmas that allow for the stretch of pulled belts
-/// and every other cause in the belts' table at its usual size (averaged_anchors.hpp). A diagnosis
-/// of the same belts has the same anchors.
+/// The anchors of a router on four belts, with sigmas that allow for the stretch of pulled
+/// belts and every other cause in the belts' table at its usual size (averaged_anchors.hpp). A
+/// diagnosis of the same belts reports the same anchors.
 ///
 /// With P and P_t the precision of anchors and scale by corrected readings, without and with the
 /// taped distances, x and x_t where either has its minimum, and C, a the averaged anchors:
@@ -23,10 +23,11 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Fails in words where fit_belts() does.
+/// Fails with a sentence where fit_belts() fails.
 [[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts);
 
-/// With holes that were cut and taped; belts without points are as their machine states.
+/// With holes that were cut and taped; belts without points have the anchors that their machine
+/// states.
 /// \throws std::invalid_argument as fit_belts_and_holes() does.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_with_causes_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);

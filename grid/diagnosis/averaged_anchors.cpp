@@ -73,8 +73,8 @@ SizePrior prior_of(const Regressor& regressor, double noise_square) {
   return {usual, usual * widening * widening};
 }
 
-/// Holds sizes to their usual spread, but of causes that are known. \returns the logarithm of
-/// what that makes of the model's evidence.
+/// Restricts sizes to their usual spread, except for known causes. \returns the logarithm of the
+/// factor on the model's evidence.
 double hold_to_usual_sizes(const std::vector<SizedCause>& known,
                            const RegressorSystem& system,
                            Estimate& found) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors of four belts averaged over the models of a comparison, weighted by probability: each
-/// cause that yields with the pull, every other cause with it and sets of them, with and without a
-/// smooth pattern. Private to grid/diagnosis.
+/// Anchors of four belts averaged over the models of a comparison, weighted by probability:
+/// each cause of yielding under the pull, with every other cause and sets of causes, with and
+/// without a smooth pattern. Private to grid/diagnosis.
 ///
 /// With anchors a_m, covariance C_m and weight w_m of model m, together 1:
 ///
@@ -39,8 +39,8 @@ struct AveragedAnchors {
   belts::AnchorVector anchors = belts::AnchorVector::Zero();
   Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns> covariance_mm2 =
       Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns>::Zero();
-  /// The likeliest cause that yields with the pull, and all others more likely than not; sizes
-  /// averaged over the models that contain them.
+  /// The likeliest cause of yielding under the pull, and all others that are more likely than not;
+  /// sizes averaged over the models that contain them.
   std::vector<AveragedCause> causes;
 };
 

@@ -24,7 +24,7 @@ constexpr double kFalseAlarmOfBelts = 0.001;
 constexpr double kSpokenFor = 3.0;
 /// Places in a part of the bed: anchors need four, and one more check at each reveals a wrong one.
 constexpr std::size_t kFewestPlaces = 8;
-/// Linearised about nothing, about what was found, and about what that leaves.
+/// Linearised about no cause, about the causes found, and about what those leave.
 constexpr int kRoundsOfBelts = 3;
 
 /// Regressors of a cause that are compared; those near one visit are kept together, because an
@@ -34,7 +34,7 @@ constexpr SearchLimits kSearch{.of_a_cause = 3, .one_event_visits = 4.0};
 constexpr Eigen::Index kManyRows = 500;
 constexpr std::size_t kKernelOfMany = 1;
 
-/// Of the system the regressors at the values that were found before.
+/// The system's regressors at the values that were found before.
 std::vector<int> found_before(const Analysis& a) {
   std::vector<int> found;
   for (const SizedCause& own : a.known) {
@@ -50,8 +50,8 @@ std::vector<int> found_before(const Analysis& a) {
   return found;
 }
 
-/// By how much the readings make the odds of a cause given a pattern larger than they are beforehand;
-/// infinity where the pattern alone is out of the question.
+/// The factor by which the readings raise the odds of a cause given a pattern; infinity if the
+/// pattern alone is impossible.
 double spoken_for(const Analysis& a, const CauseClass& members) {
   std::vector<double> with, without;
   double beforehand = 0.0;
@@ -71,8 +71,8 @@ double spoken_for(const Analysis& a, const CauseClass& members) {
   return std::exp(log_sum(with) - log_sum(without) - beforehand);
 }
 
-/// What is expected beforehand, and is not any likelier for the readings, is no finding: with a
-/// pattern, where less than surely is enough for a name, it is the pattern that was found.
+/// An expected cause that the readings make no likelier is not a finding. With a pattern, where
+/// less certainty suffices for a name, the pattern is the finding.
 void take_expected_back(Analysis& a) {
   Decision& decision = a.decision;
   if (decision.verdict != Verdict::named || !(decision.discrepancy > kDiscrepancyLikely)) return;
@@ -119,7 +119,7 @@ ComparisonOptions BeltRules::compared(const Analysis& a, bool last) const {
 
 bool BeltRules::refit(Analysis& a) const {
   if (auto given = fit_as_decided(belts_, a)) {
-    // A place of which everything is set aside stays where it was.
+    // A place without any counting reading stays where it was.
     belts_.frame = std::move(given->frame);
     a.known = std::move(given->causes);
   }
@@ -138,11 +138,11 @@ RegressorSystem BeltRules::tried_with_noise(const Analysis& a) const {
 }
 
 void BeltRules::restrain(bool detected, Analysis& a) const {
-  // Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern with
-  // it seems to leave for it.
+  // If noise alone would make a cause look as strong as the strongest, none is named, whatever a
+  // pattern seems to leave for it.
   if (!detected) withdraw_names(a.comparison, a.decision);
   take_expected_back(a);
-  // Noise of belts is not stated, so none is larger than that.
+  // The noise of belts is not stated, so it cannot exceed a stated value.
   a.decision.nothing += a.decision.noise;
   a.decision.noise = 0.0;
   if (a.decision.verdict == Verdict::noise_larger_than_stated)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the analysis of four belts does otherwise (AnalysisRules): the frame is fitted anew between comparisons,
-/// nothing is stated of the noise, and something is expected to give with the pull. Private to grid/diagnosis.
+/// The rules for four belts (AnalysisRules): the frame is fitted again between comparisons,
+/// the noise is not stated, and yielding under the pull is expected. Private to grid/diagnosis.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -13,9 +13,9 @@
 namespace chaintrue::grid::diagnosis {
 
 struct BeltsAnalysis : Analysis {
-  MeasuredBelts belts;       ///< without distances: they say nothing of a cause
-  belts::AnchorFit alone;    ///< anchors and places, no cause at work
-  belts::AnchorFit frame;    ///< about which the system is linear, the known causes at work
+  MeasuredBelts belts;       ///< without distances, which carry no information about a cause
+  belts::AnchorFit alone;    ///< anchors and places without a cause
+  belts::AnchorFit frame;    ///< about which the system is linear, with the known causes
   double sigma_mm = 0.0;     ///< of one belt's reading, as it is whitened
   AveragedAnchors averaged;  ///< the same for a fit and a diagnosis of the same belts
 };
@@ -25,7 +25,7 @@ class BeltRules final : public AnalysisRules {
   explicit BeltRules(BeltsAnalysis& belts);
   [[nodiscard]] tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const override;
   [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool last) const override;
-  /// The state stays where that settles nowhere.
+  /// The state is unchanged if that does not converge.
   [[nodiscard]] bool refit(Analysis& a) const override;
   [[nodiscard]] RegressorSystem tried_with_noise(const Analysis& a) const override;
   void restrain(bool detected, Analysis& a) const override;
@@ -34,8 +34,8 @@ class BeltRules final : public AnalysisRules {
   BeltsAnalysis& belts_;
 };
 
-/// How far an analysis goes: to the averaged anchors, its decision that of a comparison alone; or to
-/// a verdict.
+/// How far an analysis goes: to the averaged anchors, with the decision of the comparison alone, or
+/// to a verdict.
 enum class AnalysisDepth { anchors, verdict };
 
 /// Precondition: fit_belts() takes these belts.
@@ -44,12 +44,12 @@ enum class AnalysisDepth { anchors, verdict };
     const DiagnosisOptions& options,
     AnalysisDepth depth = AnalysisDepth::verdict);
 
-/// The frame with the readings that the decision keeps, and the causes that it holds; unless that settles
-/// nowhere.
+/// The frame with the readings and the causes that the decision keeps; empty if that does not
+/// converge.
 [[nodiscard]] std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts,
                                                            const Analysis& decided);
 
-/// Of each reading, whether the decision keeps it.
+/// For each reading, whether the decision keeps it.
 [[nodiscard]] belts::Counting decided_counting(const Analysis& analysis);
 
 /// The analysis with patterns of single belts added, for weighing laws.

@@ -20,7 +20,7 @@ using model::kBelts;
 
 namespace {
 
-/// Places by a machine's own belief, from the upper two belts; empty if these do not meet.
+/// Places as the machine computes them from the upper two belts; empty if these do not meet.
 using Believed = std::vector<std::optional<FramePoint>>;
 
 Believed believed(const model::BeltMachine& by,
@@ -67,7 +67,7 @@ double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& p
   return std::sqrt(left.squaredNorm() / as_double(n));
 }
 
-/// Half of an axis of the anchors' uncertainty at a time, both ways: rms over all of them.
+/// Root mean square over shifts along each axis of the anchors' uncertainty, in both directions.
 double uncertain_mm(const model::BeltMachine& machine,
                     const Eigen::MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
@@ -101,7 +101,7 @@ ToolError tool_error(const FitGivenCauses& given,
   return error;
 }
 
-/// For all readings, none set aside.
+/// For all readings, including rejected ones.
 double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   belts::AnchorFit from = given.frame;
   from.counting.assign(belts.points.size(), belts::kAllBelts);
@@ -111,8 +111,8 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   return std::sqrt(left.squaredNorm() / as_double(left.size()));
 }
 
-/// By the tape, with the causes taken out: a stretch makes the belts' millimetres longer as a scale does, and counted
-/// in both it would be taken out twice. Not known where no frame holds the tape once they are.
+/// From the tape, after correcting for the causes: a stretch lengthens the belts' millimetres as a
+/// scale does and would otherwise be corrected twice. Unknown if no frame fits the tape after that.
 std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const FitGivenCauses& given) {
   if (belts.distances.empty()) return std::nullopt;
   MeasuredBelts taped = given.without_causes;

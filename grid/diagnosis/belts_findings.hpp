@@ -47,7 +47,7 @@ struct ToolError {
 
 /// All places measured again with the belts pulled harder.
 struct SecondPass {
-  double times = 1.0;  ///< as hard
+  double times = 1.0;  ///< factor on the pull
   /// Probability that the right cause is then named alone.
   double raises_probability_to = 0.0;
 };
@@ -60,7 +60,7 @@ struct BeltsFindings {
   /// sqrt(sum r^2 / checks): the error of one belt's reading.
   double spread_before_mm = 0.0;
   double residual_sigma_mm = 0.0;
-  /// Over all readings, none set aside, as the machine's own message counts.
+  /// Over all readings, none rejected, as the machine's own message counts.
   double rms_before_mm = 0.0;
   double rms_mm = 0.0;
   int checks = 0;

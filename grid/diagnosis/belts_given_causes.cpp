@@ -24,7 +24,7 @@ std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>
 
 namespace {
 
-/// A value that least squares finds: of cause `cause` the value numbered `value`.
+/// A value that least squares estimates: number `value` of cause `cause`.
 struct FreeValue {
   std::size_t cause = 0;
   std::size_t value = 0;
@@ -69,7 +69,7 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
 bool moved(const Eigen::VectorXd& change,
            const std::vector<FreeValue>& free,
            std::vector<SizedCause>& causes) {
-  // Of a value's usual spread: a hundredth of what the best data leave uncertain.
+  // Share of a value's usual spread: a hundredth of what the best data leave uncertain.
   constexpr double kConverged = 1e-4;
   bool converged = true;
   for (std::size_t f = 0; f < free.size(); ++f) {
@@ -164,8 +164,8 @@ ObservationSet observations_of(const MeasuredBelts& belts,
 std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
                                          std::vector<SizedCause> causes,
                                          const belts::AnchorFit& from) {
-  // Sizes and frame are nearly linear in each other: three rounds settle all but zeros of an arm's
-  // length, which take six.
+  // Sizes and frame are nearly linear in each other: three rounds suffice except for zeros of an
+  // arm's length, which take six.
   constexpr int kMostRounds = 12;
   const MeasuredBelts untaped = without_distances(belts);
   FitGivenCauses given{from, std::move(causes), {}};

@@ -27,12 +27,12 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// In the form of the belts' own table.
+/// As effects of the belts' table.
 [[nodiscard]] std::vector<model::effects::ActingEffect> resolved(
     const std::vector<SizedCause>& causes);
 
-/// What the causes add to what the machine prints, 4 N, mm: as row_of() has the rows. Of readings that
-/// such a machine cannot give 0.
+/// What the causes add to the printed lengths, 4 N numbers in mm in the order of row_of(); 0 for
+/// readings that such a machine cannot give.
 [[nodiscard]] Eigen::VectorXd added_by(const MeasuredBelts& belts,
                                        const std::vector<SizedCause>& causes,
                                        const belts::FrameState& state);
@@ -42,8 +42,8 @@ namespace chaintrue::grid::diagnosis {
                                             const std::vector<SizedCause>& causes,
                                             const belts::FrameState& state);
 
-/// The readings that count, about a state; units are points of which three or four count. Of a point that the
-/// machine cannot reach there, a gross one, about the frame's middle.
+/// The readings that count, about a state; units are points of which three or four count. A point
+/// that the machine cannot reach there (a gross error) is linearised about the frame's middle.
 [[nodiscard]] ObservationSet observations_of(const MeasuredBelts& belts,
                                              const belts::FrameState& state,
                                              const belts::Counting& counting,
@@ -53,7 +53,7 @@ namespace chaintrue::grid::diagnosis {
 struct FitGivenCauses {
   belts::AnchorFit frame;
   std::vector<SizedCause> causes;
-  MeasuredBelts without_causes;  ///< the readings without what these add; no distances
+  MeasuredBelts without_causes;  ///< readings corrected for the causes; no distances
 };
 /// From a nearby state; whole-number sizes are fixed, others stay in their ranges. Empty if it does
 /// not converge.

@@ -65,7 +65,7 @@ class NextPlaces {
     }
   }
 
-  /// True where the machine reaches it. Without a pull it is the one that sizes refer to.
+  /// True if the machine reaches it. The default pull is the one that sizes refer to.
   bool add(model::FramePoint at,
            const std::optional<std::vector<Belt>>& pulled,
            const std::optional<BeltPull>& pull = std::nullopt) {
@@ -82,7 +82,7 @@ class NextPlaces {
     return true;
   }
 
-  /// Its rows come with what is predicted there.
+  /// Its rows are filled in by the prediction.
   void propose(MeasurementKind kind, std::string what, model::BedPoint command) {
     Candidate candidate{
         {kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
@@ -164,7 +164,7 @@ PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
   return predicted;
 }
 
-/// For every place again, the last one first, pulled `times` as hard as before.
+/// For every place again, the last one first, with `times` the pull.
 std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) {
   if (a.belts.points.size() > kMostOnceMore) return std::nullopt;
   NextPlaces next(a, times);

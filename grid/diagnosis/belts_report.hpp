@@ -10,7 +10,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Anchors, places and sizes at rest with the causes that were decided on.
+/// Converged anchors, places and sizes with the causes of the decision.
 [[nodiscard]] FitGivenCauses explained(const BeltsAnalysis& analysis);
 
 /// Prediction of the lower belts of each half of the places by a fit to the other, including the
@@ -18,7 +18,7 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
                                                                  const FitGivenCauses& given);
 
-/// Everything but words; `alone` is what fit_belts() makes of the same belts.
+/// Everything except words; `alone` is the result of fit_belts() for the same belts.
 [[nodiscard]] BeltsFindings belts_findings(const BeltsAnalysis& analysis,
                                            const FitGivenCauses& given,
                                            const MeasuredBelts& belts,
@@ -27,30 +27,30 @@ namespace chaintrue::grid::diagnosis {
 /// The unexplained pattern if the decision has one; else only its probability.
 [[nodiscard]] Unexplained unexplained(const BeltsAnalysis& analysis);
 
-/// Readings set aside: of a place of which more than one is, the place.
+/// Rejected readings; a place with more than one is listed as a whole.
 [[nodiscard]] std::vector<Outlier> bad_belts(const FitGivenCauses& given);
 
-/// Measurements are proposed where they reach a chance of a quarter: eight that reach a sixth are eight
-/// for nothing.
+/// Measurements are proposed if they succeed with a probability of a quarter: eight that reach a
+/// sixth would be wasted effort.
 inline constexpr double kWorthMeasuring = 0.25;
-/// A chance of this much more is worth a second session.
+/// A gain in probability that is worth a second session.
 inline constexpr double kWorthASession = 0.05;
 
-/// What to measure next so that the leading causes part: further places, and places once more, chosen as
-/// next_measurements.hpp chooses points. Each gives two checks, predicted by each alternative
-/// (expected_discrimination.hpp) with its anchors, causes and pattern.
+/// What to measure next to discriminate between the leading causes: further places and repeated
+/// places, chosen as next_measurements.hpp chooses points. Each gives two checks, predicted by each
+/// alternative (expected_discrimination.hpp) with its anchors, causes and pattern.
 struct BeltsNext {
   /// `mark` is a command, `pulled` where the frame's orientation leaves a choice.
   std::vector<NextMeasurement> measurements;
-  /// Probability that a single right explanation is left once every place is measured once more, the
-  /// last one first. Empty where nothing is open, or for more places than that is computed of.
+  /// Probability that only the right explanation remains once every place is measured again, the
+  /// last one first. Empty if nothing is open, or for more places than this is computed for.
   std::optional<double> all_once_more;
-  /// The same with belts pulled harder, where all were measured with one pull and it reaches more than
-  /// what needs no other setting of the machine.
+  /// The same with belts pulled harder, if all were measured with one pull and this reaches more
+  /// than measurements at the same setting.
   std::optional<SecondPass> second_pass;
-  bool is_open = false;  ///< two explanations or more are left to tell apart
+  bool is_open = false;  ///< two explanations or more remain
 };
-/// `indices`: where the points stand in their file.
+/// `indices`: positions of the points in their file.
 [[nodiscard]] BeltsNext next_measurements(const BeltsAnalysis& analysis,
                                           const PointIndices& indices);
 

@@ -21,7 +21,7 @@ using model::effects::EffectSide;
 
 namespace {
 
-/// Degrees of freedom of the prior noise of a belt's reading: hardly known.
+/// Degrees of freedom of the prior noise of a belt's reading, which is hardly known.
 constexpr double kNoiseDof = 2.0;
 /// Visits at which something may set in, spread over the session: neighbours among 24 have a
 /// collinearity of 0.97, and the best is refined between its neighbours afterwards.
@@ -47,9 +47,9 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
                             {22.0, 0.1},
                             {-22.0, 0.1}};
 
-/// Of the published frames none shows anything besides stretch: one other cause is a third as likely as
-/// of chains, a sixth of nothing. Nearly all of them leave a smooth pattern as well, so that a pattern
-/// makes another cause no likelier.
+/// No published frame shows anything besides stretch. One other cause is a third as likely as with
+/// chains: a sixth as likely as none. Nearly all frames leave a smooth pattern as well, so a
+/// pattern makes another cause no likelier.
 CausePrior prior_of_belts() {
   constexpr double kRarerThanChains = 3.0;
   CausePrior prior{.shares = 0.0, .odds_given_discrepancy = 1.0};
@@ -77,7 +77,7 @@ std::vector<int> thinned(const std::vector<int>& visits) {
   return few;
 }
 
-/// Those between the neighbours of one among the thinned.
+/// The visits between the neighbours of one of the thinned visits.
 std::vector<int> about(const std::vector<int>& visits, int visit) {
   const auto half = static_cast<std::ptrdiff_t>(visits.size() / kVisits + 1);
   const auto at = std::lower_bound(visits.begin(), visits.end(), visit) - visits.begin();
@@ -167,7 +167,7 @@ class Columns {
   }
 
  private:
-  /// Of what is expected what makes it alone as likely as nothing (CausePrior).
+  /// For an expected effect, the share that makes it alone as likely as no cause (CausePrior).
   [[nodiscard]] double share_of(const CauseId& cause) const {
     const model::effects::Effect& effect = *cause.effect;
     if (!(effect.expected > 0.0)) return effect.share;
@@ -301,9 +301,9 @@ RegressorSystem system_of(const MeasuredBelts& belts,
                           const ObservationSet& session,
                           const std::vector<CauseId>& causes,
                           const std::vector<SizedCause>& known) {
-  // Two rows more than anchors, or nothing is left to judge by.
+  // Two rows more than anchors are needed, or nothing is left to judge by.
   constexpr Eigen::Index kFewestChecks = 3;
-  // Two bad readings of a place, and of neighbouring places, can mask one another.
+  // Two bad readings at a place, or at neighbouring places, can mask each other.
   constexpr std::size_t kBeyondTheBest = 8;
   RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;

@@ -16,11 +16,11 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// What would show the causes that these data cannot.
+/// What would reveal the causes that these data cannot show.
 [[nodiscard]] Candidates candidates(const MeasuredBelts& belts);
 
-/// Of readings that all count, about this state, with a regressor for each of `causes` at every place where it
-/// may set in: of those that are known secants at their values.
+/// The system of readings that all count, about this state, with a regressor for each of `causes`
+/// at every place where it may set in. Regressors of known causes are secants at their values.
 [[nodiscard]] RegressorSystem system_of(const MeasuredBelts& belts,
                                         const belts::FrameState& state,
                                         const ObservationSet& session,

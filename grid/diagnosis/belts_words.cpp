@@ -15,7 +15,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// An end of a distance as a file has it: an anchor's name, a point's number, a hole's command.
+/// An end of a distance as in files: an anchor's name, a point's number, or a hole's command.
 std::string end_of(const BeltEnd& end, const PointIndices& indices) {
   if (const auto* index = std::get_if<std::size_t>(&end))
     return fmt::format("{}", index_in_file(indices, *index));
@@ -46,7 +46,7 @@ std::string short_of_a_name(const Diagnosis& d) {
   std::vector<std::string> parts;
   double most = 0.0;
   for (const Hypothesis& own : d.hypotheses) {
-    // Something is expected to give with the pull: where it is not named the readings speak against it.
+    // Yielding under the pull is expected; if it is not named, the readings speak against it.
     if (own.probability < kInTheSet || own.causes.empty()) continue;
     const CauseId& cause = own.causes.front();
     if (cause.effect->expected > 0.0) continue;
@@ -122,7 +122,8 @@ bool tells(const BeltsNext& next) {
          next.measurements.back().raises_probability_to >= kWorthMeasuring;
 }
 
-/// For undecided causes: what separates them or, if none of it does, what would.
+/// For undecided causes: the proposed measurements, or what would separate them if none of these
+/// does.
 void advise_measurements(const BeltsNext& next, Diagnosis& d) {
   if (!next.is_open) return;
   std::string text;
@@ -194,7 +195,7 @@ void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
   }
 }
 
-/// The machine's number and this one, and why they differ.
+/// The machine's own number and this one, and why they differ.
 std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, const Diagnosis& d) {
   const auto readings = static_cast<double>(4 * belts.points.size());
   std::string text;

@@ -19,13 +19,13 @@ namespace chaintrue::grid::diagnosis {
 /// it has none.
 [[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
 
-/// Flags the units whose readings only a cause at one visit explains.
+/// Flags the units whose readings are explained only by a cause at one visit.
 void reject_slips(const Analysis& analysis, std::vector<bool>& outliers);
 
 /// Whether no points distinguish the two.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
 
-/// The column most like another of all causes that are neither of its class nor named; -1 where
+/// The column most similar to another, among causes that are neither of its class nor named; -1 if
 /// there is none.
 struct Nearest {
   int column = -1;
@@ -33,8 +33,8 @@ struct Nearest {
 };
 [[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
 
-/// The named causes, or else the leading ones, and the cause most like the first: for pictures side
-/// by side.
+/// The named causes, or else the leading ones, and the cause most similar to the first, for
+/// pictures side by side.
 struct Shown {
   std::vector<int> best;
   std::vector<int> rival;

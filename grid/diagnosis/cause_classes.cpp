@@ -49,7 +49,7 @@ struct Representative {
   bool fixed = false;
 };
 
-/// The first model, the best ones first, in which one of these acts, with the free one at work.
+/// The best model in which one of these acts together with the free one.
 struct FreeModel {
   std::vector<int> regressors;
   int free = -1;

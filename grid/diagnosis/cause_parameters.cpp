@@ -37,9 +37,9 @@ std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
   return (*above - *below) / (2.0 * kStep);
 }
 
-/// The same with each setting, n x q. A wave along a chain moves along it with the chain's length: a
-/// motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. Empty if the
-/// machine cannot be so.
+/// The same with each setting, n x q. A wave along a chain moves along it with the chain's length:
+/// a motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. Empty if
+/// such a machine is invalid.
 Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
   // Step in sigmas: central differences of a wave of 60 mm are accurate to 1e-7 for a motor known
   // to 3 mm.

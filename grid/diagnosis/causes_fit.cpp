@@ -103,7 +103,8 @@ double least_known_size(const std::vector<Cause>& causes) {
   return largest;
 }
 
-/// Of the readings in which other causes act, a set of these each; empty where there is no such map.
+/// One map for each set of other causes that may act on the readings; empty if there is no such
+/// map.
 std::vector<std::optional<CompensationMap>> other_maps(
     const Measured& measured,
     const JointFitOptions& options,
@@ -143,7 +144,7 @@ void add_open_causes(const Measured& measured,
   constexpr double kLeastFactor = 1.05;
   const CompensationMap map = result.fit.map;
   const std::vector<Cause>& built_on = result.built_on;
-  // Two for each place that is unsure, one sigma to either side, and one for each cause that is left open.
+  // Two for each uncertain place, one sigma to either side, and one for each undecided cause.
   std::vector<std::vector<ActingCause>> sets;
   for (std::size_t k = 0; k < built_on.size(); ++k) {
     const ParameterEstimate* place = unsure_place(built_on[k]);
@@ -180,7 +181,7 @@ void add_open_causes(const Measured& measured,
   result.fit.map = std::move(open);
 }
 
-/// The map's file has the sentences too.
+/// The map's file contains the sentences too.
 CausesFit noted(CausesFit fit) {
   fit.fit.map = fit.fit.map.with_notes_first(in_words(fit));
   return fit;
@@ -222,7 +223,7 @@ CausesFit fit_on_causes(const Measured& measured,
                         const CausesFitOptions& options,
                         const std::function<bool()>& naming_helps) {
   CausesFit result{std::move(plain), {}, {}, std::nullopt, 0.0, {}};
-  // What depends on the visit is taken out in the order that was found.
+  // Effects of the visit are removed in the order that was found.
   const Measured ordered =
       naming.order ? visited_in(measured, naming.order->order).value_or(measured) : measured;
   const bool decided = options.accept_class || scale_was_read(measured);

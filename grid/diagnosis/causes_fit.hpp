@@ -72,7 +72,8 @@ struct OfferedCause {
   Reason reason;
 };
 
-/// Error of the tool at points in blocks of the bed that were left out, rms, mm; their noise is in it.
+/// Error of the tool at points in blocks of the bed that were left out, rms, mm, including their
+/// noise.
 struct HeldOutBlocksError {
   double plain_mm = 0.0;
   double with_causes_mm = 0.0;
@@ -92,8 +93,8 @@ struct CausesFit {
 /// Fails where joint_fit() fails on the machine as stated.
 [[nodiscard]] tl::expected<CausesFit, FitFailure> fit_with_causes(
     const Measured& measured, const CausesFitOptions& options = {});
-/// The same, with causes that were named and the plain map that was made already. `naming_helps`
-/// is asked at most once: whether naming_improves_the_map().
+/// The same, given the named causes and the plain map. `naming_helps` is asked at most once:
+/// whether naming_improves_the_map().
 [[nodiscard]] CausesFit fit_on_causes(const Measured& measured,
                                       const Naming& naming,
                                       JointFit plain,
@@ -105,8 +106,8 @@ struct CausesFit {
 
 /// A cause as in a machine file.
 [[nodiscard]] model::AppliedEffect applied(const Cause& cause);
-/// The same, its size shared out over the places where it may stand; one where its place is sure, or where it
-/// has none that a step or a bend depends on.
+/// The same with its size divided among its possible places; a single one if its place is certain,
+/// or if no step or bend depends on it.
 [[nodiscard]] std::vector<model::AppliedEffect> applied_over_places(const Cause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The causes that readings name once a law is known: the law as its best context has it is taken out of
-/// them, and the causes are compared once more (analysis.hpp).
+/// The causes that readings name once a law is known: the law, as estimated in its best
+/// context, is subtracted and the causes are compared again (analysis.hpp).
 ///
-/// A law that nobody listed is so much noise to a comparison that does not know it: it hides causes that
-/// act alongside it, and sometimes looks like one. What is known only nearly is taken as known: of a law of
+/// To a comparison that does not include it, an unlisted law is noise: it hides causes that act
+/// alongside it and sometimes looks like one. The estimate is treated as exact: of a law of
 /// strength 12 a twelfth is left in the readings, less than their noise at any one of them.
 #pragma once
 
@@ -31,7 +31,7 @@ namespace chaintrue::grid::diagnosis {
 /// given the law.
 void take_names_back(const Analysis& given_law, Analysis& analysis);
 
-/// What changes once a claimed law is known; what is not named any more is taken back.
+/// The changes of names once a claimed law is known; causes that are no longer named are withdrawn.
 [[nodiscard]] std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
                                                         const AnalysisRules& rules,
                                                         Analysis& analysis);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A map on a machine with causes against the plain one, at points in blocks of the bed that neither was
-/// fitted to: (1) of causes_fit.hpp. Private to grid/diagnosis.
+/// Compares a map on a machine with causes with the plain one at points in blocks of the bed
+/// to which neither was fitted: (1) of causes_fit.hpp. Private to grid/diagnosis.
 #pragma once
 
 #include <cstddef>

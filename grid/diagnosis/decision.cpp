@@ -247,7 +247,7 @@ class Decider {
     }
     take(best_model);
     result_.verdict = Verdict::named_set;
-    // Which, given that one cause acts.
+    // Which cause, given that exactly one acts.
     std::vector<ClassProbability> alone;
     double all = 0.0;
     for (const auto& [key, grouped] : groups_) {

@@ -12,9 +12,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Causes that these data cannot separate, however strong; the one that gives the class its name
-/// first: a cause in the machine before one on the paper. What acts by whole numbers and what acts by
-/// any amount are one class where the amount that is found is such a number, the likelier first.
+/// Causes that these data cannot separate, however strong. The first names the class: a cause in
+/// the machine precedes one on the paper. A cause that acts in whole numbers and one that acts by
+/// any amount form one class if the fitted amount is such a number; the likelier is first.
 using CauseClass = std::vector<CauseId>;
 [[nodiscard]] std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                                  const ModelComparison& comparison);

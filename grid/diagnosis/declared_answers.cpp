@@ -30,7 +30,7 @@ std::vector<int> others_than(const Analysis& a, const CauseId& cause) {
   return others;
 }
 
-/// Whether the readings are likelier without it than with its values in the file.
+/// Whether the readings are more probable without it than with its values in the file.
 bool is_refuted(const Analysis& a, const CauseId& cause) {
   const auto g = signature(
       a.session, a.state, a.system, cause, model::effects::nominal_values(*cause.effect));

@@ -59,7 +59,7 @@ std::vector<std::string> names_of_sessions(const Measured& measured) {
   return names;
 }
 
-/// Sessions whose chains hang otherwise than in the first.
+/// Sessions whose chain zeros differ from those of the first.
 void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagnosis& d) {
   for (std::size_t k = 0; k < names.size() && k < a.session.parts.size(); ++k) {
     std::array<estimation::SessionZero, 2> zeros;
@@ -142,7 +142,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   if (naming.refusal) d.notes.push_back(*std::move(naming.refusal));
   take_findings(a, d);
   const std::vector<std::string> sessions = names_of_sessions(measured);
-  // Independent: each fills its own fields. The slowest come first.
+  // Independent tasks: each fills its own fields. The slowest come first.
   const std::function<void()> work[] = {
       [&] {
         if (!options.improvement) return;

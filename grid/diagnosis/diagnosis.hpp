@@ -142,9 +142,9 @@ struct ErrorBudget {
 
 struct Outlier {
   Observations of = Observations::points;  ///< points, distances or belts
-  std::size_t index = 0;                   ///< of a belt's reading that of its place
-  std::optional<model::Belt> belt{};       ///< empty of belts: all that was read at the place
-  /// The belt of the same place that may be off instead, where the lengths do not tell which.
+  std::size_t index = 0;                   ///< for a belt's reading, the order of its place
+  std::optional<model::Belt> belt{};       ///< empty for belts: all readings at the place
+  /// The belt at the same place that may be wrong instead, if the lengths do not show which.
   std::optional<model::Belt> or_belt{};
   /// Implied position of the tool minus the mark.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
@@ -192,7 +192,7 @@ struct HeldOut {
 };
 
 struct HeldOutImprovement {
-  std::string scheme;  ///< how points were held out, in words
+  std::string scheme;  ///< a sentence on how points were held out
   HeldOut uncalibrated;
   std::optional<HeldOut> placed;  ///< the sheet's placement alone; where it was placed by hand
   HeldOut calibrated;
@@ -204,7 +204,7 @@ struct HeldOutImprovement {
   /// (expected_improvement.hpp). Held-out blocks show a larger reduction, since both models
   /// extrapolate there.
   double drop_mm2 = 0.0;
-  /// That drop over the mean square before it, the noise of the readings in neither.
+  /// That drop relative to the mean square before it, both without the noise of the readings.
   double drop_share = 0.0;
   /// The number of folds in which the same cause was named.
   int folds = 0;
@@ -225,7 +225,7 @@ struct NextMeasurement {
   /// omitted; distances to several holes are measured one by one.
   std::string from{};
   std::vector<std::string> to{};
-  /// For a place that four belts read: the pulled belts by name. Empty: those of the frame's
+  /// For a place read by four belts: the names of the pulled belts. Empty: those of the frame's
   /// orientation.
   std::vector<model::Belt> pulled{};
   std::optional<ReadingOf> reading{};  ///< of a reading: what to read
@@ -256,7 +256,7 @@ struct Removal {
   enum class What { point, column, row, distance, hole } what = What::point;
   std::size_t index = 0;   ///< of a point, a distance or a hole
   double at_mm = 0.0;      ///< of a column its x, of a row its y
-  std::size_t points = 1;  ///< or distances, that go
+  std::size_t points = 1;  ///< or distances, that are left out
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseId> causes;  ///< that would be named
   /// Whether the names are the same without these.
@@ -276,8 +276,8 @@ struct Stability {
 /// The result without a quarter of the bed, or of one session alone.
 struct PartFinding {
   double towards_rad = 0.0;  ///< where the quarter lies, from the middle; from x towards y
-  std::string session;       ///< of one session its name; of a quarter empty
-  std::size_t units = 0;     ///< of a quarter those left out, of a session its own
+  std::string session;       ///< the session's name; empty for a quarter
+  std::size_t units = 0;     ///< those left out with a quarter, or those of the session
   Hypothesis likeliest;      ///< the likeliest cause, or "nothing" where none is likelier than not
   std::vector<Hypothesis> named;  ///< what is named, with its probability here
 };
@@ -286,7 +286,7 @@ struct PartFinding {
 struct DrawnSetting {
   std::string name;  ///< "zero_left_mm"
   double set = 0.0;
-  double found = 0.0;  ///< with the causes of the verdict at work
+  double found = 0.0;  ///< with the causes of the verdict acting
   double sigma = 0.0;
   bool off = false;  ///< further away than its own sigma and chance allow
 };
@@ -295,12 +295,12 @@ struct DrawnSetting {
 struct DrawnValue {
   std::string name;  ///< "the bow of A-B at E"
   double measured_mm = 0.0;
-  double explained_mm = 0.0;  ///< by the settings found and the causes of the verdict
+  double explained_mm = 0.0;  ///< predicted from the settings found and the causes of the verdict
   bool rejected = false;
 };
 
-/// What a diagnosis of a V-plotter's test drawing has of its own: the settings with the causes at work, and each
-/// measure.
+/// The part of a diagnosis that only a V-plotter's test drawing has: the settings with the causes
+/// acting, and each measure.
 struct DrawingFindings {
   std::string plotter;  ///< its name
   std::vector<DrawnSetting> settings;
@@ -334,10 +334,10 @@ struct Diagnosis {
   std::vector<CalibratedSetting> settings;
   std::optional<HeldOutImprovement> improvement;
   std::vector<NextMeasurement> next_measurements;
-  /// The machine with its settings calibrated and every named cause that belongs into it; never an
+  /// The calibrated machine with every named cause that belongs in it, which never includes an
   /// effect of the paper or of the visit. Not for belts: see `belts`.
   model::Machine extended_machine;
-  /// Named causes that do not belong into the machine: the corrections of the data.
+  /// Named causes that do not belong in the machine: the corrections of the data.
   std::vector<model::AppliedEffect> data_corrections;
 
   double noise_factor = 1.0;   ///< noise found, as a multiple of what was stated

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The model discrepancy with some columns, for many kernels and strengths at once: a smooth
-/// field over a bed has few degrees of freedom, so that its covariance is B B' with few columns.
+/// The model discrepancy with some columns, for many kernels and strengths at once. A smooth
+/// field over a bed has few degrees of freedom, so its covariance is B B' with few columns.
 ///
 /// Notation
 ///   F      field over the places, low rank: k ~= F F', what is left of its diagonal below 1e-4
@@ -58,7 +58,7 @@ class DiscrepancyBasis {
       double log_det = 0.0;  ///< |1 + s^2 B'B|
     };
     [[nodiscard]] Half half(double strength) const;
-    /// Replaces lines E'BQ by E'BQH'.
+    /// Replaces rows E'BQ by E'BQH'.
     static void apply(const Half& half, Eigen::MatrixXd& lines);
     const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
     double trace_ = 0.0;

@@ -33,7 +33,8 @@ class Kernels {
     for (const double mm : {250.0, 450.0, 800.0}) group.push_back({Coordinate::place, mm});
     take(group, 0.15);
     // The tool moved along x and along y by functions of x alone and of y alone, as edges, boards
-    // and folds do it. These have a trend over the whole bed, which must not pass for a scale.
+    // and folds do it. These have a trend over the whole bed, which must not be mistaken for a
+    // scale.
     all_.push_back({{{Coordinate::x, 180.0, FieldEntry::tool},
                      {Coordinate::y, 180.0, FieldEntry::tool},
                      {Coordinate::x, kTrendMm, FieldEntry::tool},

@@ -21,8 +21,8 @@ constexpr double kNothingLeft = 1e-9;
 
 using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, discrepancy
 
-/// The models that may lead once some points are gone: the best, and in each marginalised system of
-/// these nothing, and every cause alone at its best place.
+/// The models that may lead without some points: the best ones and, in each of their marginalised
+/// systems, no cause and every cause alone at its best place.
 std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
     const RegressorSystem& system,
     const ModelComparison& comparison,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Evidence downdated: the models of a comparison without some of the points, at a small part of
-/// the cost of a new comparison.
+/// Downdated evidence: the models of a comparison without some of the points, at a fraction
+/// of the cost of a new comparison.
 ///
 /// Notation
 ///   V     covariance of a marginalised system's rows, the discrepancy integrated out as well;
@@ -26,7 +26,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Which models are followed.
+/// Limits on the models that are followed.
 struct FollowedModels {
   double within = 14.0;                ///< logarithm of the weight below the best
   std::size_t most = 160;              ///< in all
@@ -34,10 +34,12 @@ struct FollowedModels {
   std::size_t most_discrepancies = 4;  ///< the likeliest
 };
 
-/// How many readings the remaining ones count as.
+/// The number of readings that the remaining ones stand for.
 enum class CountAs {
   themselves,
-  all,  ///< each evidence to the power of all rows over those left: a sample as large as the whole
+  /// Each evidence raised to the power of all rows over the remaining ones, as if the sample were
+  /// as large as the whole.
+  all,
 };
 
 class Downdating {
@@ -48,10 +50,11 @@ class Downdating {
              const FollowedModels& followed = {});
 
   struct Without {
-    /// Best first; its marginalised systems bear the points set aside, those left out among them,
+    /// Best first; its marginalised systems contain the rejected points, including those left out,
     /// and no rows.
     ModelComparison comparison;
-    /// Score of the strongest effect (null_distribution.hpp) where what the best model rejects is out.
+    /// Score of the strongest effect (null_distribution.hpp) without the readings that the best
+    /// model rejects.
     double score = 0.0;
   };
   /// Units are positions in the session.
@@ -59,8 +62,8 @@ class Downdating {
 
   /// The models followed, in the order of `probabilities_without`.
   [[nodiscard]] std::vector<const CandidateModel*> followed() const;
-  /// For each model followed, given that one of them holds. Models that differ in nothing but in which of
-  /// the points left out they reject share what they have by their weights with all points.
+  /// For each followed model, given that one of them holds. Models that differ only in which of the
+  /// left-out points they reject divide their probability by their weights with all points.
   [[nodiscard]] std::vector<double> probabilities_without(const std::vector<std::size_t>& units,
                                                           CountAs count_as) const;
 

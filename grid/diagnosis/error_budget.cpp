@@ -40,7 +40,8 @@ BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
   return BudgetLine::ChangesWith::place;
 }
 
-/// A corner of the marked area, and from it a part's length towards the middle in either direction.
+/// A corner of the marked area, and the points a part's length from it towards the middle, in
+/// either direction.
 std::array<model::MarkPoint, 3> corner(const MarkedArea& area, bool right, bool top) {
   const double x = right ? area.high.x_mm : area.low.x_mm;
   const double y = top ? area.high.y_mm : area.low.y_mm;
@@ -69,7 +70,7 @@ std::vector<Corner> corners_of(const Analysis& a) {
   return result;
 }
 
-/// The largest change from a corner over a part's length, of what `at` makes of a corner's rows.
+/// The largest change over a part's length from a corner, with `at` giving the rows of a corner.
 template <class At>
 std::optional<double> over_a_part(const std::vector<Corner>& corners, const At& at) {
   std::optional<double> most;
@@ -103,7 +104,7 @@ class Budget {
     as_delivered_ = before_calibration;
     ErrorBudget budget;
     budget.uncalibrated_mm = std::sqrt(mean_square(before_calibration));
-    // Every part is the error's reduction without it; together they are the error.
+    // Each part is the reduction of the error without it; together they are the error.
     Shifts settings = before_calibration;
     add_causes(budget, settings);
     const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_given_discrepancy);

@@ -18,14 +18,14 @@ struct Estimate {
   /// q, from the state of the system: settings in their units, the nuisances after them.
   Eigen::VectorXd setting_change;
   Eigen::MatrixXd setting_covariance;  ///< q x q
-  Eigen::VectorXd coefficient;         ///< of each regressor
-  /// 0 where the size is a whole number; at a bound what noise alone makes of it.
+  Eigen::VectorXd coefficient;         ///< for each regressor
+  /// 0 if the size is a whole number; at a bound, the sigma from noise alone.
   Eigen::VectorXd coefficient_sigma;
   double noise_square = 1.0;                ///< s^2
   Eigen::VectorXd left;                     ///< n whitened rows, the discrepancy not taken out
   Eigen::VectorXd left_given_discrepancy;  ///< the same with the discrepancy taken out
   Discrepancy discrepancy;
-  Eigen::VectorXd discrepancy_weights;  ///< N, a kept row each; empty without a discrepancy
+  Eigen::VectorXd discrepancy_weights;  ///< N, one for each kept row; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> free;  ///< positions in `regressors`

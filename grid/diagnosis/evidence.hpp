@@ -4,7 +4,7 @@
 /// marginalised over their sizes, the settings and the noise.
 ///
 /// Notation
-///   e, g_k   whitened rows (regressor_system.hpp), those of points set aside taken out
+///   e, g_k   whitened rows (regressor_system.hpp), without those of rejected points
 ///   N        how many rows are kept
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
@@ -76,18 +76,18 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points set aside.
 struct MarginalisedSystem {
-  std::vector<bool> outliers;  ///< a flag an outlier group
+  std::vector<bool> outliers;  ///< a flag for each outlier group
   KeptRows kept;               ///< N rows
   CovarianceRoot root;         ///< N x N, R of V = R R
   Eigen::VectorXd e;           ///< N, R^-1 times the residual
   RegressorColumns
-      g;  ///< N x a column a regressor, R^-1 times it; none where an estimate is all that is made
+      g;  ///< N x a column a regressor, R^-1 times it; none if only an estimate is made
   double log_det = 0.0;       ///< log |V|
-  double log_outliers = 0.0;  ///< prior and density of the points set aside
+  double log_outliers = 0.0;  ///< prior and density of the rejected points
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
   std::vector<double> discrepancy_trace;
 };
-/// Prior and density of one unit of so many rows set aside, as a natural logarithm.
+/// Prior and density of one rejected unit of so many rows, as a natural logarithm.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
 /// For all these groups; directions count separately.
 [[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
@@ -101,14 +101,14 @@ struct MarginalisedSystem {
 [[nodiscard]] double reduced_length(const RegressorSystem& system,
                                     const MarginalisedSystem& marginalised,
                                     int regressor);
-/// The kept rows' covariance with the nuisances unknown but for their sigmas: the
-/// noise as a person sees it. Empty where there are none.
+/// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
+/// appears in the readings. Empty where there are none.
 [[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Length of a column's kept rows in units of that noise.
 [[nodiscard]] double length_in_noise(const RegressorSystem& system,
                                      const KeptRows& kept,
                                      const Eigen::VectorXd& column);
-/// What is left of rows once columns of such amplitudes take the part of it that the kept rows give them.
+/// The rows after subtracting these columns with the amplitudes that the kept rows give them.
 [[nodiscard]] Eigen::VectorXd left_by(const KeptRows& kept,
                                       const Eigen::MatrixXd& columns,
                                       const Eigen::VectorXd& sigma,
@@ -121,10 +121,10 @@ struct MarginalisedSystem {
                                             const MarginalisedSystem& marginalised,
                                             int regressor);
 
-/// |cosine| of two whitened signatures; 0 where one of them is nothing.
+/// |cosine| of two whitened signatures; 0 if one of them is zero.
 template <class One, class Other>
 [[nodiscard]] double collinearity_of(const One& one, const Other& other) {
-  // Signatures that show at all are some sigmas long.
+  // Visible signatures are several sigmas long.
   constexpr double kNothing = 1e-12;
   const double lengths = one.norm() * other.norm();
   return lengths > kNothing ? std::min(1.0, std::abs(one.dot(other)) / lengths) : 0.0;
@@ -136,10 +136,10 @@ struct NormalEquations {
   double ee = 0.0;           ///< e'e
   Eigen::VectorXd ge;        ///< m, g'e
   Eigen::MatrixXd gg;        ///< m x m, g'g
-  /// m: what the prior of a size is in. g'g without a discrepancy, or where the size is what is known
-  /// beforehand (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
+  /// m: the unit of the prior of a size. It is g'g without a discrepancy or, if the prior is on the
+  /// size itself (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
   Eigen::VectorXd prior_square;
-  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the discrepancy
+  double log_det = 0.0;  ///< of V and the discrepancy, without the noise's scale
   [[nodiscard]] Eigen::Index position(int column) const;
 };
 /// NormalEquations::prior_square of columns with these squares.
@@ -161,7 +161,7 @@ inline constexpr int kMostFreeRegressors = 8;
 /// A set of regressors fitted to the data.
 struct SetEvidence {
   double log_evidence = 0.0;  ///< natural logarithm, up to a constant of the data
-  double quadratic = 0.0;     ///< what is left of e'e
+  double quadratic = 0.0;     ///< residual of e'e
   double larger_noise = 0.0;  ///< share of it from noise larger than stated
 };
 /// `set` holds positions in the normal equations. Minus infinity if a cause would have to leave its

@@ -16,7 +16,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr std::size_t kMostGroups = 6;
-constexpr double kLeastProbability = 0.01;  ///< of a group among all, and of a member in its group
+constexpr double kLeastProbability = 0.01;  ///< for a group among all, and for a member in its group
 
 /// A cause by its class and its position there.
 using Member = std::pair<std::size_t, std::size_t>;
@@ -62,9 +62,10 @@ std::vector<Group> groups_of(const Analysis& a) {
   return result;
 }
 
-/// Adds the discrepancy of the estimate to what is expected of the rows of `system`, by kriging: K
-/// of the rows to come with those measured, C of these with their noise, X their design.
-///   mean + K C^-1 (what is left),  design - K C^-1 X,  and K** - K C^-1 K' of its own
+/// Adds the discrepancy of the estimate to the prediction for the rows of `system` by kriging, with
+/// K the covariance of future and measured rows, C that of the measured rows with their noise, and
+/// X their design.
+///   mean + K C^-1 (residual),  design - K C^-1 X,  and K** - K C^-1 K' of its own
 /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
 /// \returns a square root of the last.
 Eigen::MatrixXd add_discrepancy(const Analysis& a,
@@ -217,8 +218,9 @@ struct Rival {
   double variance = 0.0;
 };
 
-/// That all rivals together leave it named. What the one that takes most leaves is summed over its log
-/// odds; of the others, which the same readings refute, the likeliest to stay must leave the rest.
+/// Probability that all rivals together leave it named. The effect of the strongest rival is summed
+/// over its log odds; of the others, which the same readings refute, the likeliest to remain must
+/// leave the rest.
 double chance_of_all(const std::vector<Rival>& rivals) {
   const double odds = (1.0 - kNamedAlone) / kNamedAlone;
   const auto taken = [](const Rival& rival) { return rival.mean - 2.0 * std::sqrt(rival.variance); };

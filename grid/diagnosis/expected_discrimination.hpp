@@ -39,8 +39,8 @@ namespace chaintrue::grid::diagnosis {
 struct Alternative {
   std::size_t group = 0;
   std::vector<int> regressors;
-  int discrepancy = -1;      ///< with them, as the most probable model of these causes has it
-  double probability = 0.0;  ///< of all alternatives together 1
+  int discrepancy = -1;      ///< with them, as in the most probable model of these causes
+  double probability = 0.0;  ///< their sum over all alternatives is 1
   Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
   Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k but for the noise
 };

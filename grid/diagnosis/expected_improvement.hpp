@@ -15,8 +15,8 @@ struct ExpectedImprovement {
   double share = 0.0;
 };
 
-/// Over the measured area with equal weights; for distances, those read; at the points themselves
-/// if a cause depends on the visits.
+/// Over the measured area with equal weights; over the measured distances; or at the points
+/// themselves if a cause depends on the visits.
 [[nodiscard]] ExpectedImprovement expected_improvement(const Analysis& analysis);
 
 /// The decision's marginalised system without the points that only causes at one visit explain: a

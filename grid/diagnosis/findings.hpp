@@ -20,7 +20,7 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::vector<Bound> bounds(const Analysis& analysis,
                                         std::vector<NotTestable>& not_testable);
 [[nodiscard]] std::vector<CalibratedSetting> settings_found(const Analysis& analysis);
-/// By their number, points first.
+/// By number, points first.
 [[nodiscard]] std::vector<Outlier> outliers_found(const Analysis& analysis);
 [[nodiscard]] LeftOver left_over(const Analysis& analysis);
 [[nodiscard]] Unexplained unexplained(const Analysis& analysis);

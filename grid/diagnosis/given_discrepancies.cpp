@@ -19,7 +19,7 @@ namespace {
 struct Scouted {
   int discrepancy = 0;
   double weight = kMinusInfinity;
-  /// Regressors worth trying in it, with their weights alone, best first.
+  /// Regressors worth trying in it, with the weight of each alone, best first.
   std::vector<std::pair<double, int>> singles;
 };
 
@@ -36,7 +36,7 @@ class Scout {
     prior_of_nothing_ = collector.log_prior_of({}, -1) + std::log(kDiscrepancyPrior);
   }
 
-  /// `alongside` of the columns that this scout knows.
+  /// `given` covers the columns that this scout knows.
   [[nodiscard]] Scouted look_at(const DiscrepancyBasis::GivenKernel& given, int discrepancy) const {
     const auto d = given.diagonal(family().strength_of(discrepancy));
     const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
@@ -215,7 +215,7 @@ std::vector<int> columns_to_scout(const RegressorSystem& system,
   return result;
 }
 
-/// Those that hold a share of the weight, best first.
+/// Those with a share of the weight, best first.
 std::vector<int> worth_searching(std::vector<Scouted> scouted) {
   stable_sort(scouted, descending(&Scouted::weight));
   scouted.resize(count_with_ties(

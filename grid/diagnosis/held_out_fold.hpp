@@ -53,9 +53,8 @@ class HeldOutFolds {
   explicit HeldOutFolds(const Analysis& analysis);
 
   /// \param units of the analysis' session, left out of everything. The gate and the decision are
-  /// those for all units; the models are those that the whole comparison holds, weighed without
-  /// these units (downdating.hpp). Outliers and slips of the whole session are not among the fold's
-  /// units.
+  /// those for all units; the models are those of the whole comparison, weighed without these units
+  /// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
   [[nodiscard]] Fold without(const std::vector<std::size_t>& units) const;
 
  private:

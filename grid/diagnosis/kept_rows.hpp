@@ -35,12 +35,13 @@ class KeptRows {
   };
 
   KeptRows() = default;
-  /// `rejected`: a flag an outlier group of the system (regressor_system.hpp).
+  /// `rejected`: a flag for each outlier group of the system (regressor_system.hpp).
   KeptRows(const RegressorSystem& system, const std::vector<bool>& rejected);
   [[nodiscard]] static KeptRows all(const RegressorSystem& system);
 
   [[nodiscard]] Eigen::Index size() const { return std::ssize(rows_); }
-  /// Numbers in the system, ascending; for a row across a direction that of its unit's first.
+  /// Numbers in the system, ascending; a row across a direction has the number of its unit's first
+  /// row.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
   /// Positions of the rows that belong to these units, or else of all others.

@@ -35,7 +35,7 @@ namespace chaintrue::grid::diagnosis {
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 [[nodiscard]] std::string_view name(Enters enters);
 
-/// For a law that enters a belt; null of all else.
+/// For a law that enters a belt; null for all others.
 [[nodiscard]] std::optional<model::Belt> belt_of(Enters enters);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
@@ -48,7 +48,7 @@ enum class LawShape { linear, square, step, kink, exponential, wave, harmonics }
 struct ParameterEstimate {
   std::string parameter;
   double value = 0.0;
-  double sigma = 0.0;  ///< 0 for an integer that these data leave no choice in
+  double sigma = 0.0;  ///< 0 for an integer that these data determine
 };
 
 /// A point next to a law's curve. If the law moves the tool outwards a point has two, along x and
@@ -56,7 +56,8 @@ struct ParameterEstimate {
 struct LawResidual {
   std::size_t index = 0;  ///< of the point
   double at = 0.0;        ///< what the law is a function of
-  /// Partial residual: what the law makes here, and what nothing explains of what enters as it does.
+  /// Partial residual: the law's contribution here plus the unexplained residual in the coordinate
+  /// that the law enters.
   double residual_mm = 0.0;
   /// Residual shift of the tool without the law and the settings and causes that act with it; a
   /// smooth pattern remains in it. Empty for belts, which do not determine where the tool should
@@ -87,8 +88,8 @@ struct Law {
   int towards = 0;                 ///< of a kink or an exponential: 1, -1; else 0
   double from = 0.0;
   double to = 0.0;
-  double rms_mm = 0.0;  ///< of the tool at the points; of four belts, of one of these
-  double share = 0.0;   ///< of the mean square of what the settings leave
+  double rms_mm = 0.0;  ///< of the tool at the points; with four belts, of one of the belts
+  double share = 0.0;   ///< of the mean square of the residual of the settings
   std::vector<ParameterEstimate> parameters;  ///< in the order of the table
   std::vector<LawResidual> points;            ///< those that were not rejected, in their order
   std::optional<LawHeldOut> held_out{};

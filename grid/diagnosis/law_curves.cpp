@@ -17,7 +17,7 @@ namespace {
 constexpr int kLawDirections = 16;
 constexpr double kFewestWaves = 0.5;  // over the span; less is a trend
 constexpr double kWaveStep = 0.25;
-constexpr double kHarmonicsStep = 0.125;  // their second harmonic goes twice as far
+constexpr double kHarmonicsStep = 0.125;  // their second harmonic reaches twice as far
 constexpr int kStepPlaces = 48;
 constexpr int kKinkPlaces = 16;
 constexpr int kScales = 9;
@@ -30,7 +30,7 @@ class CurveList {
 
   void add_all(Coordinate of, double direction_rad, double weight) {
     values_ = values_of_variable(system_, of, direction_rad);
-    constexpr std::size_t kFewest = 8;  // places: fewer show no shape
+    constexpr std::size_t kFewest = 8;  // fewer places show no shape
     if (values_.size() < kFewest) return;
     const auto [low, high] = minmax_element(values_);
     if (!(*high - *low > 1e-6)) return;
@@ -57,14 +57,14 @@ class CurveList {
   void add_shapes(double weight) {
     const bool of_border = start_.of == Coordinate::border;
     const bool of_visit = start_.of == Coordinate::visit;
-    // Drift and a zero that moves are in the catalogue.
+    // Drift and a moving zero are in the catalogue.
     if (!of_border && !of_visit) {
       add(LawShape::linear, 0, weight, {0.0});
       add(LawShape::square, 0, 0.5 * weight, {0.0});
     }
     if (!of_visit && start_.enters != Enters::outwards) add_steps(0.5 * weight);
     for (const int towards : {-1, 1}) {
-      // A drop over the border starts there.
+      // A drop at the border starts there.
       if (of_border && towards > 0) continue;
       const double own = of_border ? 0.5 * weight : 0.25 * weight;
       if (start_.enters != Enters::outwards) add(LawShape::kink, towards, own, kink_places());

@@ -35,14 +35,14 @@ struct LawCurve : LawTerm {
   /// Place and scale in units of the variable, for a wave waves over the span; a single 0 if there
   /// is no choice.
   std::vector<double> grid;
-  std::vector<double> mass;  ///< prior of each, in all one
+  std::vector<double> mass;  ///< prior of each, of sum 1
   double weight = 0.0;       ///< relative to those of other laws
-  double share = 0.0;        ///< of all laws, in all one
+  double share = 0.0;        ///< among all laws, of sum 1
   [[nodiscard]] double span() const { return to - from; }
   [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
 
-/// Where a step may stand, evenly over a range, in units of what it is a function of: the middle of each gap
+/// Where a step may lie, evenly over a range, in the unit of its variable: the middle of each gap
 /// between two of these values (sorted), with the share of the range that it takes.
 struct StepPlaces {
   std::vector<double> at;

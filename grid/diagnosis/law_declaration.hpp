@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A law as a cause of the user's own (model/effects/declared_effect.hpp), so that it can be named, edited
-/// and given to later diagnoses.
+/// A law as a cause of the user's own (model/effects/declared_effect.hpp), so that later
+/// diagnoses can name it and a user can edit it.
 ///
 /// A place and a phase are the effect's place; a period, a scale and the range are numbers in the formula,
 /// to be edited there. A movement of the tool is written as its effect on either chain: side

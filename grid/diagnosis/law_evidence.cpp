@@ -14,7 +14,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-// How far is searched; weights are logarithms. No verdict may hang on these.
+// Limits of the search; weights are logarithms. No verdict may depend on these.
 constexpr double kLawsWithin = 9.0;      // below the best: laws that are looked at again
 constexpr double kContextsWithin = 7.0;  // below the best: contexts of the second look
 constexpr std::size_t kMostSets = 7;

@@ -37,9 +37,9 @@ struct LawEvidence {
   std::vector<std::vector<int>> sets;  ///< of the system's regressors
   std::size_t marginalised = 0;        ///< in which they were weighed
   double log_without = 0.0;            ///< no law acts
-  std::size_t without_set = 0;         ///< of the best context of these
+  std::size_t without_set = 0;         ///< in the best context of these
   int without_discrepancy = -1;
-  std::vector<WeighedLaw> laws;        ///< those that hold a share, heaviest first
+  std::vector<WeighedLaw> laws;        ///< those with a share, heaviest first
   /// Logarithm of all weights together.
   [[nodiscard]] double log_total() const;
 };

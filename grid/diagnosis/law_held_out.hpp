@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The error of predicting left-out readings with a law, and with the settings, the causes and the
-/// best smooth pattern without one.
+/// The error of predicting left-out readings with a law, compared with the settings, the
+/// causes and the best smooth pattern without one.
 ///
 ///   e_i^ = C_ik C_kk^-1 e_k,   C as in law_model.hpp, k the rows that are kept, i those left out
 ///
@@ -25,8 +25,8 @@ namespace chaintrue::grid::diagnosis {
                                                       const LawEvidence& evidence,
                                                       const WeighedLaw& law);
 
-/// Rows of the kept units in mm, root mean square: of the tool where chains were read, of distances, of one belt.
-/// `units` empty: of all.
+/// Root mean square of the rows of the kept units in mm: of the tool where chains were read, of
+/// distances, or of one belt. `units` empty: all units.
 [[nodiscard]] double rms_of_units_mm(const RegressorSystem& system,
                                      const KeptRows& kept,
                                      const Eigen::VectorXd& rows,

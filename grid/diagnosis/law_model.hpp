@@ -4,7 +4,7 @@
 /// sizes of causes and the amplitudes of a law integrated out.
 ///
 ///   C = 1 + S + s^2 K + sum_k p_k^2 g_k g_k',   S of the settings as stated, K of a discrepancy
-///   r = C^-1 (e - m)   what noise has of rows e, once m is taken out (posterior mean)
+///   r = C^-1 (e - m)   posterior mean of the noise in rows e, after subtracting m
 ///
 /// \code
 ///   LawModel model(analysis, marginalised, {3, 7}, -1);
@@ -64,7 +64,7 @@ class LawModel {
   const MarginalisedSystem& marginalised_;
   double dof_;
   std::optional<Discrepancy> process_;
-  Eigen::MatrixXd settings_;             ///< kept rows, of one sigma each
+  Eigen::MatrixXd settings_;             ///< kept rows, scaled to one sigma each
   std::vector<Eigen::VectorXd> columns_;  ///< the same
   std::vector<double> sigmas_;
   Eigen::MatrixXd covariance_;

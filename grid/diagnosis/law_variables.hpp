@@ -25,19 +25,19 @@ struct LawTerm {
   double direction_rad = 0.0;  ///< of Coordinate::across and Enters::along
 };
 
-/// Those of the system's mechanism, but for Coordinate::across.
+/// The variables of the system's mechanism, except Coordinate::across.
 [[nodiscard]] std::vector<Coordinate> law_variables(const RegressorSystem& system);
 
 struct LawEntrance {
   Enters enters = Enters::left;
-  double weight = 0.0;  ///< of all entrances of a variable, in all one
+  double weight = 0.0;  ///< among all entries of a variable, of sum 1
 };
 /// A law in a chain's or belt's variable mostly acts on that chain or belt.
 [[nodiscard]] std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of);
 
 /// The shortest period: shorter ones are implausible, or no marks show them.
 [[nodiscard]] double shortest_wave(Coordinate of, Enters enters, double span);
-/// Whether something rotates there, or is built of equal parts.
+/// Whether something rotates there, or consists of equal parts.
 [[nodiscard]] bool may_repeat(Coordinate of, Enters enters);
 
 /// Values of a law's variable at all places of a system that have one.
@@ -51,8 +51,8 @@ struct LawRows {
   double v = 0.0;
   Eigen::VectorXd rows;
 };
-/// One for each place of the unit, two of what moves the tool outwards; none at a visit without a number, of
-/// a law of these.
+/// One for each place of the unit, or two if the law moves the tool outwards; none at a visit
+/// without a number for a law of the visits.
 [[nodiscard]] std::vector<LawRows> law_rows(const RegressorSystem& system,
                                             std::size_t unit,
                                             const LawTerm& term);

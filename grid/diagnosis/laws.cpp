@@ -48,8 +48,8 @@ struct FoundPoint {
   }
 };
 
-/// Size and place (a period, a scale) or size, period and phase of a point, with their variances; of a wave
-/// with its second harmonic, size and phase of that besides.
+/// Size and place (a period, a scale) or size, period and phase of a point, with their variances;
+/// of a wave with its second harmonic, also the size and phase of that.
 struct PointParameters {
   std::vector<double> value;
   std::vector<double> variance;
@@ -174,7 +174,7 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   law.share = all > 0.0 ? std::min(std::pow(law.rms_mm / all, 2), 1.0) : 0.0;
 }
 
-/// Laws with one variable and one way to enter; empty if they are not worth a line.
+/// Laws with one variable and one way to enter; empty if they are too improbable to report.
 std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
                                                  const std::vector<FoundPoint>& points,
                                                  double log_all) {
@@ -246,7 +246,7 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
       answers[{curve.of, curve.enters}].push_back({&own, &law});
     }
   }
-  std::vector<std::vector<FoundPoint>> points;  // of each variable and way to enter
+  std::vector<std::vector<FoundPoint>> points;  // for each variable and way to enter
   for (auto& [key, own] : answers) points.push_back(std::move(own));
   std::vector<std::optional<std::pair<Law, FoundPoint>>> worth(points.size());
   for_each_index(points.size(), [&](std::size_t k) { worth[k] = law_of(a, points[k], log_all); });

@@ -74,7 +74,8 @@ double ModelCollector::consider(const ColumnSet& set,
   model.quadratic = evidence.quadratic;
   best_ = std::max(best_, model.log_weight);
   const double weight = model.log_weight;
-  // Nothing and single causes without a discrepancy are asked for later, however unlikely.
+  // The model without causes and single causes without a discrepancy are needed later, however
+  // unlikely.
   const bool asked_for = discrepancy < 0 && set.size() <= 1;
   if (weight > best_ - kNegligibleModel || asked_for) models_.push_back(std::move(model));
   return weight;
@@ -114,7 +115,7 @@ void search_by_beam(const RegressorSystem& system,
                     int discrepancy,
                     const SearchLimits& limits,
                     ModelCollector& collector) {
-  // Sets of none, one, two and three that are extended.
+  // Number of sets of none, one, two and three causes that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
   collector.consider({}, discrepancy, equations);
   std::vector<WeighedSet> parents = {{0.0, {}}};

@@ -16,14 +16,14 @@ struct WeighedSet {
   double weight = 0.0;
   ColumnSet set;
 };
-/// The heaviest sets, those that tie with the last of `most` among them; none where no set of them is within
+/// The heaviest `most` sets and those that tie with the last of them; none if no set is within
 /// reach of the best.
 void narrow(std::vector<WeighedSet>& parents, double best, std::size_t most);
 
 /// Whether two regressors may act together: a cause acts at one place, an effect on both chains
 /// excludes the same on one of them, and one effect may set in at one visit of one chain.
 [[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
-/// The set with a column more; nothing where that may not act together with it.
+/// The set with one more column; empty if that may not act together with the others.
 [[nodiscard]] std::optional<ColumnSet> with_column(const RegressorSystem& system,
                                                    const NormalEquations& equations,
                                                    const SearchLimits& limits,

@@ -25,7 +25,7 @@ double prior_of_count(std::size_t causes, double odds) {
   return factor * prior.at(causes) * (kPriorOfNothing + some) / (kPriorOfNothing + odds * some);
 }
 
-/// Nothing, and each cause alone at its best place.
+/// No cause, and each cause alone at its best place.
 std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
@@ -101,7 +101,7 @@ SingleScores single_scores(const RegressorSystem& system,
   const Eigen::VectorXd c = marginalised.g.transpose_times(e);
   const Eigen::VectorXd square = marginalised.g.squared_norms();
   std::vector<std::vector<double>> terms;
-  double best = kMinusInfinity;  // of the cause at hand
+  double best = kMinusInfinity;  // of the current cause
   NormalEquations equations;
   equations.columns = {0};
   equations.ee = ee;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The evidence of the data for each of: nothing, every cause, causes together, outliers, noise
-/// larger than stated, a model discrepancy, and causes given a model discrepancy.
+/// The evidence of the data for each hypothesis: no cause, every cause, several causes,
+/// outliers, noise larger than stated, a model discrepancy, and causes given a model discrepancy.
 ///
 /// Every hypothesis searches for its own outliers, by adding mean shifts without stopping at the
-/// first that does not pay, so that several outliers cannot mask each other; the whole comparison
+/// first that gains nothing, so that several outliers cannot mask each other; the whole comparison
 /// is made for each of the few sets found. Causes are searched exhaustively one and two at a time,
 /// three and four at a time from the best of those.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// A set of regressors, with or without a model discrepancy, and the points set aside.
+/// A set of regressors, with or without a model discrepancy, and the rejected points.
 struct CandidateModel {
   std::vector<int> regressors;   ///< ascending
   int discrepancy = -1;          ///< number of the model discrepancy, or none
@@ -41,7 +41,7 @@ struct ModelComparison {
 /// Best first, and `log_total`.
 void sort_by_weight(ModelComparison& comparison);
 
-/// How far sets of causes are searched, depending on a mechanism's regressors.
+/// Limits of the search for sets of causes, depending on a mechanism's regressors.
 struct SearchLimits {
   /// The number of best places of each cause to compare: alone, and after projection on a leading
   /// cause; sets of them are grown by a beam search from nothing, for every discrepancy. 0: all
@@ -60,14 +60,14 @@ struct ComparisonOptions {
   bool discrepancies = true;
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   std::vector<std::size_t> kernels{};
-  /// Only this cause may act.
+  /// If set, only this cause may act.
   std::optional<CauseId> given_cause{};
   SearchLimits search{};
   /// Further sets of regressors that search for outliers, besides nothing and each cause alone.
   std::vector<std::vector<int>> hypotheses{};
 };
 
-/// Points already known not to count (held out) are `excluded`.
+/// Points that are known not to count (held out) are `excluded`.
 [[nodiscard]] ModelComparison compare_models(const RegressorSystem& system,
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
@@ -90,7 +90,7 @@ inline constexpr std::size_t kMostCauses = 4;
                                          const std::vector<int>& set,
                                          bool discrepancy);
 
-/// log BF of one cause against nothing, its places averaged: by position in `causes`.
+/// Log Bayes factor of one cause against none, averaged over its places, by position in `causes`.
 struct SingleScores {
   std::vector<CauseId> causes;
   std::vector<double> log_factor;

@@ -127,7 +127,7 @@ NamingAndPlainFit name_and_fit(const Measured& measured,
                                const DiagnosisOptions& options,
                                NamingFor use,
                                JointFitOptions fit_options) {
-  // One of the two may tell how far it is.
+  // One of the two reports progress.
   fit_options.progress = {};
   std::optional<tl::expected<Naming, DiagnosisFailure>> naming;
   std::optional<tl::expected<JointFit, FitFailure>> plain;

@@ -33,7 +33,7 @@ enum class NamingFor { report, causes };
                                                                  const DiagnosisOptions& options,
                                                                  NamingFor use);
 
-/// name_causes() and joint_fit() of the same readings, at the same time where there are two cores.
+/// name_causes() and joint_fit() of the same readings, in parallel if there are two cores.
 struct NamingAndPlainFit {
   tl::expected<Naming, DiagnosisFailure> naming;
   tl::expected<JointFit, FitFailure> plain;

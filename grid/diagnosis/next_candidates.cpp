@@ -14,7 +14,7 @@ namespace {
 constexpr int kCandidateColumns = 20;
 constexpr int kCandidateRows = 12;
 
-/// Readings of the machine, with the sigma that care with usual tools reaches.
+/// Readings of the machine, with the sigma that careful work with usual tools reaches.
 struct MachineReading {
   ReadingOf what;
   const char* side;
@@ -64,7 +64,7 @@ class PointCandidates {
     candidates_.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
   }
 
-  /// Over the bed, as far as the sheet was measured and a little beyond.
+  /// Over the bed, as far as the sheet was measured and slightly beyond.
   void add_points() {
     double x = 0.0;
     double y = 0.0;

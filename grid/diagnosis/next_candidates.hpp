@@ -10,7 +10,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// How well 100 links are read: to 0.1 mm.
+/// The accuracy of a reading of 100 links: 0.1 mm.
 inline constexpr double kLinkPitchSigmaMm = 0.001;
 
 /// Some rows of the session of candidates.
@@ -20,8 +20,8 @@ struct Candidate {
   int times = 1;  ///< it may be chosen
 };
 
-/// The session's unknowns are those of what was measured, in its order; those of holes that are not
-/// cut yet come after them.
+/// The session's unknowns are those of the measured session, in its order, followed by those of
+/// holes that are not cut yet.
 struct NextCandidates {
   ObservationSet session;
   std::vector<Candidate> all;
@@ -37,7 +37,7 @@ struct CandidateReadings {
   std::vector<Candidate> all;
 };
 /// For a part with distances: those not measured yet, and holes not cut yet with their distances;
-/// next_distances.cpp. Empty where nothing of the kind can be measured.
+/// next_distances.cpp. Empty if nothing of this kind can be measured.
 [[nodiscard]] std::optional<CandidateReadings> candidate_distances(const Analysis& analysis,
                                                                    std::size_t part);
 

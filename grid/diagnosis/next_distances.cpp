@@ -78,7 +78,7 @@ class HoleCandidates {
     }
   }
 
-  /// The holes already cut, the farthest from a place first.
+  /// The existing holes, the farthest from a place first.
   [[nodiscard]] std::vector<std::size_t> by_distance(const model::BedPoint& place) const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < measured_.holes.size(); ++i) order.push_back(i);

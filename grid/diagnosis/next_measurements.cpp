@@ -11,10 +11,10 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Above this the explanation of no cause needs no more measurements: without a cause the median
-/// session of 28 points gives 0.93.
+/// Above this probability of no cause, no more measurements are needed: the median session of 28
+/// points without a cause gives 0.93.
 constexpr double kLeftAlone = 0.9;
-constexpr double kPays = 0.002;  // a measurement that helps less is not worth the way
+constexpr double kPays = 0.002;  // a measurement that helps less is not worth the effort
 
 /// The reading that separates members of one class, which no points can: a chain's links.
 void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
@@ -123,7 +123,7 @@ Eigen::MatrixXd columns_of(const Analysis& a,
   return columns;
 }
 
-/// `law` null: none.
+/// `law` may be null.
 Alternative expected_with(const Analysis& a,
                           const Next& next,
                           const LawEvidence& evidence,
@@ -157,7 +157,7 @@ std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& f
     alternatives.back().probability = found.laws[k].probability;
     none -= found.laws[k].probability;
   }
-  // Averaging over parts of the bed may leave almost no weight to the rest.
+  // Averaging over parts of the bed may leave almost no weight for the rest.
   constexpr double kLeastOfNone = 0.01;
   alternatives.push_back(
       expected_with(a, next, found.evidence[found.heaviest.front().evidence], nullptr));

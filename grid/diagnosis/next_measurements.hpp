@@ -24,7 +24,7 @@ inline constexpr double kEnough = 0.97;
                                  const std::vector<Alternative>& alternatives);
 
 /// The most informative of these candidates, whose rows are those of the alternatives, one after
-/// the other until a name is nearly certain or no other one pays.
+/// the other until a name is nearly certain or no further one helps.
 [[nodiscard]] std::vector<NextMeasurement> most_telling(
     const std::vector<Alternative>& alternatives, std::vector<Candidate> options);
 

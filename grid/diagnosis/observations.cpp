@@ -195,7 +195,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
       sheet);
 }
 
-/// Eight points or eight distances; of both together as many numbers as eight points give.
+/// Eight points or eight distances; for both together, as many numbers as eight points give.
 std::optional<std::string> too_few(const Measured& measured) {
   std::size_t points = 0;
   std::size_t distances = 0;

@@ -28,8 +28,8 @@ inline constexpr std::size_t kFewestDistances = 8;
 inline constexpr std::size_t kFewestGoodDistances = 6;
 
 /// The machine is that of the first file; observations in the order of the files, points first, the
-/// readings of the machine itself last. Fails in words where there is no machine, too little was
-/// measured, or a command is out of reach.
+/// readings of the machine itself last. Fails with a sentence if there is no machine, too little
+/// was measured, or a command is out of reach.
 [[nodiscard]] tl::expected<ObservationSet, DiagnosisFailure> observations_of(
     const Measured& measured);
 

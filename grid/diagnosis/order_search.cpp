@@ -23,7 +23,7 @@ namespace {
 constexpr double kLeastModelShare = 0.01;
 constexpr std::size_t kMostModels = 5;
 
-/// The first file, where it is a grid and no grid has an order.
+/// The first file, if it is a grid and no grid has an order.
 const MeasuredGrid* grid_without_order(const Measured& measured) {
   if (measured.files().empty()) return nullptr;
   for (const MeasuredGrid* grid : measured.grids()) {
@@ -34,7 +34,7 @@ const MeasuredGrid* grid_without_order(const Measured& measured) {
   return measured.files().front().grid();
 }
 
-/// That grid without the other files, where its marks have any order.
+/// That grid without the other files, if its marks form lines.
 std::optional<Measured> grid_alone(const Measured& measured) {
   const MeasuredGrid* grid = grid_without_order(measured);
   if (grid == nullptr) return std::nullopt;
@@ -74,10 +74,10 @@ std::vector<bool> measured_again(const std::vector<MeasuredPoint>& points) {
 /// One compared model, with its parameters marginalised.
 struct GivenModel {
   double log_weight = 0.0;
-  double log_odds = 0.0;  ///< of one more cause
+  double log_odds = 0.0;  ///< for one more cause
   KeptRows kept;
   linear::Cholesky covariance;
-  Eigen::VectorXd e;  ///< N, half solved by it
+  Eigen::VectorXd e;  ///< N numbers, half-solved by it
 };
 
 GivenModel given(const Analysis& a, const CandidateModel& model, const std::vector<bool>& again) {

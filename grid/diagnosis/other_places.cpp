@@ -8,7 +8,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// The first part at whose marks chains were read.
+/// The first part with chain readings at marks.
 std::size_t chain_part(const ObservationSet& session) {
   const auto found = std::find_if(session.parts.begin(),
                                   session.parts.end(),

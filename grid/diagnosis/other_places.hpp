@@ -9,7 +9,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// The rectangle that the marks span at which chains were read. Precondition: the session reads
+/// The rectangle spanned by the marks at which chains were read. Precondition: the session reads
 /// chains.
 struct MarkedArea {
   model::MarkPoint low;

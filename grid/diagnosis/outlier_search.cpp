@@ -28,7 +28,8 @@ struct FreeGroup {
   std::size_t group = 0;
   Eigen::Index at = 0;  ///< position of its first row among those kept
   Eigen::Index rows = 1;
-  /// For length one, without what other groups of the same rows have taken; absent: all rows.
+  /// A unit vector, orthogonal to the directions that other groups of the same rows have taken;
+  /// absent: all rows.
   std::optional<Eigen::Vector2d> direction;
 
   [[nodiscard]] Eigen::Index directions() const { return direction ? 1 : rows; }
@@ -36,7 +37,7 @@ struct FreeGroup {
 
 /// The data under one hypothesis: precision P of the rows, and P times the residual.
 ///
-/// P is that of no hypothesis less T T', a column of T for each regressor that is left free and each
+/// P is that of no hypothesis minus T T', with a column of T for each free regressor and each
 /// shift. Of P only the units' own blocks are kept, and a group's columns are made when it is
 /// rejected: with hundreds of points nothing of rows x rows is ever made.
 class MeanShifts {
@@ -60,14 +61,14 @@ class MeanShifts {
     }
   }
 
-  /// Takes out one regressor of known size. Call before any other.
+  /// Removes one regressor of known size. Call before any other.
   void subtract(const Eigen::VectorXd& g) {
     e_ -= g;
     u_ = root_->solve(e_);
     quadratic_ = e_.squaredNorm();
   }
 
-  /// Takes out one regressor of free size, with the prior precision of its coefficient.
+  /// Removes one regressor of free size, with the prior precision of its coefficient.
   void free(const Eigen::VectorXd& reduced_column, double prior) {
     const Eigen::VectorXd g = root_->times(reduced_column);
     Eigen::VectorXd pg = root_->solve(reduced_column);

@@ -21,9 +21,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// A flag an outlier group of the system, the most probable set first; groups of units that are excluded beforehand are
-/// flagged in all of them. Where a set takes all directions of some rows, all groups of these rows
-/// are flagged. `hypotheses` are sets of regressors.
+/// A flag for each outlier group of the system, the most probable set first; groups of units that
+/// are excluded beforehand are flagged in all of them. Where a set takes all directions of some
+/// rows, all groups of these rows are flagged. `hypotheses` are sets of regressors.
 [[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
     const RegressorSystem& system,
     const std::vector<bool>& excluded,

@@ -84,7 +84,8 @@ struct OtherAnswer {
   double most = 0.0;
 };
 
-/// The change without a quarter: another cause is the likeliest, or a named one is not likely.
+/// The change without a quarter: another cause is the likeliest, or a named one is no longer
+/// likely.
 OtherAnswer answer_without(const PartFinding& part) {
   const Hypothesis* lost = nullptr;
   for (const Hypothesis& own : part.named) {

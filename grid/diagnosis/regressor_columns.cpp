@@ -46,7 +46,7 @@ Eigen::MatrixXd RegressorColumns::dense(const std::vector<int>& columns) const {
 }
 
 RegressorColumns RegressorColumns::subset(const std::vector<Eigen::Index>& columns) const {
-  std::vector<Eigen::Index> kept;  // of the distinct ones, in their order
+  std::vector<Eigen::Index> kept;  // for the distinct columns, in their order
   RegressorColumns result;
   for (const Eigen::Index k : columns) {
     if (kept.empty() || kept.back() != index(k)) kept.push_back(index(k));

@@ -33,8 +33,8 @@ struct PlaceGap {
                                                      model::effects::PlaceVariable variable,
                                                      model::effects::EffectSide side);
 
-/// Places where an effect may set in: visits, phases of a turn, angles (or what else the place is
-/// compared with) between those of the places of the tool.
+/// Places where an effect may set in: visits, phases of a turn, angles (or another variable of the
+/// place) between those of the places of the tool.
 [[nodiscard]] std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId cause);
 
 /// Whether its formula steps where it sets in, so that it has no derivative by its place.

@@ -41,10 +41,10 @@ struct SizedCause {
 struct Regressor {
   CauseId cause;
   std::vector<double> values;  ///< sizes and places, in the effect's order
-  double power = 1.0;          ///< of a refined one: as it is about its size
+  double power = 1.0;          ///< for a refined one: about its size
   /// The size is a whole number: the coefficient is 1 and `values` hold it.
   bool fixed = false;
-  /// It acts at one visit alone.
+  /// It acts at a single visit.
   bool slip = false;
   /// Sound machines have it as often as not, so it does not count as a cause in the prior
   /// (CausePrior).
@@ -56,7 +56,7 @@ struct Regressor {
   /// Range of the coefficient.
   double lowest = 0.0;
   double highest = 0.0;
-  /// For a cause with whole numbers: visits at which it may be.
+  /// For a cause with whole numbers: the number of visits at which it may act.
   double visits = 0.0;
   /// Share of this side, place and whole number within the effect (whole numbers: analysis.cpp).
   double log_prior = 0.0;
@@ -73,8 +73,8 @@ struct OutlierGroup {
 
 /// Limits of a search for outliers, besides kMostOutlierShare of the groups.
 struct OutlierLimits {
-  std::size_t fewest_groups = 0;  ///< so many stay
-  Eigen::Index fewest_rows = 0;   ///< so many stay
+  std::size_t fewest_groups = 0;  ///< number that remains
+  Eigen::Index fewest_rows = 0;   ///< number that remains
   /// Groups tried beyond the best set so far: several bad ones can mask one another.
   std::size_t beyond_the_best = std::numeric_limits<std::size_t>::max();
 };
@@ -107,17 +107,17 @@ struct RegressorSystem : estimation::LinearisedSystem {
     return !places.empty() && !places.front().length_mm.empty();
   }
   Eigen::VectorXd setting;          ///< q, value in the state
-  Eigen::VectorXd expected_change;  ///< q, stated less that
+  Eigen::VectorXd expected_change;  ///< q, stated value minus that
   Eigen::VectorXd sigma;            ///< q, one sigma as stated
   CausePrior prior;
   double noise_dof = 15.0;  ///< degrees of freedom of the noise
-  /// What one slip spoils; empty: each unit is a group.
+  /// The readings that one slip spoils; empty: each unit is a group.
   std::vector<OutlierGroup> groups;
   OutlierLimits limits;
   const DiscrepancyFamily* discrepancies = &chain_discrepancies();
 };
 
-/// A flag for each outlier group, none set.
+/// A flag for each outlier group, all false.
 [[nodiscard]] inline std::vector<bool> nothing_rejected(const RegressorSystem& system) {
   return std::vector<bool>(system.groups.empty() ? system.units.size() : system.groups.size(),
                            false);

@@ -27,7 +27,7 @@ std::vector<const Effect*> effects_of(const State& state) {
   return {own.begin(), own.end()};
 }
 
-/// The state with an effect more. \pre problems_with_effect() has none.
+/// The state with one more effect. \pre problems_with_effect() has none.
 State with_effect(State state, CauseId cause, const std::vector<double>& values) {
   const model::AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
   if (state.mechanism) {
@@ -48,7 +48,7 @@ std::vector<model::MachineProblem> problems_with_effect(const State& state,
   return model::effects::problems_of_effects(machine);
 }
 
-/// The readings of such a machine, all rows.
+/// The predicted readings of a machine in this state, all rows.
 std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const State& state) {
   Eigen::VectorXd all(session.rows);
   for (const ObservationPart& part : session.parts) {
@@ -63,7 +63,7 @@ bool is_of_readings(CauseId cause) {
   return cause.effect->station == model::effects::Station::reading;
 }
 
-/// What an effect adds to the chains at a place, or to what is written down there.
+/// What an effect adds to the chains at a place, or to the written readings there.
 Eigen::Vector2d added_at(const SystemPlace& place,
                          const model::Sprocket& sprocket,
                          CauseId cause,
@@ -153,7 +153,7 @@ class Builder {
         values.back() = place;
         add_one(cause, values, share);
       }
-      // Of visits every one is among the places.
+      // All visits are among the places already.
       for (const SizedCause& r : known) {
         if (r.cause == cause && !place_parameter(*cause.effect)->integer)
           add_one(cause, r.values, share);

@@ -22,21 +22,21 @@ struct Candidates {
 /// An effect that one of the observations can show is testable.
 [[nodiscard]] Candidates candidates(const ObservationSet& session);
 
-/// Appends the regressors of all these causes: of those that are known, secants at their sizes, and at their
-/// places as well.
+/// Appends the regressors of all these causes. Known causes get secants at their sizes, and also at
+/// their places.
 void add_regressors(const ObservationSet& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<SizedCause>& known,
                     RegressorSystem& system);
 
-/// Recomputes regressors about another state, at their values. False if such a machine cannot be.
+/// Recomputes regressors about another state, at their values. False if such a machine is invalid.
 [[nodiscard]] bool renew_regressors(const ObservationSet& session,
                                     const State& state,
                                     const std::vector<Regressor>& regressors,
                                     RegressorSystem& system);
 
-/// The whitened column of an effect of these values; empty if such a machine cannot be.
+/// The whitened column of an effect with these values; empty if such a machine is invalid.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                                        const State& state,
                                                        const RegressorSystem& system,
@@ -54,8 +54,8 @@ inline constexpr double kNearby = 0.95;
 /// The coefficient's power: the growth of the signature from half the size to the whole.
 [[nodiscard]] double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half);
 
-/// As above about a fitted size, with `nearby` at kNearby of it. A signature that hardly grows
-/// leaves its size open; one that shrinks has no power.
+/// As above about a fitted size, with `nearby` at kNearby of it. A signature that hardly grows does
+/// not determine its size; one that shrinks has no power.
 [[nodiscard]] double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby);
 
 /// Sets the coefficient's range from that of the size.

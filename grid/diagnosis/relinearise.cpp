@@ -191,7 +191,7 @@ void relinearise(Analysis& a) {
     if (!about || !renew_regressors(session, a.state, own, *about)) break;
     MarginalisedSystem there = marginalise(*about, marginalised.outliers);
     there.discrepancy_trace =
-        marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
+        marginalised.discrepancy_trace;  // the discrepancy keeps its strength
     const Round here(session, a.state, *about, std::move(there), discrepancy);
     const Eigen::Index settings = session.setting_columns();
     bool converged =

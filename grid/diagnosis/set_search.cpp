@@ -48,7 +48,8 @@ void add_best(const RegressorSystem& system,
   take();
 }
 
-/// The best of each cause's places, after projection on the settings, and also on a leading cause.
+/// The best of each cause's places, after projection on the settings and also after projection on a
+/// leading cause.
 std::vector<int> best_of_each_cause(const RegressorSystem& system,
                                     const MarginalisedSystem& marginalised,
                                     const ComparisonOptions& options,
@@ -271,7 +272,8 @@ void SetSearch::grow() {
 }
 
 void SetSearch::extend(const ColumnSet& parent, std::set<ColumnSet>& found) {
-  // The parent's residual, and each regressor's: a score for the cost of one inner product.
+  // The parent's residual and that of each regressor give a score for the cost of one inner
+  // product.
   const linear::PivotedCholesky own(equations_.gg(parent, parent));
   const Eigen::MatrixXd across = equations_.gg(Eigen::all, parent);
   Eigen::VectorXd left = equations_.ge;

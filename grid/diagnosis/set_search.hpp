@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Searches the relevant sets of causes in one marginalised system: all of one and two, three and
-/// four grown from the best, and the leading ones again given a model discrepancy.
+/// Searches the relevant sets of causes in one marginalised system: all sets of one and two
+/// causes, sets of three and four grown from the best, and the leading ones again given a model
+/// discrepancy.
 #pragma once
 
 #include <set>

@@ -23,7 +23,7 @@ inline constexpr double kLineGapMm = 25.0;
 /// A group of units that are left out together (positions in the session).
 struct LeftOut {
   Removal::What what = Removal::What::point;
-  std::size_t index = 0;  ///< of a point, a distance or a hole, among those of all files
+  std::size_t index = 0;  ///< for a point, a distance or a hole: its number among those of all files
   double at_mm = 0.0;     ///< of a column its x, of a row its y
   std::vector<std::size_t> units;
 };
@@ -31,10 +31,10 @@ struct LeftOut {
 /// every hole; those that would leave too few units are missing.
 [[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session);
 
-/// Whether what is named of all points is named in `without` too.
+/// Whether the causes named from all points are named in `without` too.
 [[nodiscard]] bool still_named(const Decision& all, const Decision& without);
 
-/// Empty where the analysis names nothing.
+/// Empty if the analysis names nothing.
 [[nodiscard]] std::optional<Stability> examine_stability(const Analysis& analysis);
 
 /// A sentence or two: what was left out, and the effect on the name. Precondition: the diagnosis
@@ -45,10 +45,10 @@ struct LeftOut {
 /// " The name rests on point 17: without it ...", or nothing if it holds.
 [[nodiscard]] std::string influence_in_words(const Diagnosis& diagnosis);
 
-/// A lasting cause acts on more than one reading: a name that a single one makes is refused.
-/// Where, without one reading, nothing would be named: decides `analysis` anew with that reading
-/// set aside and says so in a sentence. Nothing is done where the name stands, where a set is left,
-/// or where the cause is a slip or a skip, which may show in one reading alone.
+/// A lasting cause acts on more than one reading, so a name that depends on a single reading is
+/// refused. If nothing would be named without one reading, decides `analysis` again without it and
+/// returns a sentence that says so. Nothing is done if the name holds, if a set remains, or if the
+/// cause is a slip or a skip, which may show in a single reading.
 [[nodiscard]] std::optional<std::string> refuse_name_of_one_reading(
     const std::optional<Stability>& stability, Analysis& analysis);
 

@@ -36,7 +36,7 @@ class Placed {
   }
 
  private:
-  RegressorSystem sheet_;  ///< the sheet's settings are all that is free
+  RegressorSystem sheet_;  ///< only the sheet's settings are free
 };
 
 /// Residuals of the second session with the first one's model, before placing its sheet.

@@ -65,7 +65,7 @@ double length_on_bed_mm(const Analysis& a, const DiscrepancyField& field) {
   return field.length * range(x) / std::max(range(values), 1e-12);
 }
 
-/// The discrepancy's properties by the weight of all models with one.
+/// The discrepancy's properties, averaged by weight over all models with one.
 struct Said {
   std::map<Coordinate, double> of;
   std::map<Enters, double> enters;
@@ -151,10 +151,11 @@ constexpr int kLeftOverDraws = 999;
 constexpr int kDegree = 4;
 /// Share of the residual that a coordinate must explain, beyond what its terms explain by chance.
 constexpr double kFollowsShare = 0.2;
-/// Share of what no place explains that must follow the visits before they are named.
+/// Share of the variance unexplained by the place that must follow the visits before they are
+/// named.
 constexpr double kTimeOverPlace = 0.3;
 
-/// X in units of what each unknown may be beforehand.
+/// X in units of each unknown's prior sigma.
 Eigen::MatrixXd design_of(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const Eigen::Index n = marginalised.kept.size();
@@ -176,7 +177,8 @@ Eigen::MatrixXd design_of(const Analysis& a) {
 ///
 ///   y = B diag(s) u + z,  u and z standard normal;   r = y - X (X'X + P)^-1 X' y
 ///
-/// X, the columns of settings, nuisances (B, with their sigmas s) and named causes; P, their precision beforehand.
+/// X, the columns of settings, nuisances (B, with their sigmas s) and named causes; P, their prior
+/// precision.
 Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
   const Eigen::MatrixXd design = design_of(a);
   const Eigen::Index n = design.rows();
@@ -235,7 +237,7 @@ constexpr Coordinate kAlong[] = {Coordinate::angle_left,
                                  Coordinate::visit};
 
 /// Share of the squared residual that a quartic along the coordinate explains in either chain,
-/// minus what as many terms explain of noise.
+/// minus the share of noise that as many terms explain.
 double share_along(const Analysis& a, Coordinate coordinate) {
   const std::vector<bool>& outliers = marginalised_system(a).outliers;
   std::vector<double> t;
@@ -271,7 +273,7 @@ LeftOver left_over(const Analysis& a) {
   LeftOver result;
   result.p_value = p_of_structure(a);
   if (a.decision.best_discrepancy >= 0) result.signal_to_noise = pattern_of(a).signal_to_noise;
-  // A distance joins two places and follows neither.
+  // A distance joins two places and is a function of neither.
   if (result.p_value >= kFalseAlarm || !a.session.reads_chains()) return result;
   for (const Coordinate coordinate : kAlong) {
     const bool of_order = coordinate == Coordinate::visit;

@@ -11,7 +11,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// "Most likely ...", "One of 2 causes ...", "3 causes act together ...", and the pattern beside
+/// "Most likely ...", "One of 2 causes ...", "3 causes act together ...", and the pattern besides
 /// them. Empty if the verdict names no cause.
 [[nodiscard]] std::string causes_in_words(const Diagnosis& diagnosis);
 
@@ -23,7 +23,7 @@ namespace chaintrue::grid::diagnosis {
 /// The sentence that only these are wrong.
 [[nodiscard]] std::string only_outliers_in_words(const Diagnosis& diagnosis);
 
-/// What to do about the causes, at most two lines in all: nothing for a set, of which only one acts.
+/// What to do about the causes, in at most two lines; empty for a set, of which only one acts.
 void say_remedies(Diagnosis& diagnosis);
 
 /// "Measure next: `first`, and 3 more below. All of it raises the chance of a single name to 96 %."

@@ -52,7 +52,7 @@ constexpr std::array kUnits = {
     Unit{"distance_mm", 1.0, "{} mm"},
 };
 
-/// What has words of its own; `effect` empty: of any.
+/// Parameters with their own words; `effect` empty: any effect.
 struct UnitOfEffect {
   std::string_view effect;
   Unit unit;
@@ -97,7 +97,7 @@ double two_digits(double value) {
   return step * std::round(value / step);
 }
 
-/// Rounded to the sigma's first two digits; a value without a sigma to its own.
+/// Rounded to the sigma's first two digits; a value without a sigma to its own first two digits.
 std::string with_sigma(double value, double sigma) {
   if (!(sigma > 0.0)) return fmt::format("{:g}", two_digits(value));
   const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6);

@@ -60,7 +60,7 @@ double Estimator::step_to(const State& next, const ConvergenceRule& rule) const 
   const Unknowns& unknowns = problem_->unknowns();
   for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
     if (unknowns.sigma(i) <= kKnownSigma) continue;
-    // Without a prior the sigma from the readings is the measure; for noise-free readings a
+    // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
     // micrometre.
     constexpr double kLeastSigma = 1e-3;
     const double sigma = std::isfinite(unknowns.sigma(i))
@@ -97,7 +97,7 @@ std::optional<std::size_t> Estimator::worst_alone() const {
   return bad ? worst : std::nullopt;
 }
 
-/// True where the weights changed enough to fit again.
+/// True if the weights changed enough to fit again.
 bool Estimator::update_weights(int pass) {
   if (input_.fixed_weights) return false;
   LeftOut left_out(*problem_, fit_, weights_);

@@ -68,7 +68,7 @@ inline constexpr double kBadPointDistance = 4.5;
 inline constexpr double kBadDistanceSigmas = 3.5;
 /// Log evidence of a surface over none that the readings must give: twenty to one.
 inline constexpr double kSurfaceEvidence = 3.0;
-/// With fewer units of one row than these none is rejected.
+/// With fewer units of one row than this, none is rejected.
 inline constexpr std::size_t kFewestSingleRows = 5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
@@ -92,12 +92,13 @@ enum class SurfaceUse {
 /// Units that are left out together.
 using UnitGroup = std::vector<std::size_t>;
 
-/// When a single reading of a unit is rejected whose readings may be outliers one by one (reading_shifts.hpp), the
-/// worst first; those that fit once a worse one is gone count again.
+/// Limits for rejecting single readings of units whose readings may be outliers one by one
+/// (reading_shifts.hpp). The worst is rejected first; those that fit once a worse one is gone count
+/// again.
 struct ReadingLimits {
   double rejected_beyond = 4.5;  ///< normal deviate
-  double most_share = 0.12;      ///< of all readings: beyond it the rest is not reliable
-  /// None is rejected if the noise found is larger: the fit is not sound.
+  double most_share = 0.12;      ///< share of all readings, beyond which the rest is not reliable
+  /// If the noise found is larger, none is rejected, because the fit is not sound.
   double most_noise = kInfinity;
 };
 
@@ -124,7 +125,7 @@ struct EstimationInput {
   /// Single readings are searched for outliers; with fixed_weights alone.
   std::optional<ReadingLimits> reading_limits;
   std::vector<UnitGroup> held_out_together;
-  int most_passes = 0;  ///< 0: as many as such readings need
+  int most_passes = 0;  ///< 0: as many as these readings need
   /// Receives `step` at each iteration.
   Progress progress{};
   WorkStep step{"settings and correction"};
@@ -134,11 +135,11 @@ struct EstimationInput {
 struct UnitEstimate {
   std::size_t observation = 0;
   std::size_t unit = 0;   ///< into the observation's
-  double weight = 1.0;    ///< in the fit that all else here describes; 0: rejected
+  double weight = 1.0;    ///< in the final fit; 0: rejected
   double distance = 0.0;  ///< of the left-out residual, in sigmas
   Eigen::VectorXd residual;
   Eigen::VectorXd left_out;             ///< against a fit without the unit
-  Eigen::MatrixXd left_out_covariance;  ///< of that, the unit's own noise in it
+  Eigen::MatrixXd left_out_covariance;  ///< of that, including the unit's own noise
   Eigen::VectorXd left_out_with_group;  ///< empty where no group has the unit
   [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
 };
@@ -188,7 +189,7 @@ struct Estimate {
   ResidualSurface surface;  ///< without one: scales, and splines of nothing
   bool has_surface = false;
   double surface_log_evidence = 0.0;  ///< of the surface over none, if requested
-  Eigen::MatrixXd covariance;         ///< of all that a map is made of, columns.total() squared
+  Eigen::MatrixXd covariance;         ///< of all unknowns of a map, columns.total() squared
   ParameterKnowledge knowledge;         ///< of the parameters, afterwards
   double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
   double effective_parameters = 0.0;

@@ -50,7 +50,7 @@ class Estimator {
   struct Shift : ReadingShift {
     observation::UnitReading at;
   };
-  /// Of the readings that are rejected, or of the others.
+  /// Among the rejected readings, or among the others.
   [[nodiscard]] std::vector<Shift> shifts(bool of_rejected) const;
   [[nodiscard]] std::optional<Shift> worst_reading() const;
   [[nodiscard]] std::optional<Shift> best_rejected() const;

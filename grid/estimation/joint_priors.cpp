@@ -65,8 +65,8 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
       linear::PivotedCholesky(precision.topLeftCorner(coupled, coupled)).solve(pull.head(coupled));
 }
 
-/// Sheets other than the first, zeros of other sessions, and nuisances. Those of the noise are rows of data: the noise factor
-/// scales them.
+/// Sheets other than the first, zeros of other sessions, and nuisances. Those of the noise are rows
+/// of data, which the noise factor scales.
 void JointProblem::add_nuisance_prior(interp::PenalisedProblem& problem) const {
   Eigen::Index of_noise = 0;
   for (const auto& observation : input_.observations) of_noise += observation->nuisances_of_noise();

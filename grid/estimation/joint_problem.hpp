@@ -51,7 +51,7 @@ class JointProblem {
   [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
   [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
   [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
-  /// For a unit; none where the unit is an outlier as a whole.
+  /// For a unit; none if the unit is an outlier as a whole.
   [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const;
   [[nodiscard]] const RejectedReadings& rejected() const { return rejected_; }
   /// Counted rows minus the fit's effective parameters.

@@ -34,7 +34,7 @@ struct ObservedFrom {
   Eigen::VectorXd settings;
 };
 
-/// How f is found.
+/// How f is computed.
 enum class Prediction {
   place_by_place,  ///< each place independently
   visit_by_visit,  ///< with the machine's memory between visits
@@ -69,12 +69,12 @@ struct SystemPlace {
   std::size_t observation = 0;
   std::size_t place = 0;  ///< into the observation's
   observation::ChainPlaceState state;
-  model::MarkPoint mark;  ///< as it was written, or commanded
+  model::MarkPoint mark;  ///< as written, or as commanded
   int order = 0;
   bool ordered = false;  ///< lengths were read here, at this visit
   model::Bed bed;        ///< of the machine at rest here
-  /// Of a mechanism whose lengths are not those of two chains: each as read, and its angle at its
-  /// anchor against the horizontal, 0 to pi / 2. Else empty.
+  /// For a mechanism other than two chains: each length as read, and its angle at its anchor
+  /// against the horizontal, 0 to pi / 2. Otherwise empty.
   std::vector<double> length_mm{};
   std::vector<double> angle_rad{};
 };

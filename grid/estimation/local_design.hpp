@@ -33,7 +33,7 @@ class LocalDesign {
               const interp::BsplineBasis& basis,
               const std::vector<model::MarkPoint>& marks);
 
-  /// Worth its q^3 with more rows than this per unknown.
+  /// Worth its cost of q^3 with more rows than this per unknown.
   static constexpr Eigen::Index kRowsForEachUnknown = 4;
 
   /// Adds X' w X, X' w y, y' w y and the rows of positive weight; a weight for each unit.

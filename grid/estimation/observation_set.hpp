@@ -3,13 +3,13 @@
 /// All observations of one machine: their rows one below the other, their places and units numbered
 /// through, and the columns of the unknowns with their stated values.
 ///
-/// Columns: the machine's settings, three for each sheet that somebody laid, two for each session whose
-/// chain zeros are its own, the nuisances of each observation. A chain may have been re-hung
-/// between two sessions of chain readings: the zeros of all but the first differ from the machine's
-/// by an estimated amount. Sets of holes share the machine's zeros: distances hardly determine
-/// them, and the five published sets of one machine predict each other worse with separate zeros
-/// (0.65 mm left out, 0.60 without). Units (observation.hpp) are those whose readings may be
-/// outliers; readings that cannot be outliers have rows and are no units.
+/// Columns: the machine's settings, three for each sheet that was placed by hand, two for each
+/// session whose chain zeros are its own, the nuisances of each observation. A chain may have been
+/// re-hung between two sessions of chain readings: the zeros of all but the first differ from the
+/// machine's by an estimated amount. Sets of holes share the machine's zeros: distances hardly
+/// determine them, and the five published sets of one machine predict each other worse with
+/// separate zeros (0.65 mm left out, 0.60 without). Units (observation.hpp) are those whose
+/// readings may be outliers; readings that cannot be outliers have rows and are no units.
 ///
 /// \code
 ///   const ObservationSet set = observation_set(machine, {points, holes});
@@ -85,7 +85,7 @@ struct ObservationSet {
   Eigen::VectorXd
       stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
   Eigen::Index rows = 0;
-  /// Degrees of freedom of the noise: the fewest of all observations.
+  /// Degrees of freedom of the noise: the smallest number among all observations.
   double noise_dof = 15.0;
   bool noise_from_repeats = false;
   /// With fewer units left, none is rejected.
@@ -104,7 +104,7 @@ struct ObservationSet {
   [[nodiscard]] bool has_distances() const;
   /// Chains were read, and the visits' order is known.
   [[nodiscard]] bool ordered() const;
-  /// The readings of the machine itself; none where there are none.
+  /// The readings of the machine itself, if any.
   [[nodiscard]] const std::vector<ExtraReading>& readings() const;
   /// Whether the readings depend on the setting in this column.
   [[nodiscard]] bool knows(std::size_t column) const;
@@ -117,8 +117,7 @@ struct ObservationSet {
 };
 
 /// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
-/// \throws std::invalid_argument for a sheet that was laid under
-/// another mechanism than two chains.
+/// \throws std::invalid_argument for a sheet under a mechanism other than two chains.
 [[nodiscard]] ObservationSet observation_set(
     model::Machine stated,
     const observation::Observations& observations,

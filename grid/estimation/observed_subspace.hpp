@@ -35,7 +35,7 @@ class ObservedSubspace {
 
   [[nodiscard]] Eigen::Index polynomials() const { return polynomials_.cols(); }
   [[nodiscard]] Eigen::Index penalised() const { return penalised_basis_.cols(); }
-  /// phi(q)' F and phi(q)' B, a row a mark.
+  /// phi(q)' F and phi(q)' B, one row for each mark.
   [[nodiscard]] const Eigen::MatrixXd& polynomial_rows() const { return polynomial_rows_; }
   [[nodiscard]] const Eigen::MatrixXd& bend_rows() const { return bend_rows_; }
   /// F and B.

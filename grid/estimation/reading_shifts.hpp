@@ -46,7 +46,7 @@ inline constexpr double kOwnWord = 1e-6;
 [[nodiscard]] double deleted_deviate(double r, double kept, double s2, double dof);
 
 struct ReadingShift {
-  double residual_mm = 0.0;  ///< read less what all others make of it
+  double residual_mm = 0.0;  ///< reading minus the prediction by all others
   double sigmas = 0.0;  ///< 0 if no other reading determines it
 };
 

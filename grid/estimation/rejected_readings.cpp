@@ -28,7 +28,7 @@ std::vector<Estimator::Shift> Estimator::shifts(bool of_rejected) const {
 
 std::optional<Estimator::Shift> Estimator::worst_reading() const {
   std::optional<Shift> worst;
-  // Readings that share one check are out by the same: the first of them.
+  // Readings that share one check deviate equally; the first of them is taken.
   constexpr double kSame = 1e-6;
   for (const Shift& one : shifts(false)) {
     if (!worst || one.sigmas > (1.0 + kSame) * worst->sigmas) worst = one;
@@ -89,7 +89,7 @@ void Estimator::reject_readings() {
     more[worst->at.unit].push_back(worst->at.reading);
     if (!converge_without(std::move(more))) break;
   }
-  // What was rejected while a worse one was still in may fit after all.
+  // A reading rejected while a worse one was still included may fit after all.
   for (std::size_t back = 0; back < most; ++back) {
     const auto best = best_rejected();
     if (!best || best->sigmas >= limits.rejected_beyond) break;

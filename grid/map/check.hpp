@@ -37,9 +37,9 @@ struct CheckHypothesis {
   std::string side;  ///< the identifier in files; empty: the whole
   CheckVerdict verdict = CheckVerdict::valid;
   double probability = 0.0;
-  /// Teeth skipped, positive where too much is read; of a bad point its number, from 0.
+  /// Teeth skipped, positive where too much is read; for a bad point its number, from 0.
   int count = 0;
-  std::string name = {};  ///< of a bad point: "point 3"
+  std::string name = {};  ///< for a bad point: "point 3"
   std::vector<QuantityFound> found = {};
 
   /// Excess of a length's reading with its sigma, and its relative growth; 0 if the hypothesis has

@@ -160,7 +160,7 @@ class Evidence {
   }
 
  private:
-  /// (2) or (3) of log|V|^1/2 and r' V^-1 r.
+  /// The log evidence (2) or (3), from log|V|^1/2 and r' V^-1 r.
   [[nodiscard]] double log_density(double log_root, double square) const {
     const double nu = readings_.noise_dof;
     if (!std::isfinite(nu)) return -log_root - 0.5 * square;

@@ -7,7 +7,7 @@
 ///
 ///   K + X P X',   K = N + S S' + F F' of reading_covariance.hpp                              (1)
 ///
-/// X is what the changed quantities do to r, P their covariance beforehand. F F' is the covariance
+/// X is the effect of the changed quantities on r, P their prior covariance. F F' is the covariance
 /// of the calibration. If the size of the noise is known
 ///
 ///   log p = -1/2 log|V| - 1/2 r' V^-1 r,                V = K + X P X'                        (2)
@@ -40,19 +40,19 @@ struct CheckReadings {
   ReadingCovariance covariance;  ///< K
   /// nu; infinite: the noise is known.
   double noise_dof = kInfinity;
-  /// n x m N: by a change of the readings of each length at each place.
+  /// n x m N: derivatives by a change of each length's readings at each place.
   Eigen::SparseMatrix<double> by_length;
   std::size_t lengths = 2;       ///< m
   Eigen::VectorXd lengths_mm;    ///< m N
-  std::vector<double> zero_mm;   ///< as calibrated, m; empty where zeros are no numbers
-  Eigen::MatrixXd by_parameter;  ///< n x p; no columns where nothing is known of parameters
+  std::vector<double> zero_mm;   ///< as calibrated, m; empty if zeros are not settings
+  Eigen::MatrixXd by_parameter;  ///< n x p; no columns if nothing is known about parameters
   std::vector<model::MechanismChange> changes;
-  std::vector<CheckUnit> units;    ///< in the order of the rows, as `covariance` has them
+  std::vector<CheckUnit> units;    ///< in the order of the rows of `covariance`
   std::vector<std::string> names;  ///< of the rows
   std::vector<std::string> notes;  ///< corrections of the readings, and those that failed
 };
 
-/// In the order nothing, the mechanism's changes, unknown, each unit bad by itself.
+/// In this order: nothing, the mechanism's changes, an unknown change, each unit bad by itself.
 [[nodiscard]] std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings);
 
 }  // namespace chaintrue::grid

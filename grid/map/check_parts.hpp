@@ -36,8 +36,8 @@ struct Repeated {
 /// The new points of one file: their positions on the map, and their readings.
 struct CheckedPart {
   std::vector<model::MarkPoint> marks;  ///< on the map
-  /// For a sheet that was laid anew: how well, and where the readings put it in the map's frame. All
-  /// is linearised there.
+  /// For a newly placed sheet: the accuracy of its placement, and where the readings put it in the
+  /// map's frame. Everything is linearised there.
   std::optional<observation::SheetPrior> sheet;
   model::SheetPlacement placement;
   std::vector<std::string> notes;
@@ -53,12 +53,12 @@ struct CheckedPart {
                                                                    const MeasuredHoles& set);
 
 /// The map at N places of new readings: d(lengths)/d(mark), and the covariance F F' of its lengths,
-/// jointly or for each place.
+/// jointly or place by place.
 struct MapAt {
   std::vector<model::ChainLengths> lengths;
   std::vector<Eigen::Matrix2d> by_mark;
   Eigen::MatrixXd factor;                   ///< F, 2 N x any
-  std::vector<Eigen::Matrix2d> covariance;  ///< of each place; empty if F has it
+  std::vector<Eigen::Matrix2d> covariance;  ///< for each place; empty if F contains it
   /// 2 N x p, by the settings of the machine; no columns for a map without one.
   Eigen::MatrixXd by_parameter;
 };

@@ -119,7 +119,8 @@ class Gathered {
     shared_columns_ += (at_.covariance.empty() ? 2 : 4) * std::ssize(set.holes);
     add_size_and_tape_zero(set, geometry, before);
     if (!part.sheet) return;
-    // A hole's mark on a sheet that moved goes the other way; edges see it, a turn to first order.
+    // If a sheet moves, a hole's mark on it moves the other way; distances to edges depend on it,
+    // with the rotation to first order.
     Eigen::Matrix<double, Eigen::Dynamic, 3> by_sheet =
         Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(residual.size(), 3);
     for (Eigen::Index k = 0; k < residual.size(); ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A check whose points were commanded with settings other than the map's: do settings that were
-/// typed in, or were not, explain the result instead of a change of the machine?
+/// A check whose points were commanded with settings other than the map's: can settings that
+/// were, or were not, typed in explain the result instead of a change of the machine?
 ///
 /// The points' chain lengths are what the controller has paid out for their commands, so each set of
 /// settings predicts its own readings. All are compared with the same map; with n readings and

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The compensation map: true chain lengths for any point of the bed, with what is known of their
-/// error.
+/// The compensation map: true chain lengths for any point of the bed, with their uncertainty.
 ///
-/// Frame: the map is asked by the numbers of the grid's points (the marks); a place on the bed goes
-/// through to_mark() first, the two differ by the sheet's placement. Lengths are what a reading would be without drift,
-/// skips and hysteresis.
+/// Frame: the map is queried in the coordinates of the grid's points (the marks). A place on the
+/// bed goes through to_mark() first, because the two frames differ by the sheet's placement.
+/// Lengths are what a reading would be without drift, skips and hysteresis.
 ///
 /// \code
 ///   const CompensationMap map(contents);        // from fit() or files::read_map()
@@ -96,7 +95,7 @@ struct MapPoint {
   Eigen::Vector2d left_out_mm = Eigen::Vector2d::Zero();
 };
 
-/// seeds/001's claim that R is L mirrored, held against the points: R measured at (x, y)
+/// Test of the claim that R is L mirrored (seeds/001) against the points: R measured at (x, y)
 /// minus the map's L at (-x, y), mirrored about the middle of the bed.
 struct MirrorTest {
   std::size_t points = 0;  ///< whose mirror image lies on the map
@@ -104,7 +103,7 @@ struct MirrorTest {
   double mean_mm = 0.0;
   model::MarkPoint worst_at;
   double worst_signed_mm = 0.0;
-  /// No point differs by more than chance (4.5 sigmas of noise and map) allows.
+  /// No point differs by more than 4.5 sigmas of noise and map.
   bool holds = true;
   std::string sentence;
 };
@@ -158,7 +157,7 @@ struct OutsideRule {
   double fade_width_mm = 200.0;  ///< > 0; for `fade`
 };
 
-/// Everything that a map file holds.
+/// The content of a map file.
 struct MapContents {
   std::string name;
   std::variant<DirectSurface, ModelSurface> surface;
@@ -174,9 +173,9 @@ struct MapContents {
   std::vector<SettingResult> settings;
   std::vector<MapPoint> points;
   std::optional<MirrorTest> mirror;
-  /// Only of a map made from holes.
+  /// Only for a map made from holes.
   std::optional<DistancesUsed> distances = std::nullopt;
-  /// Sentences for the person: what was assumed, rejected, or found odd.
+  /// Sentences for the user: what was assumed, rejected, or unusual.
   std::vector<std::string> notes;
 };
 
@@ -209,7 +208,7 @@ class MapField;
 /// Immutable, thread safe.
 class CompensationMap {
  public:
-  /// \throws std::invalid_argument where a surface without a machine shall fade.
+  /// \throws std::invalid_argument if `fade` is requested for a surface without a machine.
   explicit CompensationMap(MapContents contents);
   /// This map with another continuation.
   [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const;
@@ -231,7 +230,7 @@ class CompensationMap {
   [[nodiscard]] tl::expected<model::MarkPoint, MapFailure> inverse(
       model::ChainLengths lengths) const;
   [[nodiscard]] MapStatus status(model::MarkPoint mark) const;
-  /// As LengthMap has it; no columns where lengths() has no answer.
+  /// As in LengthMap; no columns where lengths() has no answer.
   [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const;
   /// The same place in the other frame; a direct map knows only one.
   [[nodiscard]] model::MarkPoint to_mark(model::BedPoint bed) const;

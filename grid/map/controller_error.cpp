@@ -35,7 +35,7 @@ interp::Rectangle box_of(const std::vector<interp::PlanePoint>& corners) {
   return box;
 }
 
-/// d(left, right)/d(x, y), by steps towards `middle`, where the map answers if it does at `at`.
+/// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
 std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map,
                                            BedPoint at,
                                            model::ChainLengths here,

@@ -53,7 +53,7 @@ tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
                             read.error().sentence()));
 }
 
-/// Takes the visit effects out of the readings, which are in the order of the points.
+/// Removes the visit effects from the readings, which are in the order of the points.
 tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
                                                 const Machine& with_visits,
                                                 const Machine& without) {

@@ -42,9 +42,9 @@ enum class FitReason {
 };
 using FitFailure = Failure<FitReason>;
 
-/// The machine's effects of the paper and of the visit (drift, skips, hysteresis) are taken out of
+/// The machine's effects of the paper and of the visit (drift, skips, hysteresis) are removed from
 /// the data first (corrected_data.hpp) and are not in the map; its other effects are.
-/// \throws std::invalid_argument where a direct surface shall fade (see CompensationMap).
+/// \throws std::invalid_argument if `fade` is requested for a direct surface (see CompensationMap).
 [[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid,
                                                             const FitOptions& options = {});
 

@@ -33,10 +33,10 @@ struct MapDraft {
   std::vector<model::MarkPoint> good;  ///< places that count, in the map's frame
   std::vector<FittedPoint> points;     ///< of all grids
   std::vector<FittedDistances> distances;
-  double tape_sigma_mm = 0.0;            ///< of the first set, where all are sets of holes
-  std::vector<std::string> sources;      ///< what each file brought, where there are several
-  std::vector<std::string> notes;        ///< of each file's readings
-  std::vector<std::string> frame_notes;  ///< of how the frame of the first file was laid
+  double tape_sigma_mm = 0.0;            ///< of the first set, if all files are sets of holes
+  std::vector<std::string> sources;      ///< the contribution of each file, if there are several
+  std::vector<std::string> notes;        ///< for each file's readings
+  std::vector<std::string> frame_notes;  ///< of the placement of the first file's frame
   std::vector<std::string> last_notes;
 };
 
@@ -62,7 +62,7 @@ class FitPart {
   static constexpr int kStepsToFindNoise = 4;
   /// Fits again with the noise estimated, if none is stated. For a single file.
   [[nodiscard]] virtual tl::expected<void, FitFailure> find_noise(Fitting& /*alone*/) { return {}; }
-  /// States the noise that was found of this file alone.
+  /// States the noise found from this file alone.
   virtual void take_noise(const Fitting& /*alone*/) {}
   /// Why a single file has too few good units.
   [[nodiscard]] virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;

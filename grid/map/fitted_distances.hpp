@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The results of an estimate (grid/estimation) for distances between holes: settings (each stated
-/// one is a datum with its sigma), a length scale of either chain, the sheet's placement where its
-/// edges were measured and, where the distances ask for it, a smooth correction of the chain
+/// The results of an estimate (grid/estimation) for distances between holes: settings (each
+/// stated one is a datum with its sigma), a length scale of either chain, the sheet's placement if
+/// its edges were measured and, if the distances support it, a smooth correction of the chain
 /// lengths. Where the holes are follows from these (tape_distances.hpp).
 #pragma once
 
@@ -37,7 +37,7 @@ struct FittedHole {
   model::ChainLengths lengths;  ///< paid out
   model::MarkPoint as_stated;   ///< where the machine as stated puts it, in the sheet's frame
   model::MarkPoint predicted;   ///< where the fitted machine puts it
-  model::MarkPoint place;       ///< where the distances say it is
+  model::MarkPoint place;       ///< where the distances put it
 };
 
 /// An estimate's results for one set of distances among its observations.
@@ -55,10 +55,10 @@ struct FittedDistances {
 
 /// A hole as a point of a map.
 [[nodiscard]] MapPoint map_point(const FittedHole& hole);
-/// What a map of holes is fitted to.
+/// The input of a map of holes.
 [[nodiscard]] DistancesUsed distances_used(const std::vector<FittedDistance>& distances,
                                            double tape_sigma_mm);
-/// Sentences: which readings were rejected, and what is wrong with all of them.
+/// Sentences: which readings were rejected, and errors common to all of them.
 [[nodiscard]] std::vector<std::string> distance_notes(const MeasuredHoles& set,
                                                       const FittedDistances& fit);
 

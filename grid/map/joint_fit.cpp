@@ -245,7 +245,7 @@ double stated_noise_mm2(const std::vector<FittedPoint>& points, const MapNoise& 
 /// If readings scatter clearly more than stated, left-out blocks estimate the map's error better
 /// than the fit, which treats all of the scatter as noise.
 CompensationMap with_held_out_error(CompensationMap map, const std::vector<FittedPoint>& points) {
-  // With 12 degrees of freedom stated and 40 in the fit noise does so once in 500.
+  // With 12 degrees of freedom stated and 40 in the fit, noise alone does so once in 500.
   constexpr double kClearly = 2.0;
   const MapNoise& noise = map.contents().noise;
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;

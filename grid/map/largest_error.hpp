@@ -32,7 +32,7 @@ class LargestError {
 
  private:
   Eigen::MatrixXd draws_;        ///< of z, a column each
-  Eigen::RowVectorXd largest_mm2_;  ///< so far, of each draw
+  Eigen::RowVectorXd largest_mm2_;  ///< of each draw so far
 };
 
 }  // namespace chaintrue::grid

@@ -70,10 +70,10 @@ struct LatticeFit {
   std::vector<Eigen::Vector2d> left_out_residual_mm;
 };
 
-/// Through the residuals of `fit` without its penalised surface. Empty unless the points are single
-/// nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, the readings
-/// are free of noise (with noise the fit has clearly fewer effective parameters than readings), and
-/// the lines predict left-out points nearly as well.
+/// Interpolates the residuals of `fit` without its penalised surface. Empty unless the points are
+/// single nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, the
+/// readings are free of noise (with noise the fit has clearly fewer effective parameters than
+/// readings), and the lines predict left-out points nearly as well.
 [[nodiscard]] std::optional<LatticeFit> fit_lattice(const PointsFit& fit);
 
 /// Points nearer than this to a line of the lattice lie on it: the rounding of written

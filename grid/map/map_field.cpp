@@ -76,7 +76,7 @@ class ModelField final : public MapField {
     return {result.lengths, result.mark_jacobian};
   }
 
-  /// G F, G being the two rows of the design: few of its entries are not zero.
+  /// G F, with the two sparse rows G of the design.
   [[nodiscard]] Eigen::Matrix2Xd spread(MarkPoint mark, const model::PointReading& reading) const {
     const FitColumns& columns = surface_.columns;
     const Eigen::Matrix<double, 2, 3> by_sheet =

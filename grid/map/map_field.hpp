@@ -15,8 +15,8 @@ namespace chaintrue::grid {
 /// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 class MapField {
  public:
-  /// For both lengths, a row each: one sigma of one direction of what is uncertain a column, the same
-  /// directions at every mark within the points.
+  /// A row for each length, and a column for one sigma of each uncertain direction; the directions
+  /// are the same at every mark within the points.
   struct WithSpread {
     MapLengths here;
     Eigen::Matrix2Xd spread_mm;

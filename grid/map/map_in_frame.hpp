@@ -24,7 +24,7 @@ class MapInFrame final : public LengthMap {
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
       model::ChainLengths lengths) const override;
   [[nodiscard]] MapStatus status(model::BedPoint point) const override;
-  /// Along the axes of the marks.
+  /// In directions of the marks' axes.
   [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
   [[nodiscard]] const interp::Rectangle& domain() const override { return map_.contents().domain; }
 

@@ -18,8 +18,8 @@ namespace chaintrue::grid {
 [[nodiscard]] StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid);
 
 struct RepeatNoise {
-  double factor = 1.0;  ///< the noise, as a multiple of the one the fit went in with
-  double dof = 0.0;     ///< how well that is known
+  double factor = 1.0;  ///< the noise, as a multiple of the one that the fit assumed
+  double dof = 0.0;     ///< its degrees of freedom
 };
 
 /// From the scatter of a fit's residuals within each group of repeats, not below what rounding
@@ -32,7 +32,7 @@ struct RepeatNoise {
 /// The scatter of whitened residuals within groups of repeats, gathered point by point.
 class RepeatScatter {
  public:
-  /// \param noise what the residuals are whitened by
+  /// \param noise the noise by which the residuals are whitened
   RepeatScatter(const observation::PointNoise& noise, const observation::PointNoise& rounding)
       : noise_(noise), rounding_(rounding) {}
   /// \param by_mark derivatives of the lengths by the mark

@@ -265,7 +265,7 @@ class PointsPart final : public FitPart {
 
   MeasuredGrid grid_;  ///< corrected
   std::vector<LengthPoint> points_;
-  observation::PointNoise rounding_;  ///< of the readings as written
+  observation::PointNoise rounding_;  ///< from the readings as written
   observation::PointNoise noise_;
   NoiseSource source_ = NoiseSource::fit;
   /// Replaces the surface if noise-free readings lie on a lattice.

@@ -22,17 +22,17 @@ namespace {
 using model::ControllerSettings;
 using model::Machine;
 
-/// What settings are compared with.
+/// The machine with which settings are compared.
 struct Truth {
   Machine machine;  ///< as calibrated, with the controller in force
   /// Such a machine in the frame of the bed.
   std::function<std::vector<MeasuredPlace>(const Machine&)> places;
-  double sigma_mm = 0.0;   ///< rms of what is uncertain of it
-  std::size_t points = 0;  ///< that say it; 0: it is exact
+  double sigma_mm = 0.0;   ///< rms of its uncertainty
+  std::size_t points = 0;  ///< points behind it; 0: it is exact
 };
 
-/// A setting that may change: how far it usually is from the truth, a step to differentiate by, and
-/// the digits that are typed.
+/// A setting that may change: its usual error, a step for its derivative, and the digits that are
+/// typed.
 struct FreeSetting {
   std::optional<double> ControllerSettings::*value;
   double sigma;
@@ -205,7 +205,7 @@ Machine without_effect(Machine machine, const std::string& effect) {
   return machine;
 }
 
-/// The machine without each thing that its firmware has no setting for.
+/// The machine without each property for which its firmware has no setting.
 std::vector<std::pair<std::string, Machine>> machines_without(const Machine& machine) {
   std::vector<std::pair<std::string, Machine>> without;
   if (!is_holey(machine)) {

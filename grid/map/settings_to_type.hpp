@@ -41,8 +41,8 @@ struct SettingsToType {
   ErrorSummary typed;
   /// Good points of the map, to which all of this is fitted; 0 for a machine.
   std::size_t points = 0;
-  /// False if no settings are clearly better than those in force; `settings` are then those, and
-  /// `typed` is `as_it_is`.
+  /// False if no settings are clearly better than those in force; `settings` are then the ones in
+  /// force, and `typed` is `as_it_is`.
   bool worth_typing = false;
   std::vector<Lacking> lacking;
 };

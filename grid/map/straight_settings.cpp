@@ -69,7 +69,7 @@ Eigen::VectorXd errors_with(const std::vector<MeasuredPlace>& places,
   return errors;
 }
 
-/// Where straight chains of the stated machine would come from.
+/// The origins of straight chains for the stated machine.
 Eigen::Vector<double, 2 * kOfChain> start_of(const model::Machine& machine, Anchors anchors) {
   Eigen::Vector<double, 2 * kOfChain> start;
   start << machine.motors.left.x_mm, machine.motors.left.y_mm, 1.0, machine.motors.right.x_mm,

@@ -30,7 +30,7 @@ enum class Anchors { free, level };
 struct StraightSettings {
   /// In the coordinates of the sheet, y up.
   model::PerSide<model::BedPoint> anchors;
-  /// c of (1): steps per millimetre are to be these times those of a chain that is counted right.
+  /// c of (1): factor from the steps per millimetre of a correctly counted chain to those to set.
   model::PerSide<double> more_steps;
   /// The straight distance from 0, 0 minus the map's length there, mm.
   model::ChainLengths longer_mm;

@@ -53,7 +53,7 @@ struct LengthsAtPlace {
   model::MechanismVisit visit;
   /// Where the tool was, in the mechanism's frame; empty: unknown.
   std::optional<model::ToolPosition> known = std::nullopt;
-  /// Lengths that count and that the position is found without; empty: none.
+  /// Counting lengths that are not used to find the position; empty: none.
   std::vector<bool> rejected = {};
   /// For an unknown position: q to linearise about. The residuals are those there; to first order
   /// they do not depend on a nearby q. Empty: q of (1).
@@ -76,7 +76,7 @@ struct BlockLine {
   Eigen::VectorXd residual_mm;   ///< all lengths place by place, then the distances
   Eigen::MatrixXd by_position;   ///< times 2 a place
   Eigen::MatrixXd by_parameter;  ///< times p, or 0
-  Eigen::VectorXd weight;        ///< over that of a length; 0: does not count
+  Eigen::VectorXd weight;        ///< relative to that of a length; 0: does not count
 };
 
 class BeltLengthReadings final : public Observation {
@@ -90,8 +90,8 @@ class BeltLengthReadings final : public Observation {
                      double noise_dof,
                      std::vector<TapedDistance> distances = {});
 
-  /// Places that are found together, into places(), and the distances that join them. Of one place
-  /// there are none.
+  /// Places that are found together (indices into places()) and the distances that join them; a
+  /// single place has no distances.
   struct Block {
     std::vector<std::size_t> places;
     std::vector<std::size_t> distances;

@@ -40,7 +40,7 @@ struct DrawnMeasure {
   std::size_t from = 0;
   std::size_t to = 0;
   std::size_t middle = 0;  ///< of a bow
-  double value_mm = 0.0;   ///< of a bow positive to the left going from `from` to `to`
+  double value_mm = 0.0;   ///< a bow is positive to the left, going from `from` to `to`
   double sigma_mm = 0.5;
 };
 

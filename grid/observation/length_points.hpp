@@ -46,13 +46,13 @@ inline constexpr double kRepeatDistanceMm = 25.0;
 [[nodiscard]] std::vector<std::vector<std::size_t>> repeat_groups(
     const std::vector<LengthPoint>& points);
 
-/// Readings that replace a part of the stated machine: sled_mass_kg and chain_mass_kg_per_m as they
-/// are, ring_radius_mm weighed against the stated one by their sigmas, link_pitch_mm as a
+/// Readings that replace a part of the stated machine: sled_mass_kg and chain_mass_kg_per_m replace
+/// it, ring_radius_mm is combined with the stated one by their sigmas, link_pitch_mm becomes a
 /// chain_pitch_error.
 [[nodiscard]] model::Machine with_readings(model::Machine machine,
                                            const std::vector<ExtraReading>& readings);
 
-/// Those readings that the settings predict: motor_spacing_mm and beam_rise_mm.
+/// The readings that the settings predict: motor_spacing_mm and beam_rise_mm.
 [[nodiscard]] std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings);
 
 }  // namespace chaintrue::grid

@@ -27,7 +27,7 @@ struct MeasuredFile {
 
   [[nodiscard]] const MeasuredGrid* grid() const { return std::get_if<MeasuredGrid>(&measured); }
   [[nodiscard]] const MeasuredHoles* holes() const { return std::get_if<MeasuredHoles>(&measured); }
-  /// That the file states.
+  /// The machine that the file states, if any.
   [[nodiscard]] const std::optional<model::Machine>& machine() const;
 };
 
@@ -47,11 +47,11 @@ class Measured {
   /// Those of one kind, in their order.
   [[nodiscard]] std::vector<const MeasuredGrid*> grids() const;
   [[nodiscard]] std::vector<const MeasuredHoles*> holes() const;
-  /// Null where there is none.
+  /// Null if there is none.
   [[nodiscard]] MeasuredGrid* first_grid();
   /// The name in the first file; empty if there is none.
   [[nodiscard]] std::string name() const;
-  /// That the first file states.
+  /// The machine that the first file states.
   [[nodiscard]] std::optional<model::Machine> machine() const;
 
  private:

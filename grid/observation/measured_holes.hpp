@@ -53,8 +53,9 @@ struct Tape {
   /// Every reading is longer than the distance by this much (the hook was not used, or the 100 mm
   /// mark was held to the hole).
   double tape_zero_offset_mm = 0.0;
-  /// One sigma of that: a hook with play, edges of holes taken for their centres. All readings of a
-  /// set share it, so measurements of another day are a separate set. Absent: exact.
+  /// One sigma of that offset, for a hook with play or edges of holes mistaken for their centres.
+  /// All readings of a set share it, so measurements of another day are a separate set. Absent:
+  /// exact.
   std::optional<double> tape_zero_offset_sigma_mm = std::nullopt;
 };
 
@@ -73,10 +74,10 @@ struct MeasuredHoles {
   /// One sigma on each axis of a hole's displacement from where its chain lengths put it: friction of
   /// the sled, drift of the drill.
   double hole_sigma_mm = 0.3;
-  /// Degrees of freedom of these two.
+  /// Degrees of freedom of these two sigmas.
   double noise_dof = 15.0;
   SheetSize sheet;
-  std::vector<ExtraReading> readings;  ///< of the machine itself
+  std::vector<ExtraReading> readings;  ///< readings of the machine itself
   std::vector<Hole> holes;
   std::vector<HoleDistance> distances;
 };

@@ -48,14 +48,14 @@ struct Kind {
   std::string_view unit;      ///< "point", "distance": the unit for outliers
   std::string_view units;     ///< "points"
   std::string_view place;     ///< "point", "hole"; empty where the tool stood nowhere
-  bool reads_chains = false;  ///< lengths at a place were read, not paid out by a controller
+  bool reads_chains = false;  ///< lengths were read at a place, not paid out by a controller
 };
 
 /// Where the tool stood.
 struct Place {
   std::size_t index = 0;        ///< into the file's points, or holes
   std::string name;             ///< "3", "A"
-  model::MarkPoint mark;        ///< as it was written, or commanded
+  model::MarkPoint mark;        ///< as written, or as commanded
   model::ChainLengths lengths;  ///< read there, or paid out to get there
   int order = 0;                ///< of the visit
   /// The command to the controller, if the lengths come from a command at this mark.
@@ -87,7 +87,7 @@ class LengthCorrection {
   struct At {
     model::ChainLengths lengths;  ///< corrected
     Eigen::Matrix2d by_mark;      ///< d(corrected)/d(mark)
-    /// d(corrected)/d(the machine's own), a chain each.
+    /// d(corrected)/d(the machine's own), one for each chain.
     Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
@@ -129,7 +129,7 @@ struct Columns {
 /// A place of two chains for a view.
 struct ChainPlaceState {
   model::PointReading reading;  ///< of the machine alone
-  model::MarkPoint mark;        ///< on the sheet; of a hole where the machine puts it
+  model::MarkPoint mark;        ///< on the sheet; for a hole, where the machine puts it
   Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
   /// d(corrected)/d(the machine's own lengths), a chain each.
   Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
@@ -155,7 +155,7 @@ struct Linearisation {
   Eigen::VectorXd predicted;    ///< f, n
   Eigen::MatrixXd by_setting;   ///< A, n x p
   Eigen::MatrixXd by_nuisance;  ///< B, n x q
-  /// For each place; empty of a kind whose lengths no LengthCorrection corrects.
+  /// For each place; empty for kinds whose lengths no LengthCorrection corrects.
   std::vector<ChainPlaceState> places;
   std::vector<UnitState> units;
 };

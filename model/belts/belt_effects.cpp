@@ -10,7 +10,7 @@ namespace chaintrue::model::belts {
 
 using namespace effects;  // NOLINT(google-build-using-namespace): the words of the table
 
-// machine: the same of all four moves the frame as a whole, which changes no length
+// machine: moving all four anchors alike moves the whole frame and changes no length
 constinit const Effect anchor_moved{
     .id = "anchor_moved",
     .station = Station::machine,
@@ -83,8 +83,8 @@ constinit const Effect belt_stretch{
         "(Maslow_Calibration_Current_Threshold), or fit the stretch together with the anchors",
     .add = [](const LengthState& belt, Values v) { return -v[0] * belt.tension * belt.length_mm; },
     .by_tension = true,
-    // All four published frames give with the pull. Three tell the belts' stretch from anchors that give, by
-    // factors of 1000 and more; the fourth does not tell.
+    // All four published frames yield under the pull. Three of them discriminate between stretching
+    // belts and yielding anchors by factors of 1000 and more; the fourth does not.
     .expected = 0.8,
 };
 
@@ -107,7 +107,7 @@ constinit const Effect anchor_flex{
     .remedy = "brace the frame and the anchors; pull with less current while the anchors are found",
     .add = [](const LengthState& belt, Values v) { return -v[0] * belt.tension; },
     .by_tension = true,
-    .expected = 0.2,  // as of belt_stretch
+    .expected = 0.2,  // see belt_stretch
 };
 
 constinit const Effect belt_scale{
@@ -192,7 +192,8 @@ constinit const Effect zero_shift{
     .id = "zero_shift",
     .station = Station::chain,
     .sides = kOneBelt,
-    // As a belt's own zero: a belt that is retracted anew, or slips in its clamp, does so by millimetres.
+    // The prior of belt_zero: a belt that is retracted again, or slips in its clamp, shifts by
+    // millimetres.
     .parameters = {size("shift_mm", "z", "how much too long each later reading is", 2.0, -500.0,
                         500.0, 3.0),
                    first_visit()},
@@ -208,7 +209,7 @@ constinit const Effect zero_shift{
         "look where the belt is clamped and at its retraction; retract and extend all belts and "
         "measure again",
     .add = zero_shifted,
-    // What sets in during a session is rare, and a skip is the usual form of it.
+    // Changes during a session are rare, and most of them are skips.
     .share = 0.01,
 };
 

@@ -134,7 +134,7 @@ FrameScale BeltMechanism::frame_scale() const {
 
 tl::expected<belts::AnchorNumber, BeltFailure> BeltMechanism::print(const belts::BeltVisit& visit,
                                                                     FramePoint place) const {
-  // The same without effects, in a third of the time; of printed spans but for rounding.
+  // The same result without effects in a third of the time; printed spans differ by rounding.
   if (acting_.empty() && machine_.lengths != BeltLengths::span) {
     return reading_at(machine_, visit.belt, place).map([&](const BeltReading& reading) {
       return belts::of_anchor(reading, visit.belt);

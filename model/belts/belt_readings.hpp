@@ -33,10 +33,10 @@ namespace chaintrue::model::belts {
 /// A belt at a visit.
 struct BeltVisit {
   Belt belt = Belt::tl;
-  /// Of all four, by their motors at the reading; the others hold.
+  /// Which of the four their motors pull at the reading; the others hold.
   PerBelt<bool> pulled{};
   int order = 0;
-  double pull = 1.0;  ///< of the belts that are pulled, over the pull that sizes refer to
+  double pull = 1.0;  ///< pull of the pulled belts, relative to the pull that sizes refer to
 };
 
 /// An effect at this side acts on this belt.
@@ -45,7 +45,7 @@ struct BeltVisit {
 /// A reading without effects.
 [[nodiscard]] AnchorNumber of_anchor(const BeltReading& reading, Belt belt);
 
-/// The printed length. By each anchor, since tensions depend on all four.
+/// The printed length, with derivatives by every anchor, since tensions depend on all four.
 [[nodiscard]] tl::expected<AnchorNumber, BeltFailure> read_belt(
     const BeltMachine& machine,
     const std::vector<effects::ActingEffect>& effects,
