@@ -24,8 +24,8 @@ constexpr double kOnALine = 1e-3;
 /// neighbouring discrepancies share.
 constexpr FollowedModels kFollowed{
     .within = 16.0, .most = 1000, .discrepancy_share = 0.002, .most_discrepancies = 30};
-/// The cost of a discrepancy grows with the cube of the rows. If there are more models than this,
-/// the likeliest represent the rest.
+/// The cost of a discrepancy grows with the cube of the rows. With more rows than this, the
+/// likeliest discrepancies represent the rest.
 constexpr Eigen::Index kRowsForAllDiscrepancies = 500;
 constexpr std::size_t kDiscrepanciesOfMany = 6;
 

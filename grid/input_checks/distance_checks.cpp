@@ -174,7 +174,7 @@ void add_axes(HoleTransformations& list) {
         });
 }
 
-/// A hole under another name, or written down wrongly, makes every distance from it wrong.
+/// A hole that was misnamed or written down wrongly makes every distance from it wrong.
 void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, HoleTransformations& list) {
   for (std::size_t h = 0; h < set.holes.size(); ++h) {
     std::size_t of_it = 0;
@@ -215,7 +215,7 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Hole
   }
 }
 
-/// Each distance written in the line after, or before, its own.
+/// Each distance was written one line too low or too high.
 void add_slips(const MeasuredHoles& set, HoleTransformations& list) {
   const auto count = static_cast<std::ptrdiff_t>(set.distances.size());
   for (const std::ptrdiff_t by : {-1, 1}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Gross errors in taped distances between holes, found before anything is fitted: as check_points,
-/// with a trend of the sheet's place, the machine's scales and the tape's zero offset between what was
-/// commanded and what was read.
+/// Gross errors in taped distances between holes, found before anything is fitted: as in
+/// check_points, with a trend in the sheet's place, the machine's scales and the tape's zero offset
+/// between commanded and measured distances.
 #pragma once
 
 #include "grid/input_checks/findings.hpp"

@@ -14,7 +14,7 @@ namespace chaintrue::grid::input_checks {
 
 /// How the checked numbers were written: --inches applies to a table.
 enum class Written { in_json, in_table };
-/// What a question about inches ends with.
+/// The end of a question about inches.
 [[nodiscard]] std::string_view or_say_inches(Written written);
 
 /// A finding about the whole file, or about all rows from one on.
@@ -22,7 +22,7 @@ struct WholeFinding {
   std::optional<std::size_t> from_row;
   /// What the mistake looks like, and what to do.
   std::string mistake;
-  /// The file's error as it is.
+  /// The error of the file as written.
   std::string found;
   /// A wrongly stated machine would look the same: ask, do not refuse.
   bool is_doubtful = false;
@@ -39,7 +39,7 @@ struct RowFinding {
   std::size_t row = 0;
   /// A whole sentence or two, with the value that was meant.
   std::string sentence;
-  /// No machine can be fitted to this row as it stands.
+  /// No machine can be fitted to this row as written.
   bool is_impossible = false;
 };
 

@@ -24,7 +24,7 @@ class PointAccounts {
 
   /// The tool's position by its lengths or its command; empty if no pose has them.
   [[nodiscard]] Place place_of(const MeasuredPoint& point) const;
-  /// True where the machine as stated can hold the sled.
+  /// True if the stated machine can hold the sled there.
   [[nodiscard]] bool can_hold(model::MarkPoint mark) const;
   [[nodiscard]] std::vector<Place> places_of(const std::vector<MeasuredPoint>& points) const;
 

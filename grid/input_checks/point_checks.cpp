@@ -191,7 +191,7 @@ struct PointRows {
     }
     return best;
   }
-  /// Another gross row such that the readings of the two fit each other's marks.
+  /// Another row with a gross error such that the readings of the two fit each other's marks.
   [[nodiscard]] std::optional<std::size_t> exchanged_with(
       std::size_t row, const std::vector<std::size_t>& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {

@@ -15,9 +15,9 @@ namespace chaintrue::grid::input_checks {
 
 struct RobustTrend {
   Eigen::MatrixXd coefficients;   ///< (basis, component)
-  Eigen::VectorXd residual_mm;         ///< |r_i - B_i beta|; of a row that is missing infinity
+  Eigen::VectorXd residual_mm;         ///< |r_i - B_i beta|; infinity for a missing row
   double scale_mm = 0.0;          ///< s
-  double log_likelihood = 0.0;    ///< of (1) at its maximum, the prior's factor relative to beta = 0
+  double log_likelihood = 0.0;    ///< at the maximum of (1), with the prior's factor relative to beta = 0
   double prior_chi_square = 0.0;  ///< sum_j (beta_j / sigma_j)^2
   /// For the rows that are not missing; infinity where all are.
   [[nodiscard]] double median_residual_mm() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Errors in one row of points: the row with each of them corrected, and the question that it
-/// raises.
+/// Errors in one row of points: the row with each error corrected, and the question to the
+/// user.
 #pragma once
 
 #include <string>

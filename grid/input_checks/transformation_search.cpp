@@ -112,7 +112,7 @@ class Search {
     candidates.push_back(std::move(candidate));
   }
 
-  /// Tail, head and single rows, if together they gain enough for a finding.
+  /// Tail, head and single rows, if their total gain suffices for a finding.
   [[nodiscard]] std::vector<Part> parts_of(const Transformation& own,
                                            const std::vector<double>& gain) const {
     std::vector<Part> parts;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Searches for how a file's numbers were meant: transformations (a sign, a unit, an origin, a
-/// turn, a scale, an exchange) of all rows, of those from one on, of those up to one, or of some.
-/// Used for marks, distances and drawings.
+/// Searches for the intended meaning of a file's numbers: transformations (a sign, a unit, an
+/// origin, a turn, a scale, an exchange) of all rows, of those from one on, of those up to one, or
+/// of some. Used for marks, distances and drawings.
 ///
 ///   r_i = B_i beta + e_i                                            (1) of robust_trend.hpp
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Errors in a file of points: an axis turned round, columns exchanged, a sheet turned, units, minus signs
-/// left out, a tape read from another mark, another origin, lines that slipped.
+/// Errors in a file of points: a reversed axis, exchanged columns, a rotated sheet, wrong
+/// units, missing minus signs, a tape read from another mark, another origin, slipped lines.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace chaintrue::grid::input_checks {
 
-/// Points with where the machine as stated puts their readings.
+/// Points with the places where the stated machine puts their readings.
 struct PlacedPoints {
   std::vector<MeasuredPoint> points;
   std::vector<Place> places;

@@ -43,8 +43,8 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
   const auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) return std::nullopt;
-  // Distances between holes do not depend on the sheet's placement; in those to its edges a shift
-  // of the whole must not be taken for an effect.
+  // Distances between holes do not depend on the sheet's placement; in those to its edges, a shift
+  // of the whole must not be mistaken for an effect.
   const observation::Columns columns{.parameters = true, .sheet = true};
   const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
   if (!line) return std::nullopt;

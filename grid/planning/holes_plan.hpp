@@ -34,9 +34,10 @@ inline constexpr int kMostPlannedHoles = 24;
 
 struct HolesPlanRequest {
   int holes = 9;
-  /// 0: twice the holes and two more, with edges six more, or all there are.
+  /// 0: twice the number of holes plus two (plus eight with edges), or all of them if there are
+  /// fewer.
   int distances = 0;
-  /// Also to the sheet's edges: the sheet's placement matters.
+  /// Also measure to the sheet's edges, if the sheet's placement matters.
   bool edges = false;
   double tape_sigma_mm = 0.5;
   double hole_sigma_mm = 0.3;

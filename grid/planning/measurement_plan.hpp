@@ -55,7 +55,7 @@ struct MeasurementPlan {
 enum class PlanReason {
   no_machine,
   unreachable,     ///< a mark where the machine cannot hold the sled, or off the map
-  too_few_places,  ///< that could be measured or cut
+  too_few_places,  ///< too few places that could be measured or cut
   no_map,          ///< no map can be fitted to the planned measurements
 };
 using PlanFailure = Failure<PlanReason>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Slips in what was measured on a test drawing, by what the machine as set, or as found, would have
-/// drawn. Private to grid/plotter.
+/// Slips in the measurements of a test drawing, detected by comparison with the drawing
+/// predicted for the machine as set or as found. Private to grid/plotter.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@ namespace chaintrue::grid {
 using DrawnValues = std::function<std::optional<Eigen::VectorXd>(const model::Mechanism&)>;
 
 /// Slips of the measures as a whole, compared with what the stated `machine` would have drawn:
-/// another unit, bows turned round, a scaled page, of all measures or of some; and a bow that was
-/// measured along its line.
+/// another unit, bows of the opposite sign or a scaled page, for all measures or some; and a bow
+/// that was measured along its line.
 [[nodiscard]] std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
                                                             const DrawnValues& drawn,
                                                             const model::Mechanism& machine);

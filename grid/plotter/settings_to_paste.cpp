@@ -24,7 +24,7 @@ std::string steps_text(const SetPlotter& set, const PlotterMachine& found, Side 
   return fmt::format("<the present value times {:.6f}>", factor);
 }
 
-/// Where the pen is when the machine is switched on, in the controller's coordinates.
+/// The position of the pen when the machine is switched on, in the controller's coordinates.
 void add_home(const SetPlotter& next, std::vector<std::string>& lines) {
   if (!next.home) return;
   lines.push_back(fmt::format("G92 X{} Y{}",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a person types into a V-plotter's controller after a test drawing, in the controller's own words.
+/// The settings to type into a V-plotter's controller after a test drawing, under the
+/// controller's own names.
 ///
 ///   fluidnc      config.yaml: kinematics/WallPlotter, steps_per_mm of both axes
 ///   marlin       M92, M665 L R T (Makelangelo: the same firmware), M500

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A test drawing of a V-plotter: nine crosses on a rectangle with its middle lines and diagonals, and
-/// what a person measures on it with a ruler and a string.
+/// A test drawing of a V-plotter: nine crosses on a rectangle with its middle lines and
+/// diagonals, and the measurements to take on it with a ruler and a string.
 ///
 ///     A --- E --- B
 ///     |     |     |
@@ -42,7 +42,7 @@ struct PenCommands {
   std::string down = "G0 Z0";
 };
 
-/// A V-plotter as its controller holds it.
+/// A V-plotter with its controller's settings.
 struct SetPlotter {
   model::PlotterMachine machine;
   model::PlotterFirmware firmware = model::PlotterFirmware::fluidnc;

@@ -21,7 +21,7 @@ struct FittedBelts {
   grid::PointIndices indices{};  ///< of the points in their file
 };
 
-/// How well the belts agree, the frame, the anchors, what was left out and predicted, the scale and
+/// The agreement of the belts, the frame, the anchors, errors at left-out readings, the scale and
 /// the tape. `name` is the belts', `source` the file's.
 [[nodiscard]] Document anchors_document(const FittedBelts& fitted,
                                         std::string_view name,

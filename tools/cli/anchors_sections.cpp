@@ -45,7 +45,7 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
       diagnosis::percent(cause.probability));
 }
 
-/// Causes more likely than not, except those that yield with the pull in every frame.
+/// Causes that are more likely than not, except yielding under the pull, which every frame shows.
 void list_open_causes(const BeltsFit& fit, Section& section) {
   constexpr double kLikely = 0.5;
   std::vector<std::string> causes;
@@ -109,7 +109,7 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
   const double turn_mm = fit.machine.belt_turn_mm;
   for (const grid::BadBeltReading& bad : fit.bad) {
     const double turns = bad.residual_mm / turn_mm;
-    // To within a twentieth of a turn: a bad reading is that by chance one time in ten.
+    // To within a twentieth of a turn, which a bad reading reaches by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     say(section,
         fmt::format(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sections of a fit of four belts that are words and tables.
+/// The sections of a fit of four belts that consist of text and tables.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ namespace chaintrue::cli {
 [[nodiscard]] Section agreement_section(const FittedBelts& fitted,
                                         const std::optional<BeltsError>& error);
 [[nodiscard]] Section fitted_anchors_section(const BeltsFit& fit);
-/// What was left out and predicted, what was rejected, the scale, the holes.
+/// Errors at left-out readings, rejected readings, the scale and the holes.
 [[nodiscard]] Section tests_section(const FittedBelts& fitted);
 /// Each place with the residuals of its belts.
 [[nodiscard]] Section places_section(const FittedBelts& fitted);

@@ -30,7 +30,7 @@ class Option;
 
 namespace chaintrue::cli {
 
-/// What a verb does; throws InputError for bad input.
+/// The work of a verb; throws InputError for bad input.
 using Run = std::function<int()>;
 
 class Option {
@@ -51,9 +51,9 @@ class Option {
   Option value_word(const std::string& word) const;
   /// `fault` returns what is wrong with a value; empty if nothing.
   Option refuses(std::function<std::string(const std::string&)> fault) const;
-  /// It does something where one of these holds; `otherwise` is what is expected where none does:
-  /// "to be left out of holes: ...". A value that says what happens in any case is `harmless`, and
-  /// not refused. Several rules of one option hold together; the first that refuses it speaks.
+  /// The option has an effect if one of these holds; `otherwise` states what is expected if none
+  /// does: "to be left out of holes: ...". A value that states the default behaviour is `harmless`
+  /// and is not refused. If an option has several rules, the first that refuses it is reported.
   Option acts_on(Facts facts, std::string otherwise, std::string harmless = "") const;
 
  private:
@@ -73,8 +73,8 @@ struct OptionRule {
 /// Those of an earlier command line in this process.
 void forget_option_rules();
 
-/// An option of the command line, by its longest name, with the words that were given for it: none
-/// for a flag.
+/// An option of the command line, by its longest name, with the words given for it: none for a
+/// flag.
 struct GivenOption {
   std::string name;
   std::vector<std::string> words;
@@ -106,7 +106,7 @@ class Verb {
   /// A flag, queried by is_given().
   void add_flag(const std::string& name, const std::string& help) const;
   void footer(const std::string& text) const;
-  /// What is done where the verb is chosen: `act(verb, *command)` or `act(*command)`, whose answer is
+  /// The work done if the verb is chosen: `act(verb, *command)` or `act(*command)`, whose answer is
   /// the exit code. `check(*command)` is asked first, for usage_error().
   template <class Command, class Act>
   void runs(const std::shared_ptr<Command>& command,
@@ -128,8 +128,8 @@ class Verb {
   [[nodiscard]] std::string value_of(const std::string& name) const;
   /// In the verb's order; without positional arguments.
   [[nodiscard]] std::vector<GivenOption> given_options() const;
-  /// \throws InputError with a sentence for each option that was given and would do nothing
-  /// with this.
+  /// \throws InputError with a sentence for each given option that would have no effect on this
+  /// input.
   void refuse_idle_options(Facts facts) const;
   /// As it is typed: "gcode check".
   [[nodiscard]] std::string path() const;
@@ -149,7 +149,7 @@ class Verb {
 /// Of the verb that was chosen.
 [[nodiscard]] Run& chosen_run();
 
-/// For the check of runs(): ends the command with what is wrong with its usage, exit code 2.
+/// For the check of runs(): ends the command with a usage error, exit code 2.
 [[noreturn]] void usage_error(const std::string& verb, const std::string& sentence);
 [[noreturn]] void missing_option(const std::string& names);
 

@@ -26,7 +26,7 @@ struct Places {
   std::vector<Arrow> arrows;
 };
 
-/// Of several sessions the one with a known order of visits; for holes alone their commanded
+/// Among several sessions, the one with a known order of visits; for holes alone, their commanded
 /// places.
 Places places_of(const Diagnosis& found) {
   Places places;
@@ -47,7 +47,7 @@ Places places_of(const Diagnosis& found) {
   return places;
 }
 
-/// The machine as found, but for this cause.
+/// The machine as found, without this cause.
 Machine machine_without(const Diagnosis& found, const AppliedEffect& cause) {
   Machine machine = found.extended_machine;
   std::erase_if(machine.effects, [&](const AppliedEffect& effect) {

@@ -108,7 +108,7 @@ Diagnosis named(tl::expected<Diagnosis, diagnosis::DiagnosisFailure> result,
   return found;
 }
 
-/// How well what was found predicts the grid of --held-out.
+/// The accuracy with which the result predicts the grid of --held-out.
 diagnosis::Transfer held_out(const DiagnoseCommand& command,
                              const MeasuredGrid& measured,
                              const Diagnosis& found) {
@@ -121,7 +121,7 @@ diagnosis::Transfer held_out(const DiagnoseCommand& command,
   return transferred;
 }
 
-/// The number that a fit of the same belts begins with.
+/// The number in the first line of a fit of the same belts.
 std::optional<grid::ErrorSummary> tool_today(const MeasuredBelts& belts) {
   const auto fit = diagnosis::fit_with_causes(belts);
   const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;

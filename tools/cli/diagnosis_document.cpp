@@ -60,7 +60,7 @@ const VerdictLights& lights_of(Verdict verdict) {
   });
 }
 
-/// Besides the causes.
+/// In addition to the causes.
 bool is_something_left(const Diagnosis& found) {
   if (found.belts) return found.unexplained && found.unexplained->probability > 0.5;
   return is_surprising(found.left_over);

@@ -18,10 +18,10 @@ namespace chaintrue::cli {
                                               MeasuredGrid measured,
                                               bool order_assumed);
 
-/// The machine with its settings calibrated and what was named in it.
+/// The calibrated machine with the named causes.
 [[nodiscard]] std::string extended_machine_text(const Diagnosis& found, const std::string& source);
 
-/// The likeliest law as a file of a declared effect, or the sentence why there is none.
+/// The likeliest law as a file of a declared effect, or a sentence that explains why there is none.
 [[nodiscard]] tl::expected<std::string, std::string> law_text(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sections of a diagnosis that are words and tables, of chains and of belts.
+/// The sections of a diagnosis that consist of text and tables, for chains and belts.
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
@@ -23,7 +23,7 @@ namespace chaintrue::cli {
 [[nodiscard]] Section probabilities_section(const Diagnosis& found);
 [[nodiscard]] Section settings_section(const Diagnosis& found);
 [[nodiscard]] Section outliers_section(const Diagnosis& found);
-/// What was looked for and is absent.
+/// Causes that were looked for and are absent.
 [[nodiscard]] Section bounds_section(const Diagnosis& found);
 [[nodiscard]] Section not_testable_section(const Diagnosis& found);
 /// Assumptions, noise and corrections of the data.

@@ -21,7 +21,7 @@ namespace chaintrue::cli {
 /// Named causes that are neither in the diagnosis' machine nor in the corrected data: rivals of
 /// those that are, and causes that may be the tape's.
 [[nodiscard]] std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found);
-/// Also accepts nothing, unknown, noise and bad_points.
+/// Also accepts the hypotheses nothing, unknown, noise and bad_points.
 [[nodiscard]] std::string hypothesis_title(const diagnosis::Hypothesis& hypothesis);
 
 /// "point 17", counted from 1.
@@ -36,12 +36,12 @@ namespace chaintrue::cli {
 [[nodiscard]] bool is_surprising(const diagnosis::LeftOver& left_over);
 /// A sentence on the residual with the named causes.
 [[nodiscard]] std::string left_over_sentence(const diagnosis::LeftOver& left_over);
-/// The files of a diagnosis as a command names them: GRID, HOLES, both, or BELTS.
+/// The files of a diagnosis, as named in a command: GRID, HOLES, both, or BELTS.
 [[nodiscard]] std::string_view files_in_words(const Diagnosis& found);
 
 /// The data: "34 points", "20 distances", "34 points and 20 distances", "99 places".
 [[nodiscard]] std::string readings_counted(const Diagnosis& found);
-/// A bad one is a distance, and no point.
+/// Some outlier is a distance rather than a point.
 [[nodiscard]] bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad);
 /// " A single right name then has probability 95 %." of the next measurement with that position;
 /// empty if it determines the scale of belts, which does not discriminate between causes.

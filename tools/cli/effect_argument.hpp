@@ -21,7 +21,7 @@ class OptionProblems {
   void add(std::string_view option, std::string value, std::string expected, ProblemKind kind);
   /// `value` is finite and within [least, most].
   void require(std::string_view option, double value, double least, double most);
-  /// Adds the problems of a InputError thrown by `check`.
+  /// Adds the problems of an InputError thrown by `check`.
   void take_from(const std::function<void()>& check);
   void throw_if_any() const;
 

@@ -68,7 +68,7 @@ std::string sides_of(const Effect& effect) {
   return list;
 }
 
-/// Of a machine what may act on it.
+/// The effects that may act on a machine.
 std::vector<const Effect*> listed(const EffectsOptions& options) {
   const Machine machine = machine_of(options);
   return options.machine.empty() ? model::effects::listed_effects(machine)
@@ -349,7 +349,7 @@ int run_effects(const EffectsOptions& options) {
   }
   if (!options.machine.empty()) return show_picture(*effect, options, machine);
   describe(*effect);
-  // It is shown on a machine, so it needs one.
+  // The effect is shown on a machine, so one is required.
   say_next({"start"});
   return kDone;
 }

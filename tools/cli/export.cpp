@@ -39,7 +39,7 @@ namespace {
 struct ExportCommand {
   std::string input;
   std::string output = "-";
-  /// The map that is right once the numbers are typed in.
+  /// The map that is valid once the numbers are typed in.
   std::string map_after;
 };
 
@@ -95,7 +95,7 @@ std::string words_of(const grid::Lacking& lacking, const Machine& machine) {
                      effect != nullptr ? fmt::format("; {}", effect->remedy) : "");
 }
 
-/// Before and after, from one evaluation; what remains and why.
+/// Errors before and after, from one evaluation, and the causes of the rest.
 std::string words_of(const std::string& today,
                      const Machine& machine,
                      const grid::SettingsToType& typed,
@@ -233,8 +233,8 @@ Exported of_machine(const Machine& stated,
           std::move(next)};
 }
 
-/// True, with a message, where numbers would depend on an effect that a diagnosis put in and that may not
-/// act.
+/// True, with a message, if numbers would depend on an effect that a diagnosis added and that may
+/// not act.
 bool refuses_weak_causes(const std::vector<AppliedEffect>& effects, const std::string& name) {
   std::vector<std::string> weak;
   for (const AppliedEffect& one : effects) {
@@ -274,7 +274,7 @@ std::string left_out_in_words(const Diagnosis& found) {
   return words;
 }
 
-/// Where the marks or the holes are, or the whole bed.
+/// The area of the marks or holes, or the whole bed.
 std::vector<BedPoint> area_of(const Diagnosis& found) {
   std::vector<BedPoint> area;
   for (const auto& point : found.points) area.push_back({point.mark.x_mm, point.mark.y_mm});

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What a map becomes for other controllers: a kinematics module, or the settings that come closest.
+// SPDX-License-Identifier: GPL-3.0-or-later A map for other controllers: as a kinematics module, or
+// as the closest settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct NamedMap {
   std::string name;
 };
 
-/// What is written, and what to do with it; or why there is none.
+/// The content and the instructions, or the reason why there is none.
 struct Written {
   std::string text;
   std::string remark;
@@ -66,7 +66,7 @@ WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
           module->piece_mm)};
 }
 
-/// The component is called as its file is: halcompile takes the name from there.
+/// The component has the name of its file, from which halcompile takes it.
 std::string module_name(const std::string& output) {
   return output == "-" ? "chaintrue_kins" : std::filesystem::path(output).stem().string();
 }

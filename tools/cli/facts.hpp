@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The kinds of input that an option applies to. An option that would do nothing with what its verb was
-/// given is refused before any work; tests/inputs tries each with every kind of input.
+/// The kinds of input that an option applies to. An option without effect on its verb's input
+/// is refused before any work; tests/inputs tries each with every kind of input.
 ///
 /// \code
 ///   verb.add_flag("--below", ...).acts_on(facts::map | facts::machine, "to be left out: ...");
@@ -36,7 +36,7 @@ inline constexpr Facts residual = 1U << 9;
 inline constexpr Facts direct = 1U << 10;
 /// --outside fade.
 inline constexpr Facts fade = 1U << 11;
-// plan and simulate: what is planned or made.
+// plan and simulate: the kind of plan or data.
 inline constexpr Facts lattice = 1U << 12;    ///< marks in columns and rows
 inline constexpr Facts scattered = 1U << 13;  ///< marks anywhere
 inline constexpr Facts marks = 1U << 14;      ///< marks of a list
@@ -68,7 +68,7 @@ inline constexpr Facts session = lattice | scattered | marks;
 inline constexpr Facts drawn = session | tape | belts;
 /// What a program is compensated with.
 inline constexpr Facts target = map | anchors | plotter;
-/// Of an option that other verbs have of the same file.
+/// For an option that other verbs also have.
 inline constexpr Facts nothing = 0;
 inline constexpr Facts any = ~0U;
 

@@ -12,7 +12,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// `last` is the enumerator that the last name is of: a name for each is then certain.
+/// `last` is the enumerator of the last name, which ensures that every enumerator has a name.
 template <auto kLast, class Names>
 std::string_view name_in(const Names& names, decltype(kLast) reason) {
   static_assert(std::tuple_size_v<Names> == static_cast<std::size_t>(kLast) + 1);

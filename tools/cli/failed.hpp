@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a verb throws that cannot do its task with sound input: the sentence for a person, and the
-/// reason by a name that stays when sentences change.
+/// Thrown by a verb that cannot do its task with valid input: a sentence for the user, and
+/// the reason by a name that stays the same if sentences change.
 ///
 /// \code
 ///   if (!check) throw Failed(file.name, check.error());

@@ -104,7 +104,7 @@ void refuse_too_many(const grid::Measured& measured) {
   refuse(holes, "holes", kMostHoles);
 }
 
-/// \throws Failed for a map that its reader does not take
+/// \throws Failed for a map that its reader rejects
 void check_as_read(const std::string& text, const std::string& measured) {
   try {
     (void)files::parse_map(text, "the map");
@@ -116,7 +116,7 @@ void check_as_read(const std::string& text, const std::string& measured) {
   }
 }
 
-/// The map goes to its file, the words to standard error.
+/// The map is written to its file, the text to standard error.
 int finish(Verb verb,
            const FitCommand& command,
            const CompensationMap& map,

@@ -24,7 +24,7 @@ struct BeltsFitCommand {
 };
 /// True for files of such a machine.
 [[nodiscard]] bool is_of_four_belts(const InputFile& file);
-/// Anchors go to their file, the words to standard error. An exit code.
+/// Writes the anchors to their file and the text to standard error; returns the exit code.
 [[nodiscard]] int fit_the_belts(const BeltsFitCommand& command);
 
 }  // namespace chaintrue::cli

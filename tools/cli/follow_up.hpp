@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 /// Numbered sentences, each with its expected probability.
 [[nodiscard]] std::string follow_up_list(const Diagnosis& found);
 
-/// Whether any of it has this kind.
+/// Whether any of them has this kind.
 [[nodiscard]] bool proposes(const Diagnosis& found, diagnosis::MeasurementKind kind);
 
 /// The points to add to the grid's file, with empty lengths or commands, and with visit numbers if

@@ -52,7 +52,7 @@ class GcodeText {
 /// part.nc becomes part.true.nc.
 [[nodiscard]] std::string compensated_name(const std::string& program);
 
-/// A program that is refused, once all that is wrong in it was printed.
+/// Thrown for a refused program, after all of its problems were printed.
 struct GcodeRefused : Failed {
   explicit GcodeRefused(std::vector<gcode::Problem> found);
   std::vector<gcode::Problem> problems;
@@ -61,7 +61,7 @@ struct GcodeRefused : Failed {
 /// A JSON text.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// Prints a problem to stderr as `file: line 3: ...`; gives the exit code that its kind has.
+/// Prints a problem to stderr as `file: line 3: ...`; returns the exit code of its kind.
 int report(const std::string& file, const gcode::Problem& problem);
 /// Prints all findings and how many there are beyond those kept; the exit code of the first, or
 /// kDone.

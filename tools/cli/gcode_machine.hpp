@@ -51,7 +51,7 @@ struct GcodeOptions {
   bool json = false;
 
   [[nodiscard]] gcode::Dialect dialect() const;
-  /// For --home. \throws InputError where it is no pair of numbers.
+  /// For --home. \throws InputError if it is not a pair of numbers.
   [[nodiscard]] BedPoint home_mm() const;
 };
 
@@ -62,18 +62,19 @@ struct GcodeOptions {
 
 /// What a program aims at: a map, the fit of four belts, or the plotter that a drawing found.
 struct GcodeTarget {
-  std::unique_ptr<const CompensationMap> map = {};  ///< null of four belts and of a V-plotter
+  std::unique_ptr<const CompensationMap> map = {};  ///< null for four belts and for a V-plotter
   std::optional<grid::KnownPlotter> plotter = {};
-  /// Of four belts: the machine that was in force when they were measured.
+  /// For four belts: the machine in force when they were measured.
   std::optional<BeltMachine> belts_in_force = {};
   std::unique_ptr<const grid::LengthMap> lengths = {};
-  /// Those with an error but for the scale, of four belts whose scale nobody taped; else null.
+  /// For four belts whose scale was not taped: the map whose error excludes the scale; otherwise
+  /// null.
   std::unique_ptr<const grid::LengthMap> in_belts_mm = {};
 };
 /// Of --map. \throws InputError for a bad file.
 [[nodiscard]] GcodeTarget open_target(const GcodeOptions& options);
 
-/// What the machine's controller does with a program.
+/// How the machine's controller executes a program.
 struct GcodeController {
   std::unique_ptr<const model::ControllerKinematics> kinematics;
   const gcode::Firmware* firmware;
@@ -97,9 +98,9 @@ class GcodeMachine {
   /// settings.
   explicit GcodeMachine(const GcodeOptions& options);
   [[nodiscard]] const grid::LengthMap& target() const { return *target_.lengths; }
-  /// As GcodeTarget::in_belts_mm.
+  /// See GcodeTarget::in_belts_mm.
   [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm.get(); }
-  /// Null of four belts and of a V-plotter.
+  /// Null for four belts and for a V-plotter.
   [[nodiscard]] const CompensationMap* map() const { return target_.map.get(); }
   [[nodiscard]] const grid::KnownPlotter* plotter() const {
     return target_.plotter ? &*target_.plotter : nullptr;

@@ -26,8 +26,8 @@
 namespace chaintrue::cli {
 
 struct InputFile {
-  std::string path;  ///< as it was given
-  std::string name;  ///< what messages call it
+  std::string path;  ///< as given
+  std::string name;  ///< its name in messages
   std::string text;
   FileKind kind = FileKind::other;
 };

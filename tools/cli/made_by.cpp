@@ -16,7 +16,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// These change nothing of what is made: what is printed, what may be replaced.
+/// These do not change the result, only what is printed or may be replaced.
 constexpr std::array<std::string_view, 6> kWithoutTrace = {
     "--force", "--json", "--quiet", "--threads", "--verbose", "--wish-mm"};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The command's entrance: prepares the process and turns errors into messages and exit codes.
+/// The entry point: prepares the process and turns errors into messages and exit codes.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>

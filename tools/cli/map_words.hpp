@@ -21,7 +21,7 @@ namespace chaintrue::cli {
 inline constexpr const char* kToolTodayLabel =
     "error of the tool today, rms over the measured part";
 
-/// The words of a headline for what makes the difference.
+/// The words in a headline for the map or the anchors.
 struct Remedy {
   std::string_view with;    ///< "this map"
   std::string_view needed;  ///< "map": "Your machine needs no map"

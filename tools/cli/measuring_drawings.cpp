@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHowWide = 380.0, kHowHigh = 200.0;
 
-/// What is there in black, what is measured in blue.
+/// Objects in black, measurements in blue.
 class Drawing : public Svg {
  public:
   explicit Drawing(std::string_view title)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The libraries' types that the command uses without their namespace.
+/// Types of the libraries that the command uses without their namespace.
 #pragma once
 
 namespace chaintrue::grid {

@@ -34,7 +34,7 @@ struct Place {
   }
 };
 
-/// Of all verbs of the current command line.
+/// For all verbs of the current command line.
 std::vector<Place>& places() {
   static std::vector<Place> all;
   return all;
@@ -64,7 +64,7 @@ std::string place_of(const fs::path& path) {
 }
 
 std::string beginning_of(const fs::path& path) {
-  // The longest file that is recognised by more than its beginning.
+  // The longest file of which more than the beginning is read to recognise it.
   constexpr std::size_t kMost = std::size_t{64} << 20U;
   std::ifstream file(path, std::ios::binary);
   std::string text;

@@ -204,7 +204,7 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
                "A CSV cannot store readings: use a {} (JSON), which has a list for them.\n",
                sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
-  // Once these are measured and written into their files.
+  // The next step once these are measured and written into their files.
   std::vector<std::string> words = {"diagnose", sources.all.front().name};
   for (std::size_t k = 1; k < sources.all.size(); ++k) {
     words.insert(words.end(), {"--with", sources.all[k].name});

@@ -35,7 +35,7 @@ struct PlanAfterOptions {
 /// (SVG).
 struct FollowUpTexts {
   std::string list;
-  std::string csv;  ///< empty of belts, which have no CSV
+  std::string csv;  ///< empty for belts, which have no CSV
   std::string json;
   std::string drawing;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a plan's list, page, program and drawing go.
+/// The outputs of a plan: list, page, program and drawing.
 #pragma once
 
 #include <string>
@@ -37,7 +37,7 @@ void add_answer(const std::vector<MarkPoint>& places,
                 const PlanOutputs& outputs,
                 std::vector<files::OutputFile>& written);
 
-/// The next step: fill it in, and fit it.
+/// The next step: fill in the list and fit it.
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);
 
 }  // namespace chaintrue::cli

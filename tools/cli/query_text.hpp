@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 struct AskedMap {
   const grid::LengthMap& map;
   int digits = 6;  ///< of lengths
-  /// What the first two lengths are called in messages.
+  /// The names of the first two lengths in messages.
   const char* first = "left";
   const char* second = "right";
   /// Replaces the map's reason why a point has no answer; empty: the map's.

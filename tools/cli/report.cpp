@@ -84,7 +84,8 @@ int run_report(Verb verb, const ReportCommand& command) {
                                                      : of_anchors(file, source);
   if (!command.certificate)
     add_made_by(files::made_by_of(file.text, file.name), made.page.sections);
-  // The clock is not asked: the same map gives the same page. A certificate has a line to write on.
+  // No date is printed, so the same map gives the same page. A certificate has a line to write the
+  // date on.
   const std::string date =
       command.date.empty() && command.certificate ? "date: ______________" : command.date;
   if (!date.empty()) {

@@ -12,7 +12,7 @@ struct Window {
   double high = 0.0;
 };
 
-/// With a margin, and never of no width.
+/// With a margin, and with a positive width.
 Window window_of(const std::vector<double>& values, double share, double least) {
   if (values.empty()) return {0.0, least};
   const auto [low, high] = grid::minmax_element(values);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A plan of marks for the machine: a list with empty cells for the readings, which fit, diagnose
-/// and check read once it is filled in, and a program that drives to the marks. Same marks, same
-/// bytes.
+/// A plan of marks for the machine: a list with empty cells for the readings, which fit,
+/// diagnose and check read once it is filled in, and a program that moves to the marks. Same marks,
+/// same bytes.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ namespace chaintrue::cli {
 
 /// The reading at a mark.
 enum class SheetOf {
-  places,   ///< the controller is sent there; where the tool stood
-  lengths,  ///< the tool is brought there; both chains' lengths
+  places,   ///< the controller is sent there, and the tool's place is measured
+  lengths,  ///< the tool is brought there, and both chains' lengths are read
 };
 
 /// Default distance from the bed's edge to the outermost marks and holes. More than half of an 18
@@ -79,7 +79,8 @@ struct DrillPlace {
 /// Drills every mark; if lengths are read, stops above it until the owner continues.
 [[nodiscard]] std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
 
-/// A list in a file is JSON where the file is called so; on standard output, where it is asked for.
+/// A list in a file is JSON if the file's name ends in .json; on standard output, if --json is
+/// given.
 [[nodiscard]] bool is_json_wanted(bool json, const std::string& output);
 
 }  // namespace chaintrue::cli

@@ -108,7 +108,7 @@ std::string drawing_of(const Sheet& sheet, const Bed& bed) {
     walk += fmt::format("{:.1f},{:.1f} ", x(visit.mark), y(visit.mark));
   svg.add("<polyline fill=\"none\" stroke=\"#999\" stroke-dasharray=\"6 5\" points=\"{}\"/>\n",
           walk);
-  // As large as the nearest two marks leave room for.
+  // As large as the distance of the nearest two marks allows.
   double nearest = 80.0;
   for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

@@ -23,7 +23,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// A machine as in its file.
+/// A machine with the effects of its file.
 struct StatedBelts {
   BeltMachine machine;
   std::vector<AppliedEffect> causes;  ///< fitted together with the anchors

@@ -11,7 +11,7 @@
 
 namespace chaintrue::cli {
 
-/// Expected error of the tool over the bed, one sigma, by the way of measuring.
+/// Expected error of the tool over the bed, one sigma, for each way of measuring.
 struct StartWays {
   double marks_mm = 0.0;
   double holes_mm = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Pictures that are made without Vega: an SVG under way, and the bed's place in it.
+/// Pictures made without Vega: an SVG builder, and the placement of the bed in it.
 ///
 /// \code
 ///   const BedView view(2438.4, 1219.2, {30, 80}, 900);
@@ -43,7 +43,7 @@ class BedView {
 /// Texts are escaped; a `look` is attributes as they stand in an element.
 class Svg {
  public:
-  /// \param look of the whole: its font and what else all elements share
+  /// \param look of the whole: its font and other attributes that all elements share
   Svg(double wide, double high, std::string_view look, std::string_view title) {
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
         "width=\"{0:.0f}\" height=\"{1:.0f}\" font-family=\"sans-serif\" "

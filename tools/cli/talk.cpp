@@ -39,7 +39,7 @@ std::string quoted(const std::string& word) {
   return result + "'";
 }
 
-/// As a shell takes it.
+/// Quoted for a shell.
 std::string called_as = "chaintrue";
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The last line of every verb, and the style of messages: in colours on a terminal, without any in
-/// a pipe, or where NO_COLOR is set (no-color.org).
+/// The last line of every verb, and the style of messages: coloured on a terminal, plain in a
+/// pipe or if NO_COLOR is set (no-color.org).
 #pragma once
 
 #include <string>

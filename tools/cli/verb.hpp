@@ -17,7 +17,7 @@
 
 namespace chaintrue::cli {
 
-/// The command's exit codes, a promise to scripts.
+/// The command's exit codes, on which scripts may rely.
 enum ExitCode {
   kDone = 0,
   kCheckFailed = 1,
