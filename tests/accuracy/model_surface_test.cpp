@@ -137,7 +137,7 @@ TEST_P(ModelSurface, FitsAnUnmodelledMachine) {
   EXPECT_LE(largest, GetParam().exact_largest_mm);
 }
 
-TEST_P(ModelSurface, TakesTheSledWhereItStood) {
+TEST_P(ModelSurface, UsesTheTruePlacesOfTheSled) {
   grid::Random random(1000);
   auto places = marks(GetParam().layout);
   for (MarkPoint& place : places) {

@@ -106,7 +106,7 @@ TEST_F(BeltAndHoleCommands, TheFitDoesNotDependOnFileOrder) {
   EXPECT_THAT(alone.err, HasSubstr("24 distances"));
 }
 
-TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController) {
+TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsAccuratelyOnTheUnmodifiedController) {
   ASSERT_EQ(run("fit belts.json --with holes.json -o anchors.json").code, 0);
   const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;

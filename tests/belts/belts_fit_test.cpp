@@ -258,7 +258,7 @@ TEST(BeltsFit, AContradictoryTapeDoesNotWidenTheBeltsSigmas) {
   EXPECT_GT(fit->scale->residuals_mm[1] - fit->scale->residuals_mm[0], 10.0);
 }
 
-TEST(BeltsFit, NamesTheReadingNotThePlaceWhenPlacesAreFew) {
+TEST(BeltsFit, RejectsTheReadingNotThePlaceIfPlacesAreFew) {
   SimulatedBelts set = simulate({.seed = 33, .columns = 3, .rows = 3, .noise_mm = 0.2});
   set.belts.points[4].lengths_mm.tl += 80.0;
   const auto fit = fit_belts(set.belts);

@@ -94,7 +94,7 @@ TEST(RealBeltSets, SixPlacesAreFittedWithLargeSigmas) {
   EXPECT_GT(fit->coordinates[1].sigma_mm, 20.0);
 }
 
-TEST(RealBeltSets, ATensionTestGivesTheStretchOfEachPull) {
+TEST(RealBeltSets, ATensionTestShowsTheStretchOfEachPull) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "tension_test.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";

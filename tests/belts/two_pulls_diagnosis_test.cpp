@@ -34,7 +34,7 @@ TEST(TwoPulls, APassHasItsPullAndVisitsAreNumberedOn) {
   }
 }
 
-TEST(TwoPulls, NameWhatOnePullLeavesOpen) {
+TEST(TwoPulls, ResolveWhatOnePullLeavesOpen) {
   // Weak enough that other anchors, a belt's scale or the stretch do nearly the same.
   const std::vector<model::AppliedEffect> flex = {{"anchor_flex", "", {{"give_mm", 2.0}}}};
   const Diagnosis one = diagnosis::diagnose(measured(flex, {}, 0.5, 3)).value();

@@ -121,7 +121,7 @@ TEST_P(EffectContract, HasExactlyOneStation) {
   EXPECT_EQ(depends_on_visit(e), e.needs == DataNeed::order);
 }
 
-TEST_P(EffectContract, TellsWhetherItActsAtOneVisitOnly) {
+TEST_P(EffectContract, StatesWhetherItActsAtOneVisitOnly) {
   const std::vector<double> usual = seen_with({with(nominal_values(effect()))});
   const std::vector<double> without = seen_with({});
   ASSERT_EQ(usual.size(), without.size());

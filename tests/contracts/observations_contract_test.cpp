@@ -391,7 +391,7 @@ TEST_P(EveryObservation, ABadUnitIsFound) {
   }
 }
 
-TEST_P(EveryObservation, EveryEffectIsShownOrRefusedInWords) {
+TEST_P(EveryObservation, EveryEffectIsShownOrRefusedWithASentence) {
   const auto observation = simulated();
   for (const Kind* kind : kinds()) EXPECT_FALSE(kind->units.empty());
   model::effects::Effect nothing;

@@ -140,7 +140,7 @@ TEST(TapedDistances, AddARowToABlockOfPlaces) {
   EXPECT_LT((with.measured() - line->predicted).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(TapedDistances, AnEndWithTooFewLengthsTellsNothing) {
+TEST(TapedDistances, AnEndWithTooFewLengthsGivesNoInformation) {
   Taped set = taped();
   set.places[2].counting = {true, false, false, false};
   const BeltLengthReadings with(set.places, false, {.length_mm = 0.5}, 15.0, set.distances);

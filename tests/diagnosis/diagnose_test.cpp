@@ -177,7 +177,7 @@ TEST(Diagnose, ClassesComeFromTheSignatures) {
   }
 }
 
-TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
+TEST(Diagnose, ALinkReadingSeparatesPitchFromTape) {
   // 0.3 % on the paper; the measured links are nominal.
   MeasuredGrid grid = session_of({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
   const auto before = diagnose(grid, verdict_alone());
@@ -196,7 +196,7 @@ TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
   ASSERT_EQ(after->data_corrections.size(), 1u);
 }
 
-TEST(Diagnose, AnotherTapePartsTapeFromPitch) {
+TEST(Diagnose, AnotherTapeSeparatesTapeFromPitch) {
   MeasuredGrid grid = session_of({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
   grid.readings.push_back({ReadingOf::tape_error, "x", 3.1, 0.15});
   grid.readings.push_back({ReadingOf::tape_error, "y", 2.9, 0.15});

@@ -98,7 +98,7 @@ TEST(Discrepancy, LowRankEqualsTheDenseCovariance) {
   }
 }
 
-TEST(Remainder, ACauseIsNamedBesideAPattern) {
+TEST(Remainder, ACauseIsNamedTogetherWithAPattern) {
   const auto found = diagnose(with_dent(session_of({kLongLeft}, 11, 10, 6)), verdict_alone());
   ASSERT_TRUE(found);
   EXPECT_EQ(found->verdict, Verdict::named) << found->sentence;

@@ -144,7 +144,7 @@ struct Bad {
 
 class NoFormula : public testing::TestWithParam<Bad> {};
 
-TEST_P(NoFormula, WrongOneIsRefusedAtItsPlace) {
+TEST_P(NoFormula, AnInvalidFormulaIsRefusedAtItsPlace) {
   const Bad& bad = GetParam();
   const auto parsed = Formula::parse(bad.text, kNames, kMm);
   ASSERT_FALSE(parsed) << bad.text;

@@ -187,7 +187,7 @@ TEST(Hysteresis, FirstVisitIsPaidOutAndNoChangeKeepsTheSign) {
   EXPECT_THAT(added, ElementsAre(0.5, 0.5, -0.5, -0.5, 0.5));
 }
 
-TEST(Hysteresis, GoesByTheNumberOfTheVisitAndNotByTheListsOrder) {
+TEST(Hysteresis, FollowsTheVisitNumberNotTheListOrder) {
   const Machine machine =
       machine_with({{"direction_hysteresis", "both", {{"half_width_mm", 0.5}}}});
   const std::vector<Visit> forward = {{{-500.0, 0.0}, 3}, {{0.0, 0.0}, 7}, {{500.0, 0.0}, 20}};

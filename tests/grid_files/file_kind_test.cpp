@@ -45,7 +45,7 @@ TEST(FileKind, IsKnownForTruncatedJsonWithAType) {
   EXPECT_THROW((void)kind(R"({"points": [)"), InputError);
 }
 
-TEST(FileKind, IsExpectedInWords) {
+TEST(FileKind, HasANameForMessages) {
   EXPECT_EQ(expected_kinds({FileKind::grid, FileKind::holes, FileKind::belts}),
             R"("chaintrue_grid", "chaintrue_holes" or "chaintrue_belts")");
   EXPECT_EQ(found_kind("hole,x_mm,y_mm\n", "holes.csv"), "a CSV of holes");

@@ -155,7 +155,7 @@ TEST(HolesFit, LeftOutPredictionEqualsAFitWithoutTheReading) {
   }
 }
 
-TEST(HolesFit, NamesABadReadingAndSetsItAside) {
+TEST(HolesFit, NamesABadReadingAndRejectsIt) {
   auto made = synthetic::simulate_holes(nine_holes(), usual_holes(1));
   made->set.distances[1].distance_mm -= 10.0;
   const auto fit = joint_fit(made->set);

@@ -116,7 +116,7 @@ TEST(HolesPlan, BeatsALatticeOfTheSameSize) {
             tool_sigma_mm(classic(), fit->estimate.knowledge.covariance) / fit->estimate.noise_factor);
 }
 
-TEST(HolesPlan, MoreDistancesAndABetterTapeTellMore) {
+TEST(HolesPlan, MoreDistancesAndABetterTapeReduceTheError) {
   const double twelve = plan_holes(classic(), {.holes = 9, .distances = 12})->expected_rms_mm;
   const double twenty = plan_holes(classic(), {.holes = 9, .distances = 20})->expected_rms_mm;
   const double fine =

@@ -106,7 +106,7 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   }
 }
 
-TEST(CheckPlan, MorePointsAndFinerReadingsTellMore) {
+TEST(CheckPlan, MorePointsAndFinerReadingsDetectSmallerChanges) {
   const CompensationMap& map = mapped().map;
   const double five = together(plan_check(map, {})->expected_sigmas);
   EXPECT_GT(together(plan_check(map, {.points = 7})->expected_sigmas), five);

@@ -99,7 +99,7 @@ bool is_refused(const Ran& ran, const Refusal& refusal) {
          ran.err.find(refusal.rule->otherwise) != std::string::npos;
 }
 
-TEST(OptionRules, RefuseWhatWouldDoNothing) {
+TEST(OptionRules, RefuseOptionsWithoutEffect) {
   std::size_t tried = 0;
   for (const std::string& verb : verbs_in(help_of)) {
     const std::vector<Option> options = options_in(help_of(verb));

@@ -90,7 +90,7 @@ double reference_2d(const std::vector<double>& x,
   return reference_1d(y, column, ends.y, at_y);
 }
 
-TEST(TensorSpline, AnswersTheProposalsOwnExample) {
+TEST(TensorSpline, ReproducesTheExampleOfTheProposal) {
   const auto x = even(0, 2400, 7);
   const auto y = even(0, 1200, 5);
   const TensorSpline surface(x, y, sample(x, y, truths::proposal));

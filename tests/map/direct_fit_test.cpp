@@ -85,7 +85,7 @@ TEST(DirectFit, AcceptsEveryBoundaryCondition) {
   }
 }
 
-TEST(DirectFit, RefusesPointsBesideTheGrid) {
+TEST(DirectFit, RefusesPointsOffTheGrid) {
   auto grid = seed_grid(5);
   grid.points[8].mark.x_mm += 3.0;
   const auto map = grid::fit(grid, direct());

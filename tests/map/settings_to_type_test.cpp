@@ -101,7 +101,7 @@ void expect_brought_back(const Machine& machine, const ControllerSettings& right
   }
 }
 
-TEST(SettingsToType, BringTheToolBack) {
+TEST(SettingsToType, RemoveTheErrorOfTheTool) {
   const Machine machine = imported_machine();
   ControllerSettings right = machine.controller.settings;
   *right.motor_spacing_mm += 5.0;
@@ -111,7 +111,7 @@ TEST(SettingsToType, BringTheToolBack) {
   expect_brought_back(machine, right);
 }
 
-TEST(SettingsToType, BringASledOnBracketsBack) {
+TEST(SettingsToType, RemoveTheErrorOfASledOnBrackets) {
   Machine machine = imported_machine();
   machine.attachment = model::Brackets{};
   machine.effects.clear();

@@ -283,7 +283,7 @@ TEST(Pose, SprocketWithoutRadiusIsThePoint) {
   }
 }
 
-TEST(Pose, InextensibleChainsKnowNeitherGravityNorTilt) {
+TEST(Pose, InextensibleChainsDependOnNeitherGravityNorTilt) {
   Machine machine;
   const auto upright = make_kinematics(equilibrium_parameters(machine), Model::inextensible);
   machine.frame.tilt_from_vertical_deg = 40.0;

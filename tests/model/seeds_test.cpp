@@ -130,7 +130,7 @@ TEST(Seeds, FirmwaresChainOfFormulasStepByStep) {
 // k = 1e12 (lambda/m)^2 / 24 makes the parabola the catenary's first term. The error of the
 // formula, from the chains' own weight in the tension and the ring, is 0.31 mm where a chain hangs
 // deepest and under a micrometre high up.
-TEST(Seeds, SagFactorsClosedFormIsTheCatenarys) {
+TEST(Seeds, SagFactorHasTheCatenarysClosedForm) {
   const EquilibriumParameters m = equilibrium_parameters(Machine{});
   EXPECT_NEAR(m.sag_correction, 6.069, 0.0005);
   EXPECT_NEAR(m.sag_correction, 1e12 * std::pow(0.14e-3 / 11.6, 2) / 24.0, 1e-12);

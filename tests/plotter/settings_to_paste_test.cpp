@@ -82,7 +82,7 @@ TEST(SettingsToPaste, PolargraphHasOneScale) {
                           "machine.motors.mmPerRev=<the present value times 0.998004>"));
 }
 
-TEST(SettingsToPaste, MakeTheControllerCountCordsRight) {
+TEST(SettingsToPaste, MakeTheControllerCountCordsCorrectly) {
   const model::PlotterMachine stated;
   model::PlotterMachine truth = stated;
   truth.pin_spacing_mm = 1204.0;
@@ -111,7 +111,7 @@ TEST(SettingsToPaste, MakeTheControllerCountCordsRight) {
 
 /// With its settings typed in, the fitted machine draws correctly, except for what the controller
 /// cannot store.
-TEST(SettingsToPaste, MakeTheMachineDrawTrue) {
+TEST(SettingsToPaste, MakeTheMachineDrawAccurately) {
   model::PlotterMachine truth;
   truth.pin_spacing_mm = 1207.0;
   truth.pin_rise_mm = 5.0;

@@ -104,7 +104,7 @@ struct Drawing {
   HiddenCause cause;
 };
 
-TEST(PlotterSmoke, DiagnosisNamesTheHiddenCauseAndNothingOnASoundOne) {
+TEST(PlotterSmoke, DiagnosisNamesTheHiddenCauseAndNothingOnASoundPlotter) {
   for (const Drawing& drawing : {Drawing{PlotterKind::mural, {"pen_off_centre", ""}},
                                  Drawing{PlotterKind::body, {"gondola_width", ""}},
                                  Drawing{PlotterKind::light_pen, {"cord_weight", "both"}},
@@ -127,7 +127,7 @@ TEST(LawSmoke, ClaimsALawWithItsVariableAndNoField) {
 }
 
 // The list of `chaintrue start`, and a zero that moves during the session: a typical first evening.
-TEST(EveningSmoke, ZeroThatMovesIsTakenOutOfTheMap) {
+TEST(EveningSmoke, AMovedZeroIsRemovedFromTheMap) {
   constexpr std::uint64_t kSeed = 1;
   generator::Recipe recipe = recipe_of_start();
   recipe.exactly = {{generator::Cause::zero_shift, generator::Where::left, 10.0, 17.0}};

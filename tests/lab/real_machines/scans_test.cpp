@@ -85,7 +85,7 @@ TEST_F(RealScans, BothScansNameTheBannersScale) {
   }
 }
 
-TEST_F(RealScans, NamesStandWithoutAnyLine) {
+TEST_F(RealScans, NamesHoldWithoutAnyLine) {
   const MeasuredGrid whole = scan(kUpper);
   const Diagnosis all = diagnosed(whole);
   for (const bool columns : {true, false}) {
