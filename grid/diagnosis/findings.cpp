@@ -135,7 +135,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     const EffectParameter& size = cause.effect->parameters.front();
     const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();
     if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
-      not_testable.push_back({cause, "calibrating the settings would hide all that it shows"});
+      not_testable.push_back({cause, "calibrating the settings would hide its whole effect"});
       continue;
     }
     if (regressor(a, column).fixed) {

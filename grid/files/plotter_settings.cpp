@@ -385,7 +385,7 @@ void take_calibration(SettingReader& settings, PlotterMachine& machine, Problems
   if (extended.has_value() == measured.has_value()) return;
   problems.add(extended ? kMeasured : kExtended,
                "",
-               "both distances of the calibration: what was extended, and what a tape read of it",
+               "both distances of the calibration: the extended length, and that length by a tape",
                ProblemKind::missing);
 }
 

@@ -156,14 +156,13 @@ void add_axes(HoleTransformations& list) {
         return model::BedPoint{-p.x_mm, p.y_mm};
       });
   holes(
-      "the sign of the holes' y_mm looks turned round, or the edges top and bottom exchanged: y_mm "
+      "the sign of the holes' y_mm looks reversed, or the edges top and bottom exchanged: y_mm "
       "counts up the sheet",
       [](model::BedPoint p) {
         return model::BedPoint{p.x_mm, -p.y_mm};
       });
   holes(
-      "the signs of the holes' x_mm and y_mm look turned round, or the edges exchanged across: "
-      "they "
+      "the signs of the holes' x_mm and y_mm look reversed, or opposite edges exchanged: they "
       "count to the right and up the sheet",
       [](model::BedPoint p) {
         return model::BedPoint{-p.x_mm, -p.y_mm};
@@ -189,7 +188,7 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Hole
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
         list.of_holes(ProblemKind::doubtful_row,
-                      fmt::format("the {1} that hole {0} was cut at is {2}: {3}",
+                      fmt::format("the {1} at which hole {0} was cut is {2}: {3}",
                                   name,
                                   axis,
                                   digits_of(written),
@@ -346,7 +345,8 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
                     plain,
                     tried,
                     kOddDistances,
-                    fmt::format("half of the distances are over {} off what was commanded",
+                    fmt::format("half of the distances differ by more than {} from the commanded "
+                                "ones",
                                 length_in_words(median_mm)));
   if (findings.whole) return findings;
   findings.rows = rows.findings();
@@ -357,7 +357,7 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
         std::nullopt,
         "the distances are not those between these holes: are they of another sheet, or "
         "of other holes?",
-        fmt::format("half of them are over {} off what was commanded", length_in_words(median_mm)),
+        fmt::format("half of them differ by more than {} from the commanded ones", length_in_words(median_mm)),
         false};
   }
   return findings;

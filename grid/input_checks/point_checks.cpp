@@ -49,7 +49,7 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
       "marks and readings do not belong together, and no usual typing error explains it; are they "
       "of another sheet, another list or another machine?",
       std::isfinite(plain.median_mm)
-          ? fmt::format("half of the points are over {:.0f} mm off the machine", plain.median_mm)
+          ? fmt::format("half of the points are more than {:.0f} mm off by the machine", plain.median_mm)
           : std::string("no machine can have these readings"),
       false};
 }
@@ -253,7 +253,7 @@ struct PointRows {
     for (const std::size_t row : gross) {
       if (const auto other = exchanged_with(row, gross)) {
         found.push_back({row,
-                         fmt::format("Marks {} and {} look exchanged: each lies where the other "
+                         fmt::format("Marks {} and {} look exchanged: each is where the other "
                                      "one's reading puts it.",
                                      number_of(grid, row),
                                      number_of(grid, *other)),

@@ -87,7 +87,7 @@ void add_axes(List& list) {
     Eigen::Matrix2d meant;
   };
   constexpr const char* kQuarter =
-      "the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet";
+      "the axes look rotated by a quarter turn: x_mm counts to the right, y_mm up the sheet";
   const Axes axes[] = {
       {"the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
        Eigen::Matrix2d{{-1, 0}, {0, 1}}},

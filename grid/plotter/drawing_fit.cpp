@@ -59,9 +59,8 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
   if (found->converged) return found.value();
   return failed(
       DrawingReason::not_converged,
-      "the fit did not converge: no settings near those in the file give this drawing. "
-      "Look whether the machine's kind, its pins' spacing and the crosses are those of the "
-      "drawing");
+      "the fit did not converge: no settings near those in the file give this drawing. Check that "
+      "the machine's kind, its pins' spacing and the crosses are those of the drawing");
 }
 
 /// Smaller residuals do not show that the readings are more accurate than stated.
@@ -142,8 +141,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(
         DrawingReason::too_few,
         fmt::format(
-            "{} measures; {} at least, of the 24 on the sheet, say whether what is found is "
-            "right",
+            "{} measures; at least {} of the 24 on the sheet are needed to check the result",
             drawing.measures.size(),
             kFewestMeasures));
   }

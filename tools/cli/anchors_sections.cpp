@@ -151,7 +151,8 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
     say(section, "Scale: not known, because belts do not show it. " + what_tells_the_scale(fitted));
     say(section,
         fmt::format(
-            "Until then anchors and parts are as true as a turn of the encoder is {:g} mm of belt.",
+            "Until then anchors and parts are only as accurate as the assumption that a turn of "
+            "the encoder is {:g} mm of belt.",
             fit.machine.belt_turn_mm),
         Detail::verbose);
     return;

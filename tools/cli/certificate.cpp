@@ -85,8 +85,8 @@ Section remaining_section(const MapContents& contents) {
                                                    contents.notes.size() - kMostNotes)});
   }
   section.blocks.push_back(
-      Paragraph{"After the chains were taken off, or a month of work, measure three to five points "
-                "and ask chaintrue check."});
+      Paragraph{"After the chains were taken off, or after a month of work, measure three to five "
+                "points and run chaintrue check."});
   return section;
 }
 

@@ -158,7 +158,7 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
       "--law",
       command.law,
       {Origin::list},
-      "The most probable law of what no cause explains (90 % or more), as a file for --effects")
+      "The most probable law of the unexplained pattern (90 % or more), as a file for --effects")
       .acts_on(facts::chains, "to be left out: a cause of your own acts on chains");
   verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
@@ -183,25 +183,25 @@ void add_diagnose(Verb app) {
             "--held-out",
             command->held_out,
             "Another grid of the same machine, to test how well the result predicts it")
-      .acts_on(facts::one_grid, "to be left out: it is of one grid, which is held against another");
+      .acts_on(facts::one_grid, "to be left out: it compares one grid with another");
   verb.add_option(
           "--assume-order",
           command->assume_order,
           "Assumed order of visits where the points state none, in lines from the top left. Drift, "
           "skips and hysteresis need an order; the verdict says that it was assumed")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"})
-      .acts_on(facts::grid, "to be left out: it is of the points of a grid, which was not given");
+      .acts_on(facts::grid, "to be left out: it applies to the points of a grid, and none was given");
   add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "If the points cannot tell long links from a long tape, assume the links, without "
-                "a measurement of them")
+                "If the points cannot distinguish long links from a long tape, assume the links, "
+                "without measuring them")
       .acts_on(facts::chains, "to be left out: it is of a chain or a tape that is long");
   verb.add_flag("--no-gain",
                 command->without_gain,
                 "Do not compute how much naming the causes improves the map, which takes most of "
                 "the time")
-      .acts_on(facts::chains, "to be left out of belts and drawings: what is gained is of a map");
+      .acts_on(facts::chains, "to be left out of belts and drawings: the gain applies to a map");
   add_number(verb,
              "--seed",
              command->seed,

@@ -83,7 +83,7 @@ Chart law_chart(const Law& law, bool is_likeliest) {
                              diagnosis::percent(law.probability),
                              is_likeliest ? "The dots are the readings minus everything else that "
                                             "is known; the right curve goes through them."
-                                          : "The same readings, if it were this."),
+                                          : "The same readings, under this law."),
       .x_title = axis_title(law),
       .first_label = "readings and curve",
       .first_color = is_likeliest ? report::kAfterColor : report::kNeutralColor};
@@ -123,7 +123,7 @@ std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
                             : "Without it: the residual with the causes",
        "From where the tool should be to where it was. Grey: one sigma of the noise at that mark.",
        "With it, same scale",
-       "Neighbours that still point the same way are an error that it does not explain either."});
+       "Neighbours that still point the same way show an error that it does not explain either."});
 }
 
 }  // namespace chaintrue::cli

@@ -34,7 +34,7 @@ std::vector<Item> details_of(const Law& law, const Diagnosis& found) {
                      outside.without_mm)});
   }
   if (law.shape_probability < diagnosis::kLawClaimed) {
-    details.push_back({fmt::format("that it looks like this and not otherwise: {}",
+    details.push_back({fmt::format("probability of this shape: {}",
                                    diagnosis::percent(law.shape_probability))});
   }
   const std::vector<std::string> hints = found.belts
@@ -65,7 +65,7 @@ Section laws_section(const Diagnosis& found) {
       Paragraph{is_claimed && found.belts ? "No listed cause explains this."
                 : is_claimed ? "No listed cause explains this. --law writes it as a cause of your "
                                "own, to be named, edited and given back with --effects."
-                             : fmt::format("These {} do not show which of these it is, if any.",
+                             : fmt::format("These {} do not show which of these acts, if any.",
                                            name(found.observations))});
   return section;
 }

@@ -222,8 +222,8 @@ Exported of_machine(const Machine& stated,
   // If none can be found, the machine's own dimensions are the settings.
   if (!typed) return {files::write_groundcontrol(stated), "", std::move(next)};
   const std::string today = fmt::format(
-      "Were the machine as {} has it, the tool would be {:.2f} mm rms off with {}, {:.2f} mm at "
-      "worst;",
+      "If the machine were as {} describes it, the tool would be {:.2f} mm rms off with {}, {:.2f} "
+      "mm at worst;",
       file,
       typed->as_it_is.rms_mm,
       holds_numbers ? "today's settings" : "its own measures for settings",
