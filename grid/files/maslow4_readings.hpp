@@ -19,7 +19,7 @@ namespace chaintrue::grid::files {
 struct ScannedReading {
   std::optional<model::PerBelt<double>> lengths_mm;  ///< empty: not measured, or not readable
   std::size_t line = 0;
-  /// Why it is not readable; each with its place in the file.
+  /// The reasons why it is not readable, each with its place in the file.
   std::vector<InputProblem> problems;
   /// Made of single readings, since no list has it.
   bool from_single_readings = false;

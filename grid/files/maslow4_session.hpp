@@ -22,7 +22,8 @@ namespace chaintrue::grid::files {
 /// "1,1.6" relative, "1300mA,1900mA" or "150N,240N"; one unit. \throws InputError otherwise.
 [[nodiscard]] std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option);
 
-/// `pulls`: one of each run; empty: as the logs have them. Of one run the run itself, with its pull.
+/// `pulls`: one for each run; empty: as in the logs. A single run is returned itself, with its
+/// pull.
 /// \throws InputError if runs have different frames, or if the pull of each is unknown.
 /// \throws std::logic_error without runs.
 [[nodiscard]] Maslow4Import one_session(std::vector<Maslow4Import> runs,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a file of measurements of any kind goes through once its fields are read: the machine that it
-/// names, lines that were left blank, the numbers of the visits. Private to grid/files.
+/// The steps common to files of measurements of any kind, once their fields are read: the
+/// machine that it names, lines that were left blank, the numbers of the visits. Private to
+/// grid/files.
 #pragma once
 
 #include <functional>
@@ -41,7 +42,7 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& entries, Pl
   };
 }
 
-/// What a kind of entry is called, and what is written into one that is blank.
+/// The name of a kind of entry, and what the user writes into a blank one.
 struct EntryWords {
   std::string_view entries;  ///< "points"
   std::string_view to_write;
@@ -59,7 +60,7 @@ struct EntryWords {
                                    std::size_t count,
                                    std::string_view entries);
 
-/// The number of an entry's visit; that of an entry with a wrong value is not looked at.
+/// The number of an entry's visit; that of an entry with a wrong value is ignored.
 struct StatedOrder {
   std::optional<int> order;
   bool is_spoilt = false;

@@ -28,8 +28,8 @@ struct MeasuredOptions {
   std::optional<model::Machine> otherwise = std::nullopt;
   /// A few readings, which only check a map, need not be enough for a fit.
   bool few = false;
-  /// What was measured is in inches, in a CSV whose header says mm: marks, lengths and distances, but
-  /// not the commands. JSON is as its keys say.
+  /// The measured values of a CSV whose header says mm are in inches: marks, lengths and distances,
+  /// but not the commands. JSON has the units of its keys.
   bool inches = false;
   TapeOptions tape = {};
 };

@@ -21,7 +21,7 @@ constexpr std::string_view kPageHead = "<!DOCTYPE html>\n";
 /// A kind that may hold what somebody measured or typed.
 bool is_signed(Origin kind) { return kind == Origin::measured || kind == Origin::machine; }
 
-/// foreign where the text is none of a format.
+/// foreign if the text is not of a known format.
 Origin origin_by_type(const Json& document) {
   if (!document.is_object() || !document.contains("file_type")) return Origin::foreign;
   const Json& type = document.at("file_type");
@@ -70,8 +70,8 @@ bool is_as_signed(const Json& document) {
   });
 }
 
-/// Of a whole result by its head; foreign where that does not tell. Results are long, and their content
-/// does not matter here.
+/// The kind of a whole result by its head; foreign if that does not show it. Results are long, and
+/// their content does not matter here.
 Origin origin_by_head(std::string_view text) {
   constexpr std::string_view kHead = "{\n  \"file_type\": \"";
   if (!text.starts_with(kHead) || !text.ends_with("\n}\n")) return Origin::foreign;

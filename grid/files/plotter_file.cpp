@@ -28,7 +28,7 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
                       ProblemKind::wrong_count);
     return;
   }
-  // Rounded, a correlation matrix may miss zero by that.
+  // Rounding may move a correlation matrix's least eigenvalue below zero by this.
   constexpr double kRounding = 1e-6;
   const Eigen::VectorXd scale = found.covariance().diagonal().cwiseSqrt();
   Eigen::MatrixXd of_ones = found.covariance();
@@ -75,7 +75,7 @@ Record<FoundPlotter> found_plotter_record() {
       .check(check_correlations);
 }
 
-/// A machine of these settings must be one.
+/// A machine with these settings must be valid.
 void check_found(const Cursor& at, KnownPlotter& plotter) {
   if (!at.clean() || !plotter.found) return;
   const auto problems = model::problems_of(machine_found(plotter.set, *plotter.found));

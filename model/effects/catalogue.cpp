@@ -12,7 +12,8 @@ namespace chaintrue::model::effects {
 
 namespace {
 
-/// The catalogue with what is declared: in the place of the effect that it stands for, or at the end.
+/// The catalogue with the declared effects, each in the place of the effect that it replaces, or at
+/// the end.
 std::vector<const Effect*> table_of(const Machine& machine, bool with_replaced) {
   std::vector<const Effect*> all;
   const auto declared_for = [&](const Effect* stood) {

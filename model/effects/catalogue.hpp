@@ -21,10 +21,11 @@ namespace chaintrue::model::effects {
 /// Null where no effect of the catalogue has this name.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 
-/// The catalogue, then what is declared for a machine; what is declared in place of an effect of the
-/// catalogue stands where that stood.
+/// The catalogue, then the effects declared for a machine. A declared effect that replaces one of
+/// the catalogue takes its position.
 [[nodiscard]] std::vector<const Effect*> listed_effects(const Machine& machine);
-/// Those of them that may act on it: on a ring none of brackets, and the other way round.
+/// Those that may act on the machine: a ring has no effects of brackets, and brackets none of a
+/// ring.
 [[nodiscard]] std::vector<const Effect*> effects_of(const Machine& machine);
 /// The one with this name among these; null if there is none.
 [[nodiscard]] const Effect* find_effect(const Machine& machine, std::string_view id);

@@ -174,7 +174,7 @@ bool acts_along(const Declaration& own, EffectSide axis) {
          });
 }
 
-/// Which formulas are stated; true where these can be parsed.
+/// Checks which formulas are stated; true if these can be parsed.
 bool check_keys(const Declaration& own, Problems& problems) {
   const std::size_t before = problems.size();
   int stated = 0;
@@ -224,7 +224,7 @@ void check_formula(const Declaration& own,
   if (!formula) {
     const FormulaProblem& problem = formula.error();
     problems.push_back({place, problem.offset, problem.found, problem.expected});
-    // What it uses is unknown, so unused parameters are not reported.
+    // The names that it uses are unknown, so unused parameters are not reported.
     used.assign(used.size(), true);
     return;
   }

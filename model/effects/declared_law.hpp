@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A declared effect with its parsed formulas, and what these give. Private to model/effects.
+/// A declared effect with its parsed formulas, and their values. Private to model/effects.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct FormulaVariable {
   Number (*of)(const LengthState&) = nullptr;
   PlaceVariable place = PlaceVariable::none;
 };
-/// Of what acts on the paper x_mm and y_mm of the state are the mark's.
+/// For an effect of the paper, x_mm and y_mm of the state are those of the mark.
 [[nodiscard]] std::span<const FormulaVariable> variables_of(ActsOn acts_on);
 /// A formula of a declaration, in the order of kFormulas.
 enum class FormulaKey { adds_mm, adds_x_mm, adds_y_mm, elongation };
@@ -34,11 +34,13 @@ inline constexpr std::array kFormulas = {
     FormulaRow{FormulaKey::adds_y_mm, "adds_y_mm", &Declaration::adds_y_mm},
     FormulaRow{FormulaKey::elongation, "elongation", &Declaration::elongation}};
 
-/// All values of a formula of this declaration, the parameters first; of an elongation these alone.
+/// The names of all values of a formula of this declaration, the parameters first; an elongation
+/// uses parameters alone.
 [[nodiscard]] std::vector<FormulaName> names_of(const Declaration& declaration, FormulaKey key);
 [[nodiscard]] tl::expected<Formula, FormulaProblem> parsed(const Declaration& declaration,
                                                            const FormulaRow& row);
-/// What the formulas of such a declaration are evaluated for, in the order of names_of().
+/// The values for which the formulas of such a declaration are evaluated, in the order of
+/// names_of().
 [[nodiscard]] std::vector<Number> values_at(ActsOn acts_on,
                                             const LengthState& state,
                                             Values parameters);
@@ -60,7 +62,7 @@ class DeclaredLaw {
     return formulas_[static_cast<std::size_t>(key)];
   }
   [[nodiscard]] Number value(FormulaKey key, const LengthState& state, Values parameters) const;
-  /// A formula of this effect uses the value of this name.
+  /// Whether a formula of this effect uses the value with this name.
   [[nodiscard]] bool uses(std::string_view name) const;
 
  private:

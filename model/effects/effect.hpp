@@ -52,7 +52,7 @@ enum class EffectSide { none, left, right, both, x, y, tl, tr, bl, br, all };
 
 enum class RemedyKind { change_the_machine, correct_the_data, repair, compensate_on_its_own };
 
-/// What a grid must hold for the effect to be observable.
+/// The data that a grid must contain for the effect to be observable.
 enum class DataNeed { positions, order };
 
 enum class ParameterRole {
@@ -104,7 +104,7 @@ class EffectParameters {
   std::size_t count_ = 0;
 };
 
-/// What the length of a chain, a belt or a cord may depend on.
+/// The variables on which the length of a chain, a belt or a cord may depend.
 enum LengthVariable { kAngle, kFree, kLength, kTension, kHorizontal, kX, kY, kLengthVariables };
 /// A number with its derivatives by these.
 using Number = Dual<kLengthVariables>;
@@ -112,18 +112,18 @@ constexpr Number variable(double value, LengthVariable which) {
   return Number::variable(value, which);
 }
 
-/// A chain, a belt or a cord at a visit, with every machine effect on. What a mechanism does not have
-/// is 0.
+/// A chain, a belt or a cord at a visit, with every machine effect on. Values that a mechanism does
+/// not have are 0.
 struct LengthState {
   Number angle_rad = {};        ///< phi
   Number free_mm = {};          ///< S
   Number length_mm = {};        ///< L0
   Number tension = {};          ///< T
   Number horizontal_n = {};     ///< H
-  Number x_mm = {}, y_mm = {};  ///< of the tool, the rest of the state held
+  Number x_mm = {}, y_mm = {};  ///< of the tool, with the rest of the state fixed
   double turn_mm = 0.0;         ///< what one turn of the sprocket, pulley or spool pays out
-  double tooth_mm = 0.0;        ///< of a chain its nominal pitch
-  double side = 1.0;            ///< 1 of the left one, -1 of the right
+  double tooth_mm = 0.0;        ///< for a chain, its nominal pitch
+  double side = 1.0;            ///< 1 for the left one, -1 for the right
   double direction = 1.0;       ///< 1 where it was paid out to its length, -1 where it was taken in
   int order = 0;                ///< n
 };
@@ -174,8 +174,8 @@ struct Effect {
   std::span<const EffectSide> sides;
   EffectParameters parameters;
 
-  std::string_view cause;      ///< what is wrong with the machine or the data
-  std::string_view signature;  ///< what the user sees on the bed
+  std::string_view cause;      ///< the fault of the machine or the data
+  std::string_view signature;  ///< its visible sign on the bed
   std::string_view equation;
   std::string_view source;
   std::string_view not_modelled;
@@ -186,7 +186,7 @@ struct Effect {
 
   /// The written position of a mark whose true position is given.
   EffectFunction<MarkPoint(MarkPoint, EffectSide, Values)> write = {};
-  /// Of two chains, of the anchor of a belt at visit `order`, and of a plotter by the directions in
+  /// For two chains; for the anchor of a belt at visit `order`; for a plotter by the directions in
   /// which its cords moved.
   void (*alter)(EquilibriumParameters&, Values) = nullptr;
   void (*alter_anchor)(Anchor&, int order, Values) = nullptr;
@@ -199,16 +199,16 @@ struct Effect {
   bool by_direction = false;
   /// `add` is in proportion to the tension.
   bool by_tension = false;
-  /// It acts only at the visit that its place parameter names.
+  /// It acts only at the visit given by its place parameter.
   bool at_one_visit = false;
-  /// What a machine needs for the effect to act on.
+  /// The part that a machine needs for the effect to act on it.
   Part part = Part::none;
-  /// Of four belts: how often it acts, against the others.
+  /// For four belts: how often it acts, relative to the others.
   double share = 1.0;
-  /// Of four belts: what machines in order do as often as not, as its part of all that is expected; 0 of
-  /// every other effect.
+  /// For four belts: the share of this effect among those that sound machines show as often as not;
+  /// 0 for every other effect.
   double expected = 0.0;
-  /// Of a declared effect; null for those of the catalogue.
+  /// For a declared effect; null for those of the catalogue.
   const DeclaredLaw* law = nullptr;
 };
 
@@ -218,14 +218,15 @@ struct Effect {
 [[nodiscard]] std::string_view name(DataNeed need);
 [[nodiscard]] std::string_view name(Part part);  ///< in words: "a sled on a ring ..."
 
-/// Of two chains: it depends on the visit and not on the point alone: drift, skips, hysteresis.
+/// For two chains: whether it depends on the visit as well as on the point (drift, skips,
+/// hysteresis).
 [[nodiscard]] inline bool depends_on_visit(const Effect& effect) {
   return effect.by_direction || effect.station == Station::reading;
 }
 
 /// Left becomes right and right left; the others stay.
 [[nodiscard]] EffectSide mirrored(EffectSide side);
-/// An effect at `effect_side` acts on this chain (none and both act on either).
+/// Whether an effect at `effect_side` acts on this chain (none and both act on either).
 [[nodiscard]] bool acts_on(EffectSide effect_side, Side chain);
 
 }  // namespace chaintrue::model::effects

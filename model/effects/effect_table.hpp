@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Effects of a file looked up in a mechanism's table: what is wrong with them, and their values.
+/// Effects of a file looked up in a mechanism's table: their problems and their values.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace chaintrue::model::effects {
 /// In the order in which they act.
 using EffectTable = std::span<const Effect* const>;
 
-/// Null where none of the table has this name.
+/// Null if no effect of the table has this name.
 [[nodiscard]] const Effect* find_effect(EffectTable table, std::string_view id);
 
 /// Unknown effects, sides and parameters, values out of range, and with `all_stated` missing values.

@@ -46,7 +46,7 @@ std::string joined(const std::vector<std::string>& names) {
 
 struct Operand {
   FormulaUnit unit;
-  /// Consists of numbers alone: it takes the unit of what it is added to.
+  /// Consists of numbers alone, so it takes the unit of the term to which it is added.
   bool bare = false;
   /// Its value, if it consists of numbers without functions.
   std::optional<double> constant;

@@ -64,7 +64,7 @@ struct FormulaProblem {
 
 class Formula {
  public:
-  /// `names` are the values that it may use; `wanted` is the unit that must come out.
+  /// `names` are the values that it may use; `wanted` is the required unit of the result.
   [[nodiscard]] static tl::expected<Formula, FormulaProblem> parse(
       std::string_view text, std::span<const FormulaName> names, const FormulaUnit& wanted);
 
@@ -74,8 +74,8 @@ class Formula {
   [[nodiscard]] Dual<N> evaluate(std::span<const Dual<N>> values) const {
     return run<N>(values, nullptr);
   }
-  /// Where the first value arises that is not finite, as an offset into the text; the end of the
-  /// text where all are finite.
+  /// The offset in the text at which the first value that is not finite arises; the end of the text
+  /// if all are finite.
   template <int N>
   [[nodiscard]] std::size_t first_not_finite(std::span<const Dual<N>> values) const {
     std::size_t offset = text_.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the tables of effects are written with: sets of sides, parameters, and the laws that all
+/// The building blocks of tables of effects: sets of sides, parameters, and the laws that all
 /// mechanisms share.
 ///
 /// \code

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The controller of a V-plotter as a controller's kinematics: what it counts for a command, by
-/// paid_out(), and the command for which it counts that.
+/// The controller of a V-plotter as a controller's kinematics: the lengths that it counts for
+/// a command, by paid_out(), and the command for given lengths.
 ///
 /// Commands are in the controller's own coordinates, in which the middle between the pins is
 /// `pins_middle`; mm.
@@ -23,7 +23,7 @@ class PlotterController final : public ControllerKinematics {
   PlotterController(PlotterFirmware firmware, const PlotterMachine& as_set, BedPoint pins_middle)
       : firmware_(firmware), as_set_(as_set), pins_middle_(pins_middle) {}
   [[nodiscard]] tl::expected<ChainLengths, PoseFailure> lengths(BedPoint command) const override;
-  /// Exact to rounding where cords are straight to the pen; of a mural by Newton to 1e-9 mm.
+  /// Exact to rounding if cords are straight to the pen; for a mural by Newton to 1e-9 mm.
   [[nodiscard]] tl::expected<BedPoint, PoseFailure> command(ChainLengths lengths) const override;
 
  private:

@@ -31,7 +31,7 @@ inline constexpr PlotterFirmware kPlotterFirmwares[] = {PlotterFirmware::fluidnc
                                                         PlotterFirmware::mural};
 [[nodiscard]] std::string_view name(PlotterFirmware firmware);
 
-/// `as_set` holds what is set in the controller. The command is in the machine's frame. \throws
+/// `as_set` has the controller's settings. The command is in the machine's frame. \throws
 /// std::invalid_argument for a mural that is a point.
 [[nodiscard]] tl::expected<ChainLengths, PlotterFailure> paid_out(PlotterFirmware firmware,
                                                                   const PlotterMachine& as_set,
@@ -39,7 +39,8 @@ inline constexpr PlotterFirmware kPlotterFirmwares[] = {PlotterFirmware::fluidnc
 
 /// A number with its derivatives by x and y of the command.
 using ByCommand = Dual<2>;
-/// What a mural pays out before zero and scale. \throws std::invalid_argument for a point.
+/// The lengths that a mural pays out before zero and scale. \throws std::invalid_argument for a
+/// point.
 [[nodiscard]] tl::expected<PerSide<ByCommand>, PlotterFailure> mural_lengths(
     const PlotterMachine& as_set, BedPoint command);
 

@@ -37,7 +37,7 @@
 
 namespace chaintrue::model::plotter {
 
-/// What does not move: the constants of the equations, with every effect on.
+/// The constants of the equations, with every effect on.
 struct Statics {
   double spacing_mm = 0.0;  ///< of the gondola; 0: a point
   double pen_right_mm = 0.0, pen_below_mm = 0.0;
@@ -53,7 +53,7 @@ struct Statics {
   [[nodiscard]] bool is_point() const { return spacing_mm == 0.0; }
 };
 
-/// Where the pen is, and the parameters that the equations depend on.
+/// The position of the pen, and the parameters on which the equations depend.
 template <class T>
 struct Placed {
   T x, y, pin_spacing, pin_rise;
@@ -86,7 +86,7 @@ Offset<T> tangent(const Statics& m, bool has_pulley, double s, const T& h, const
   return {-s * per * v, per * h};
 }
 
-/// B less Q, and D less Q.
+/// B - Q and D - Q.
 template <class T>
 Offset<T> end_at_gondola(const Statics& m, const CordLoad<T>& load, double s, const T& tilt) {
   using std::cos;
@@ -122,7 +122,7 @@ std::array<T, 3> cord_residual(const Statics& m,
       load.s * load.n * across - m.standoff_mm};
 }
 
-/// A point of the gondola `right` and `below` Q, less Q.
+/// A point of the gondola at `right` and `below` from Q, minus Q.
 template <class T>
 Offset<T> body_point(double right_mm, double below_mm, const T& tilt) {
   using std::cos;
@@ -130,7 +130,8 @@ Offset<T> body_point(double right_mm, double below_mm, const T& tilt) {
   return {right_mm * cos(tilt) + below_mm * sin(tilt), right_mm * sin(tilt) - below_mm * cos(tilt)};
 }
 
-/// The left sides of (1) of both cords and of (3); all 0 in equilibrium. Of a point (3) is the tilt.
+/// The left sides of (1) for both cords and of (3); all 0 in equilibrium. For a point, (3) is the
+/// tilt.
 template <class T>
 Unknowns<T> residual(const Statics& m, const Unknowns<T>& q, const Placed<T>& at) {
   const T& tilt = q[kTurn];

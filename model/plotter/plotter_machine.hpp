@@ -25,11 +25,11 @@
 
 namespace chaintrue::model {
 
-/// Where the motors, with the pulleys or spools that count, are.
+/// The location of the motors, with the pulleys or spools that count.
 enum class MotorPlace { wall, gondola };
 [[nodiscard]] std::string_view name(MotorPlace place);
 
-/// The body that hangs. With `spacing_mm` 0 both cords end at the pen and nothing tilts.
+/// The hanging body. With `spacing_mm` 0 both cords end at the pen and nothing tilts.
 struct Gondola {
   /// Between the points where the cords hold the body: axles of its pulleys, or eyelets.
   double spacing_mm = 0.0;
@@ -47,11 +47,11 @@ struct Cord {
   double mass_kg_per_m = 0.0;
   /// Strain per newton of tension, on unstretched length; 0: inextensible.
   double compliance_per_n = 0.0;
-  /// What a motor loses in one slip: a tooth of the belt, a full step of a spool.
+  /// The length that a motor loses in one slip: a tooth of the belt, or a full step of a spool.
   double tooth_mm = 2.0;
 };
 
-/// Where the pen may be sent.
+/// The area of allowed commands.
 struct DrawingArea {
   double left_mm = -400.0;
   double right_mm = 400.0;

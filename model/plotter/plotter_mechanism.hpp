@@ -51,7 +51,7 @@ class PlotterMechanism final : public MechanismBase {
   [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
       const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
   [[nodiscard]] bool has(effects::Part part) const override;
-  /// Where straight cords of these lengths end.
+  /// The point where straight cords of these lengths end.
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> straight_place(
       ChainLengths lengths) const;
 

@@ -118,7 +118,7 @@ struct Assignment {
   Place place;
 };
 
-/// For a line that is a whole program, and for a comment that has swallowed one.
+/// For a line that is a whole program, and for a comment that contains one.
 inline constexpr const char* kLineEndsLost =
     "one line holds several moves: the file's line ends are lost; save it anew with its line ends";
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What an unmodified controller cannot follow in an uncompensated program.
+/// The parts of an uncompensated program that an unmodified controller cannot execute.
 #pragma once
 
 #include <map>

@@ -34,8 +34,8 @@ inline constexpr std::size_t kHashDigits = 32;
 [[nodiscard]] std::vector<std::string> comments_of(const grid::Provenance& made_by,
                                                    std::size_t longest);
 
-/// The beginnings of the hashes that the comments at the beginning of a program hold; none where it
-/// has no such comments or cannot be read.
+/// The beginnings of the hashes in the comments at the beginning of a program; none if it has no
+/// such comments or cannot be read.
 [[nodiscard]] std::vector<std::string> hashes_in_head(LineSource program);
 
 /// Takes the next bytes of the output.
@@ -46,7 +46,8 @@ inline constexpr std::size_t kMaxOutputLine = 60;
 /// change of the tool and at the end, so that a file without its head, or the part of one tool alone,
 /// is still known.
 inline constexpr std::string_view kMarker = "compensated by chaintrue";
-/// A comment that begins so, whatever a sender has made of its capitals and blanks.
+/// Whether a comment begins with these words, regardless of capitals and blanks that a sender has
+/// changed.
 [[nodiscard]] bool is_marked(std::string_view comment);
 /// Refuses a marked comment (already_compensated).
 void refuse_compensated(const Comment& comment);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Names of events, and what is kept of problems and notes.
+/// Names of events, and the lists of problems and notes.
 #include "tools/gcode/events.hpp"
 
 #include <fmt/format.h>

@@ -106,8 +106,8 @@ struct Note {
   std::optional<ProblemName> problem{};
 };
 
-/// What a run has found. Keeps the first hundred problems and notes, and counts all; of problems that
-/// one line has in a row the first.
+/// The findings of a run. Keeps the first hundred problems and notes and counts all; of consecutive
+/// problems of one line, only the first is kept.
 struct Findings {
   static constexpr std::size_t kMostKept = 100;
   std::vector<Problem> problems;
@@ -116,7 +116,7 @@ struct Findings {
   std::uint64_t note_count = 0;
 
   void add(Problem problem);
-  /// A note that is a problem to whoever needs places on the sheet is added as one.
+  /// A note that is a problem for a reader that needs places on the sheet is added as one.
   void add(Note note);
 
  private:

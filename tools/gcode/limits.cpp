@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is not compensated, and what is not written.
+/// The cases that are not compensated, and those that are not written.
 #include "tools/gcode/limits.hpp"
 
 #include <fmt/format.h>
@@ -173,7 +173,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
   }
 }
 
-/// The word is written all the same: it does not affect the path.
+/// The word is written anyway, because it does not affect the path.
 void Limits::note_unknown(const PassedWord& word) {
   const Firmware& firmware = corrector_.firmware();
   if (!word.code || knows_code(firmware, *word.code) || !unknown_.insert(*word.code).second) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The stage between the segmenter and the emitter: what a program asks of map and controller is
-/// checked command by command, and written as long as nothing is wrong.
+/// The stage between the segmenter and the emitter: a program's demands on map and controller
+/// are checked command by command, and written as long as nothing is wrong.
 ///
 /// Problems are commands outside the controller's clamping box, corrections or slopes of it above
 /// the stated limits, points off the map, and words that the controller would take for others.
@@ -33,7 +33,7 @@ struct CompensateOptions {
   model::ChainLengths half_play_mm;
   /// For the header.
   std::optional<grid::Provenance> made_by;
-  /// "motorspacingx 2978.4": what the controller is presumed to hold, for the header.
+  /// "motorspacingx 2978.4": the presumed settings of the controller, for the header.
   std::vector<std::string> settings;
   /// Called for every command in X and Y with its start and end, and for every plunge with its place
   /// as both.

@@ -2,7 +2,8 @@
 /// \file
 /// Why a G-code program is rejected: a stable name, the place, and a sentence for the user.
 ///
-/// What reads a program throws a Refusal; what runs a whole one returns the problem as a Result.
+/// Readers of a program throw a Refusal; functions that run a whole program return the problem as a
+/// Result.
 #pragma once
 
 #include <cstddef>
@@ -59,7 +60,7 @@ class Refusal final : public std::exception {
 template <class T>
 using Result = tl::expected<T, Problem>;
 
-/// What the task gives, or the problem that it is refused for.
+/// The result of the task, or the problem for which it is refused.
 template <class Task>
 [[nodiscard]] Result<std::invoke_result_t<Task>> attempt(Task&& task) {
   try {

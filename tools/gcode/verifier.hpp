@@ -50,7 +50,7 @@ struct VerifySummary {
   std::string words_differ;
   /// Empty if rapids are rapids and cuts have the intended speed.
   std::string motion_differs;
-  /// The first fault as a sentence: its place, and what to check. Empty if the file passes.
+  /// The first fault as a sentence, with its place and what to check. Empty if the file passes.
   std::string fault;
 
   [[nodiscard]] bool holds() const {

@@ -8,7 +8,7 @@
 namespace chaintrue::report {
 namespace {
 
-// For letters of 18 (name) and 14 (place) units: a little more than the widest digits take.
+// For letters of 18 (name) and 14 (place) units: slightly more than the width of the widest digits.
 constexpr double kNameLetter = 13.0, kPlaceLetter = 7.8, kHigh = 20.0;
 constexpr double kHoleRadius = 8.0;
 
