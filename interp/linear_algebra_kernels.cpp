@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Compiled once for each table (tools/cmake/linear_algebra.cmake), CHAINTRUE_KERNELS its name. Nothing
-// from the standard library but what Eigen takes from it, nothing from the project but the tables.
+// SPDX-License-Identifier: GPL-3.0-or-later Compiled once for each table
+// (tools/cmake/linear_algebra.cmake), CHAINTRUE_KERNELS its name. Includes Eigen and the tables'
+// header alone.
 #include "interp/linear_algebra_kernels.hpp"
 
 #include <Eigen/Cholesky>
@@ -22,7 +22,7 @@ Matrix stored(const Output& a) { return {a.data, a.rows, a.columns, Columns(a.st
 /// Below this sum of dimensions packing costs more than it saves.
 constexpr std::ptrdiff_t kFew = 20;
 
-/// Entries of the operand itself, not of what is stored.
+/// Indexes the operand, not its storage.
 struct Entries {
   explicit Entries(const Input& a)
       : data(a.data),
@@ -111,8 +111,8 @@ void solve_triangle(Input l, Output x) {
   }
 }
 
-/// On copies: Eigen's product of a symmetric matrix and a vector sums in an order that depends on
-/// the address, and its own memory is aligned to a packet.
+/// Works on copies: Eigen's product of a symmetric matrix and a vector sums in an order that
+/// depends on the address, and its own memory is aligned to a packet.
 void tridiagonalise(Output a, double* reflections, double* diagonal, double* subdiagonal) {
   Eigen::MatrixXd matrix = stored(a);
   Eigen::VectorXd coefficients(a.rows - 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What interp/linear_algebra.hpp spends its time in, compiled for several processors. Only raw
+/// The inner loops of interp/linear_algebra.hpp, compiled for several processors. Only raw
 /// pointers pass: the translation units behind the tables share no template with any other, so the
 /// linker cannot put code for one processor in the place of code for another
 /// (tests/layers/kernel_symbols.py).
@@ -16,7 +16,7 @@ struct Input {
   std::ptrdiff_t rows = 0;
   std::ptrdiff_t columns = 0;
   std::ptrdiff_t stride = 0;
-  bool transposed = false;  ///< stands for its transpose; rows and columns are those stored
+  bool transposed = false;  ///< means its transpose; rows and columns are as stored
 };
 
 struct Output {
@@ -43,9 +43,9 @@ struct Table {
 };
 
 extern const Table baseline;
-extern const Table avx2;  ///< with FMA; only of builds for x86-64
+extern const Table avx2;  ///< with FMA; in builds for x86-64 only
 
-/// Null where this processor has no AVX2 and FMA, or the build no code for them.
+/// Null if this processor lacks AVX2 or FMA, or the build has no code for them.
 [[nodiscard]] const Table* avx2_here();
 /// The best for this processor; the baseline if CHAINTRUE_BASELINE=1 is set in the environment.
 [[nodiscard]] const Table& chosen();

@@ -6,8 +6,8 @@
 /// Notation
 ///   e, g_k   whitened rows (regressor_system.hpp), without those of rejected points
 ///   N        how many rows are kept
-///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
-///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
+///   V        I + A diag(sigma^2) A': their covariance, with the settings unknown except for their
+///            stated sigmas, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
 ///   delta_k  coefficient times |V^-1/2 g_k|: the signal-to-noise ratio of a cause. Beforehand
 ///            N(0, kUsualSignalToNoise^2), with a small weight N(0, kWideSignalToNoise^2), cut to
 ///            what the parameter may be; the same size whatever else acts
