@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Compiled once for each table
-// (tools/cmake/linear_algebra.cmake), CHAINTRUE_KERNELS its name. Includes Eigen and the tables'
-// header alone.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Compiled once for each table (tools/cmake/linear_algebra.cmake), CHAINTRUE_KERNELS its name.
+// Includes Eigen and the tables' header alone.
 #include "interp/linear_algebra_kernels.hpp"
 
 #include <Eigen/Cholesky>

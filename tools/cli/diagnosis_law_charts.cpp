@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Laws of the unexplained pattern: their curves among
-// partial residuals, and the bed with and without one.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of the unexplained pattern: their curves among partial residuals, and the bed with and
+// without one.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later A map for other controllers: as a kinematics module, or
-// as the closest settings.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A map for other controllers: as a kinematics module, or as the closest settings.
 #include <fmt/format.h>
 
 #include <algorithm>
