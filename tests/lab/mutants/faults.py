@@ -19,8 +19,8 @@ class Fault(NamedTuple):
 FAULTS = [
     # model
     Fault("stretch_sign", "model/chain_formulas.hpp",
-          "(1.0 + tension * in.compliance_per_n)",
-          "(1.0 - tension * in.compliance_per_n)",
+          "(1.0 + per_sine * other_cosine * compliance_per_n)",
+          "(1.0 - per_sine * other_cosine * compliance_per_n)",
           "/seeds|controllers|holey|one_?shot"),
     Fault("beam_tilt_sign", "model/controllers/payout.cpp",
           "cy + dx * std::sin(tilt) + dy * std::cos(tilt)",
