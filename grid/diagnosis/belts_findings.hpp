@@ -60,7 +60,7 @@ struct BeltsFindings {
   /// sqrt(sum r^2 / checks): the error of one belt's reading.
   double spread_before_mm = 0.0;
   double residual_sigma_mm = 0.0;
-  /// Over all readings, none rejected, as the machine's own message counts.
+  /// Over all readings, including rejected ones, as in the machine's own message.
   double rms_before_mm = 0.0;
   double rms_mm = 0.0;
   int checks = 0;

@@ -86,6 +86,7 @@ std::vector<int> about(const std::vector<int>& visits, int visit) {
           visits.begin() + std::clamp<std::ptrdiff_t>(at + half + 1, 0, last)};
 }
 
+/// The whitened rows of lengths that are added at the places of a system.
 Eigen::VectorXd whitened_lengths(const RegressorSystem& system, const Eigen::VectorXd& added) {
   Eigen::VectorXd column(system.e.size());
   for (std::size_t u = 0; u < system.units.size(); ++u) {
@@ -96,8 +97,8 @@ Eigen::VectorXd whitened_lengths(const RegressorSystem& system, const Eigen::Vec
   return column;
 }
 
-/// What one cause adds to the lengths. From its visit on it adds what it would add at any visit, so all visits share
-/// one evaluation.
+/// The lengths that one cause adds. From its first visit on they do not depend on that visit, so one
+/// evaluation serves all visits.
 class AddedLengths {
  public:
   AddedLengths(const MeasuredBelts& belts, const belts::FrameState& state)

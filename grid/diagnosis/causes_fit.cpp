@@ -103,8 +103,7 @@ double least_known_size(const std::vector<Cause>& causes) {
   return largest;
 }
 
-/// One map for each set of other causes that may act on the readings; empty if there is no such
-/// map.
+/// A map for each set of causes that may act on the readings instead; empty where the fit fails.
 std::vector<std::optional<CompensationMap>> other_maps(
     const Measured& measured,
     const JointFitOptions& options,

@@ -142,7 +142,7 @@ struct ErrorBudget {
 
 struct Outlier {
   Observations of = Observations::points;  ///< points, distances or belts
-  std::size_t index = 0;                   ///< for a belt's reading, the order of its place
+  std::size_t index = 0;                   ///< for a belt's reading, the index of its place
   std::optional<model::Belt> belt{};       ///< empty for belts: all readings at the place
   /// The belt at the same place that may be wrong instead, if the lengths do not show which.
   std::optional<model::Belt> or_belt{};

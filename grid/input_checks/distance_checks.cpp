@@ -357,7 +357,8 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
         std::nullopt,
         "the distances are not those between these holes: are they of another sheet, or "
         "of other holes?",
-        fmt::format("half of them differ by more than {} from the commanded ones", length_in_words(median_mm)),
+        fmt::format("half of them differ by more than {} from the commanded ones",
+                    length_in_words(median_mm)),
         false};
   }
   return findings;

@@ -49,7 +49,8 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
       "marks and readings do not belong together, and no usual typing error explains it; are they "
       "of another sheet, another list or another machine?",
       std::isfinite(plain.median_mm)
-          ? fmt::format("half of the points are more than {:.0f} mm off by the machine", plain.median_mm)
+          ? fmt::format("half of the points are more than {:.0f} mm from where the machine puts them",
+                        plain.median_mm)
           : std::string("no machine can have these readings"),
       false};
 }

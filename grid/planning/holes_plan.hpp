@@ -37,7 +37,7 @@ struct HolesPlanRequest {
   /// 0: twice the number of holes plus two (plus eight with edges), or all of them if there are
   /// fewer.
   int distances = 0;
-  /// Also measure to the sheet's edges, if the sheet's placement matters.
+  /// Distances to the sheet's edges are planned too, because the sheet's placement matters.
   bool edges = false;
   double tape_sigma_mm = 0.5;
   double hole_sigma_mm = 0.3;

@@ -41,7 +41,7 @@ namespace chaintrue::cli {
 
 /// The data: "34 points", "20 distances", "34 points and 20 distances", "99 places".
 [[nodiscard]] std::string readings_counted(const Diagnosis& found);
-/// Some outlier is a distance rather than a point.
+/// Whether this outlier is a distance rather than a point.
 [[nodiscard]] bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad);
 /// " A single right name then has probability 95 %." of the next measurement with that position;
 /// empty if it determines the scale of belts, which does not discriminate between causes.

@@ -183,7 +183,7 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
   measured.add(load_measured(files.front(), input, tape, use));
   OptionProblems problems;
   for (std::size_t k = 1; k < files.size(); ++k) {
-    // Further readings are proposed only if there are enough of them.
+    // A further file may have few readings: the first has enough of them.
     grid::MeasuredFile other = load_measured(files[k], input, tape, MeasuredUse::check);
     const auto& machine = other.machine();
     if (machine && measured.machine()) {
