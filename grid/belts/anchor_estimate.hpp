@@ -48,8 +48,8 @@ namespace chaintrue::grid::belts {
 void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 
 /// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
-/// Precondition: `belts` has no distances. Of its estimate noise_factor is the spread in mm, and the
-/// first five of the covariance are the anchors', mm^2.
+/// Precondition: `belts` has no distances. In its estimate, noise_factor is the spread in mm, and
+/// the first five rows of the covariance are those of the anchors, mm^2.
 [[nodiscard]] estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
                                                        const Counting& counting,
                                                        const AnchorVector& start);

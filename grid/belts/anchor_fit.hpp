@@ -23,13 +23,13 @@ inline constexpr model::PerBelt<bool> kAllBelts{true, true, true, true};
 inline constexpr Eigen::Index kAnchorUnknowns = 5;
 using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;
 
-/// What they are called in files.
+/// Their names in files.
 inline constexpr std::array<std::string_view, 5> kCoordinateNames = {
     "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
 /// A frame that meets its readings exactly has not shown that they are.
 inline constexpr double kLeastSpreadMm = 1e-3;
 
-/// What the unknowns are at.
+/// Values of the unknowns.
 struct FrameState {
   AnchorVector anchors = AnchorVector::Zero();
   double log_scale = 0.0;

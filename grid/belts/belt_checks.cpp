@@ -147,7 +147,7 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
     if (frame.residual_sigma_mm > kSoundMm || is_far(few, frame)) return false;
     return is_frame || kBetter * frame.residual_sigma_mm < as_stated.residual_sigma_mm;
   };
-  // Of two mirror-image pairs take the first: they differ only by rounding.
+  // Take the first of two mirror-image pairs: they differ only by rounding.
   const auto is_nearer = [](const Frame& a, const Frame& b) {
     if (std::abs(a.far_mm - b.far_mm) > kRoundingMm) return a.far_mm < b.far_mm;
     return a.residual_sigma_mm < b.residual_sigma_mm - kRoundingMm;

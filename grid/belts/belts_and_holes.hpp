@@ -109,7 +109,7 @@ struct BeltsByThemselves {
 /// are not known.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets, BeltsByThemselves alone);
-/// With what fit_by_themselves() makes of them.
+/// With the result of fit_by_themselves() for them.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);
 

@@ -32,7 +32,7 @@ struct BeltPlacePicture {
   std::optional<int> order;
   model::PerBelt<double> before_mm;
   model::PerBelt<double> after_mm;
-  model::PerBelt<bool> bad;  ///< set aside
+  model::PerBelt<bool> bad;  ///< rejected
 };
 
 /// The distance of the tool from its believed position by the upper two belts, over the measured
@@ -51,7 +51,7 @@ struct SecondPass {
   /// Probability that the right cause is then named alone.
   double raises_probability_to = 0.0;
 };
-/// What to do, and its value.
+/// A proposed measurement, and its value.
 [[nodiscard]] std::string in_words(const SecondPass& pass);
 
 struct BeltsFindings {

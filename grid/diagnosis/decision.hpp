@@ -48,8 +48,8 @@ struct Decision {
   [[nodiscard]] std::vector<CauseId> leaders() const;
 };
 
-/// `detected`: the strongest effect exceeds what noise produces (family-wise). Of the comparison's
-/// marginalised systems only the rejected points are used.
+/// `detected`: the strongest effect exceeds what noise produces (family-wise). Only the rejected
+/// points of the comparison's marginalised systems are used.
 [[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,

@@ -110,8 +110,8 @@ void take_from_map(const Measured& measured,
 }
 
 /// A map cannot resolve less than the spacing of the marks, so a claimed law causes at least its
-/// error at the marks. What the settings would absorb is not an error of the tool, so it is at most
-/// the whole error there.
+/// error at the marks. The part that the settings would absorb is not an error of the tool, so the
+/// law causes at most the whole error there.
 void count_law(Diagnosis& d) {
   const Law* law = claimed_law(d);
   if (!d.tool_today || law == nullptr || d.observations != Observations::points) return;

@@ -13,8 +13,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// What is left of the field's variance of one at any place.
-/// A hundredth of its sigma, which is seldom beyond a millimetre.
+/// The largest residual of the field's unit variance at any place. A hundredth of its sigma, which
+/// is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
 /// F with F F' ~= a covariance, n x r, what is left of its diagonal below `least`.

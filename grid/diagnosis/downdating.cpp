@@ -96,7 +96,7 @@ std::vector<bool> with_units(const RegressorSystem& system,
   return groups;
 }
 
-/// The comparison's marginalised system with these points set aside, made where there is none.
+/// The comparison's marginalised system that rejects these points; it is made if there is none.
 std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
   const auto same = std::find_if(
       comparison.marginalised_systems.begin(),

@@ -74,7 +74,7 @@ class NoiseDensity {
   std::array<Component, 1 + std::tuple_size_v<decltype(kLargerNoise)>> components_;
 };
 
-/// The system with the settings integrated out and some points set aside.
+/// The system with the settings integrated out and some points rejected.
 struct MarginalisedSystem {
   std::vector<bool> outliers;  ///< a flag for each outlier group
   KeptRows kept;               ///< N rows

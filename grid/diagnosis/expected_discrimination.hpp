@@ -54,7 +54,7 @@ struct Alternative {
                                                                          const ObservationSet& next);
 
 /// As above for the rows of a system; `column` gives a regressor's column there. Empty if such a
-/// machine cannot be.
+/// machine is invalid.
 using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>;
 [[nodiscard]] std::vector<Alternative> alternatives_about(const Analysis& analysis,
                                                           const RegressorSystem& next,

@@ -166,7 +166,7 @@ struct MachineState {
 [[nodiscard]] MachineState with_settings(const ObservationSet& set,
                                          MachineState state,
                                          const Eigen::VectorXd& values);
-/// As above, or why there is no such machine.
+/// As above, or the reason why there is no such machine.
 [[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(
     const ObservationSet& set, MachineState state, const Eigen::VectorXd& values);
 

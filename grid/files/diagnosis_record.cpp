@@ -59,7 +59,7 @@ bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sid
 template <class T, class Access>
 void cause_keys(Record<T>& record, const Access& id) {
   Value<const Effect*> effect = effect_word();
-  // What the extended machine declares has its own name.
+  // Effects that the extended machine declares have their own names.
   effect.expected.schema = [names = effect.expected.schema]() -> Json {
     return {{"type", "string"}, {"examples", names()["enum"]}};
   };

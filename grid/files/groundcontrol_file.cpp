@@ -39,8 +39,8 @@ struct NumberKey {
   std::optional<double> ControllerSettings::*setting;
 };
 
-// Those of a machine are inside the ranges of model::problems_of and of the catalogue of effects, so
-// that messages name the ini file's lines.
+// The ranges for a machine are inside those of model::problems_of and of the catalogue of effects,
+// so that messages name the ini file's lines.
 constexpr NumberKey kNumberKeys[] = {
     {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
     {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
@@ -209,7 +209,7 @@ void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
                   machine.uncertainty.ring_radius_mm));
 }
 
-/// What releases did before a setting existed, and a sentence for it.
+/// The behaviour of releases before a setting existed, and a sentence for it.
 class OldReleases {
  public:
   OldReleases(SettingReader& settings, Problems& problems)

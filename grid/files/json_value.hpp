@@ -67,7 +67,7 @@ class Cursor {
   std::size_t index_ = 0;
 };
 
-/// What is expected of a value: in words for messages, and as a JSON Schema for editors and the
+/// The expectation of a value: in words for messages, and as a JSON Schema for editors and the
 /// reference pages (schema.hpp). A schema is made on request; words without a schema allow
 /// anything.
 struct Expected {
@@ -165,7 +165,7 @@ template <class V, class From, class To, class Back>
           value.expected};
 }
 
-/// What the type says already: a text, true or false.
+/// The expectation that follows from the type: a text, true or false.
 template <class V>
 [[nodiscard]] Value<V> value_of_type() {
   if constexpr (std::is_same_v<V, bool>) {

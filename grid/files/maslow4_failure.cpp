@@ -59,7 +59,7 @@ std::string where(const RunStopped& stopped) {
                      reached);
 }
 
-/// What the single readings show, and its cause; empty if there are none.
+/// The evidence of the single readings and its cause; empty if there are none.
 std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   Belt worst = Belt::tl;
   int apart = 0;

@@ -21,7 +21,7 @@ namespace chaintrue::grid::files {
 /// The place of an entry of a list, or of one of its fields, in the file: "/points/3", "line 5, column 8".
 using PlaceOf = std::function<std::string(std::size_t index, std::string_view field)>;
 
-/// Of a list in JSON: "/points", "/points/3", "/points/3/x_mm".
+/// For a list in JSON: "/points", "/points/3", "/points/3/x_mm".
 [[nodiscard]] PlaceOf place_in_json(std::string list);
 
 /// Fills in the machine: that of the options instead of any that the file states; otherwise its own, that of
