@@ -32,19 +32,18 @@ constexpr Effect tape_scale{
     .id = "tape_scale",
     .station = Station::paper,
     .sides = kPaperAxes,
-    .parameters = {size("scale", "s", "written distance over true distance, less one", 0.0005, -0.05,
+    .parameters = {size("scale", "s", "written over true distance, minus one", 0.0005, -0.05,
                         0.05)},
-    .cause = "the tape or the printed sheet that set out the marks is long or short",
+    .cause = "the tape or the printed sheet used to place the marks is too long or too short",
     .signature = "errors grow evenly from the bed's centre outwards, along x, along y or both",
     .equation = "x_written = x (1 + s); y_written = y (1 + s)",
     .source =
         "EU directive 2014/32/EU annex X: a class II tape may err by 0.3 mm + 0.2 mm per metre",
-    .not_modelled = "a scale that differs along the tape, or a tape that sags between the marks",
+    .not_modelled = "a scale that varies along the tape, a sagging tape",
     .typical = "0.05 %, 0.5 mm on a metre",
     .remedy_kind = RemedyKind::correct_the_data,
     .remedy =
-        "check the tape against a second one over the whole bed and correct the marks; leave the "
-        "machine as it is",
+        "compare the tape with a second one and correct the marks; do not change the machine",
     .write =
         [](MarkPoint mark, EffectSide side, Values v) {
           const double factor = 1.0 + v[0];
@@ -58,18 +57,18 @@ constexpr Effect axes_skew{
     .station = Station::paper,
     .sides = kNoSide,
     .parameters = {mirrored(size("angle_rad", "g",
-                                 "angle by which the marks' y axis leans, towards -x for a positive angle",
+                                 "lean of the marks' y axis, positive towards -x",
                                  0.001, -0.05, 0.05))},
-    .cause = "the axes drawn for the marks are not square to each other",
+    .cause = "the marks' axes are not square",
     .signature =
-        "the upper marks are off to one side, the lower ones to the other, in proportion to y",
+        "upper marks are off to one side, lower ones to the other, in proportion to y",
     .equation = "x_written = x + y g",
-    .source = "geometry of an oblique frame, first order in g (g^2/2 is 0.3 um over the bed)",
+    .source = "oblique frame, first order in g",
     .not_modelled = "bent or kinked axes",
     .typical = "1 mrad, 1 mm on a metre",
     .remedy_kind = RemedyKind::correct_the_data,
     .remedy =
-        "compare the two diagonals of the marks and correct the marks; leave the machine as it is",
+        "compare the two diagonals of the marks and correct the marks; do not change the machine",
     .write =
         [](MarkPoint mark, EffectSide, Values v) {
           return MarkPoint{mark.x_mm + mark.y_mm * v[0], mark.y_mm};
@@ -82,13 +81,13 @@ constexpr Effect ring_radius{
     .id = "ring_radius",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "d", "true ring radius less the file's", 1.0, -50.0, 50.0)},
-    .cause = "the ring or linkage is larger or smaller than the machine file says",
+    .parameters = {size("offset_mm", "d", "true radius minus the file's", 1.0, -50.0, 50.0)},
+    .cause = "the ring or linkage is larger or smaller than in the machine file",
     .signature =
-        "like both chain zeros off together; only the sag in the lower corners tells them apart",
+        "like an error of both chain zeros; only the sag in the lower corners distinguishes them",
     .equation = "rho = rho_stated + d",
-    .source = "MaslowCNC forum reports 138.14 and 139.82 mm where 139.1 mm is set",
-    .not_modelled = "a ring that is not round, carriages with play",
+    .source = "MaslowCNC forum: 138.14 and 139.82 mm measured, 139.1 mm set",
+    .not_modelled = "an out-of-round ring, carriages with play",
     .typical = "1 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure the ring from the bit to the chain's pin and enter that radius",
@@ -103,19 +102,18 @@ constexpr Effect sled_width{
     .id = "sled_width",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "w", "true distance between the brackets less the file's",
+    .parameters = {size("offset_mm", "w", "true distance minus the file's",
                         5.0, -200.0, 200.0)},
     .cause =
-        "the brackets of the sled are farther apart or nearer together than the machine file says",
+        "the sled's brackets are farther apart or closer together than in the machine file",
     .signature =
-        "both chains too short or too long by nearly the same, most along the top, where they lie "
-        "flat",
+        "both chains are too short or too long by nearly the same amount, most along the top",
     .equation = "spacing = spacing_stated + w",
-    .source = "statics of a sled on two brackets, which turns about the bit",
-    .not_modelled = "brackets that stand at different heights or distances from the bit",
+    .source = "statics of a sled on two brackets",
+    .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "2 to 15 mm",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "measure between the points where the chains hold the brackets and enter it (sledwidth)",
+    .remedy = "measure between the points where the chains are attached and enter it (sledwidth)",
     .alter = adds_to_brackets<&Brackets::spacing_mm>,
     .part = Part::brackets,
 };
@@ -124,15 +122,16 @@ constexpr Effect sled_height{
     .id = "sled_height",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "h", "true height of the brackets over the bit less the file's",
+    .parameters = {size("offset_mm", "h", "true height minus the file's",
                         5.0, -200.0, 200.0)},
     .cause =
-        "the brackets of the sled are higher or lower over the bit than the machine file says",
+        "the sled's brackets are higher or lower than in the machine file",
     .signature =
-        "the whole bed shifted up or down, a little less where the sled tilts, in the lower corners",
+        "the whole bed is shifted up or down, slightly less in the lower corners, where the sled "
+        "tilts",
     .equation = "height = height_stated + h",
-    .source = "statics of a sled on two brackets, which turns about the bit",
-    .not_modelled = "brackets that stand at different heights or distances from the bit",
+    .source = "statics of a sled on two brackets",
+    .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "2 to 10 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure from the bit up to the line between the brackets and enter it (sledheight)",
@@ -145,18 +144,18 @@ constexpr Effect sled_cg{
     .station = Station::machine,
     .sides = kNoSide,
     .parameters = {size("offset_mm", "g",
-                        "how much farther below the bit the centre of gravity is than the file says",
+                        "true distance below the bit minus the file's",
                         10.0, -500.0, 500.0)},
-    .cause = "the sled's centre of gravity is higher or lower than the machine file says",
+    .cause = "the sled's centre of gravity is higher or lower than in the machine file",
     .signature =
-        "the sled tilts more or less at the sides: nothing on the middle line, opposite errors left and "
-        "right of it",
+        "opposite errors on the left and right, none on the middle line",
     .equation = "cg = cg_stated + g",
-    .source = "statics of a sled on two brackets, which turns about the bit",
-    .not_modelled = "brackets that stand at different heights or distances from the bit",
+    .source = "statics of a sled on two brackets",
+    .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "5 to 30 mm",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "balance the sled on an edge, measure from there to the bit and enter it (sledcg)",
+    .remedy = "balance the sled on an edge, measure from there to the bit and enter the distance "
+              "(sledcg)",
     .alter = adds_to_brackets<&Brackets::cg_below_bit_mm>,
     .part = Part::brackets,
 };
@@ -165,15 +164,15 @@ constexpr Effect sprocket_radius{
     .id = "sprocket_radius",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "d", "true radius of the chain line less the file's", 0.17,
+    .parameters = {size("offset_mm", "d", "true radius minus the file's", 0.17,
                         -3.0, 3.0)},
-    .cause = "the chain lies on the sprockets at another radius than the machine file says",
-    .signature = "a few tenths of a millimetre in the wrap; the chain zeros take nearly all of it",
+    .cause = "the chain lies on the sprockets at a different radius than in the machine file",
+    .signature = "a few tenths of a millimetre in the wrap, nearly all absorbed by the chain zeros",
     .equation = "r = r_stated + d, for tangent and wrap",
     .source =
-        "10 teeth of 6.35 mm: 10.106 mm from the circumference, 10.274 mm as the pitch circle p / "
-        "(2 sin(pi / z)); both are argued for",
-    .not_modelled = "what one turn pays out: that is teeth times pitch, whatever the radius",
+        "10 teeth of 6.35 mm: 10.106 mm from the circumference, 10.274 mm as pitch circle; both "
+        "are in use",
+    .not_modelled = "the chain paid out by one turn, which is always teeth times pitch",
     .typical = "0.17 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "enter the radius in the machine file",
@@ -184,17 +183,16 @@ constexpr Effect chain_sag{
     .id = "chain_sag",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("relative_weight", "q", "true chain mass over the file's, less one", 0.3,
+    .parameters = {size("relative_weight", "q", "true chain mass over the file's, minus one", 0.3,
                         -0.95, 5.0)},
     .cause =
-        "the chain's mass per metre is not what the machine file says, so it sags more or less",
+        "the chain is heavier or lighter than in the machine file, so it sags more or less",
     .signature =
-        "up to millimetres in the lower corners, where one chain is long and slack; little "
-        "elsewhere",
+        "up to millimetres in the lower corners, where one chain is long and slack",
     .equation = "w = w_stated (1 + q) in the elastic catenary",
     .source =
-        "statics of the two chains, docs/physics; chain masses from 0.125 to 0.141 kg/m are met",
-    .not_modelled = "dirt or oil that gathers on part of a chain",
+        "statics of two chains; masses of 0.125 to 0.141 kg/m are in use",
+    .not_modelled = "dirt or oil on part of a chain",
     .typical = "30 %",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "weigh a metre of chain and enter its mass",
@@ -205,17 +203,17 @@ constexpr Effect chain_stretch{
     .id = "chain_stretch",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("compliance_per_n", "k", "compliance added to the machine's own", 6e-6, 0.0,
+    .parameters = {size("compliance_per_n", "k", "compliance beyond the file's", 6e-6, 0.0,
                         1e-4)},
-    .cause = "the chain gives more under tension than the machine file says",
-    .signature = "the tool hangs low, most at the top centre, where both chains pull hardest",
+    .cause = "the chain stretches more under tension than in the machine file",
+    .signature = "the tool hangs low, most at the top centre, where tension is highest",
     .equation = "c = c_stated + k; stretched length = S + integral of c T ds",
     .source =
         "MaslowCNC Firmware $45 5.1685e-6 /N; Tsubaki RS25: 2.6 mm/m at 640 N gives 4.1e-6 /N",
-    .not_modelled = "creep, and a chain that stretches unevenly",
+    .not_modelled = "creep, uneven stretch",
     .typical = "4e-6 to 8e-6 per N: 1 mm on 3 m at 60 N",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "put the compliance into the machine file",
+    .remedy = "enter the compliance in the machine file",
     .alter = adds_to<&EquilibriumParameters::chain_compliance_per_n>,
 };
 
@@ -224,19 +222,18 @@ constexpr Effect beam_flex{
     .station = Station::machine,
     .sides = kNoSide,
     .parameters = {size("flexibility_mm_per_n", "k",
-                        "how far a motor's axis moves along its chain's pull, per newton", 0.01, 0.0,
+                        "movement of a motor's axis along its chain, per newton", 0.01, 0.0,
                         0.1)},
-    .cause = "the top beam or its brackets give under the pull of the chains",
+    .cause = "the top beam or its brackets bend under the tension of the chains",
     .signature =
-        "the tool hangs low and the bed shrinks towards the top centre, where tension is highest",
+        "the tool hangs low, and the bed shrinks towards the top centre",
     .equation = "motor axis = as set + k T_i (unit vector along the chain, towards the sled)",
     .source = "MaslowCNC GroundControl PR 558: motor spacing 2990 mm free, 2980 mm under load",
     .not_modelled =
-        "a beam that gives differently along its length, in its plane and across; the other "
-        "chain's pull on this motor",
+        "stiffness that depends on place or direction; the effect of the other chain on this motor",
     .typical = "0.003 to 0.02 mm/N: 0.5 to 3 mm at the bed's top",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "brace the beam, or put its flexibility into the machine file",
+    .remedy = "brace the beam, or enter its flexibility in the machine file",
     // Solved together with the equilibrium.
     .alter = adds_to<&EquilibriumParameters::beam_flexibility_mm_per_n>,
 };
@@ -248,13 +245,13 @@ constexpr Effect side_pull{
     .parameters = {mirrored(size("force_n", "f", "force on the sled towards +x", 3.0, -10.0, 10.0))},
     .cause = "a hose or a cord pulls the sled to one side",
     .signature =
-        "one chain hangs slacker than its mirror image, most in the lower corner it pulls towards",
+        "one chain is slacker than its mirror image, most in the lower corner towards the pull",
     .equation = "H_left - H_right = f",
     .source = "horizontal balance of the sled",
-    .not_modelled = "a pull that changes with the sled's place, as a hose from a fixed hook does",
+    .not_modelled = "a pull that depends on the sled's place",
     .typical = "1 to 5 N, the weight of 100 to 500 g",
     .remedy_kind = RemedyKind::repair,
-    .remedy = "hang the hose and the cord from a boom so that they pull straight up or not at all",
+    .remedy = "hang the hose and the cord from a boom so that they do not pull sideways",
     .alter = adds_to<&EquilibriumParameters::side_force_n>,
 };
 
@@ -265,19 +262,19 @@ constexpr Effect direction_hysteresis{
     .station = Station::chain,
     .sides = kAnyChain,
     .parameters = {size("half_width_mm", "b",
-                        "half of the difference between arriving with chain paid out and with chain taken in",
+                        "half of the difference between paying out and taking in",
                         0.35, 0.0, 5.0)},
-    .cause = "friction, a ring that sticks and slips, or play in a gearbox",
-    .signature = "the same place reads differently when it is reached from the other side",
+    .cause = "friction, a sticking ring, or play in a gearbox",
+    .signature = "the same place reads differently when approached from the other side",
     .equation = "+ b sign(change of that chain's length since the previous visit)",
-    .source = "Coulomb friction and backlash, both of constant width",
-    .not_modelled = "a width that grows with tension, and small moves inside the play",
+    .source = "Coulomb friction and backlash of constant width",
+    .not_modelled = "a width that grows with tension, small moves within the play",
     .typical = "0.2 to 0.5 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::compensate_on_its_own,
     .remedy =
-        "grease the ring and take up the play, or compensate it along the path's direction; it is "
-        "taken out of the readings that a map is made of",
+        "grease the ring and remove the play, or compensate it along the path; maps are made from "
+        "readings corrected for it",
     .add = [](const LengthState& chain, Values v) { return Number(chain.direction * v[0]); },
     .by_direction = true,
 };
@@ -286,19 +283,18 @@ constexpr Effect chain_pitch_error{
     .id = "chain_pitch_error",
     .station = Station::chain,
     .sides = kAnyChain,
-    .parameters = {size("elongation", "e", "true length of a link over the nominal pitch, less one",
+    .parameters = {size("elongation", "e", "true over nominal pitch, minus one",
                         0.001, -0.05, 0.05)},
     .cause = "the chain's links are worn or were never of the right length",
-    .signature = "an error in proportion to the length of one chain, or of both",
+    .signature = "an error in proportion to the length of a chain",
     .equation = "L / (1 + e)",
     .source =
-        "MaslowCNC GroundControl, left and right chain tolerance; worn roller chain is changed at "
-        "2 to 3 %",
-    .not_modelled = "wear of the part that runs over the sprocket most",
+        "GroundControl's chain tolerances; worn roller chain is replaced at 2 to 3 %",
+    .not_modelled = "uneven wear along the chain",
     .typical = "0.05 to 0.15 %: 1.5 to 4.5 mm on 3 m",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy =
-        "measure 100 links under load and put the elongation into the machine file, or change the "
+        "measure 100 links under load and enter the elongation in the machine file, or replace the "
         "chain",
     // The reading model divides once, by the sum of all.
     .elongation = [](Values v) { return v[0]; },
@@ -310,20 +306,19 @@ constexpr Effect drift{
     .id = "drift",
     .station = Station::reading,
     .sides = kAnyChain,
-    .parameters = {size("rate_mm_per_visit", "d", "what a reading gains with each visit", 0.03, -1.0,
+    .parameters = {size("rate_mm_per_visit", "d", "growth of readings per visit", 0.03, -1.0,
                         1.0)},
     .cause = "the machine warmed up or the chain crept while the points were measured",
     .signature =
-        "the last points disagree with the first ones; a second visit of the first point shows it",
+        "the last points disagree with the first; a second visit to the first point shows it",
     .equation = "+ d n",
-    .source = "steel grows 12e-6 per K: 3 m of chain by 0.36 mm over 10 K",
-    .not_modelled = "a drift that levels off, and pauses between visits",
+    .source = "thermal expansion of steel, 12e-6 per K: 0.36 mm for 3 m and 10 K",
+    .not_modelled = "drift that levels off, pauses between visits",
     .typical = "0.01 to 0.05 mm per visit",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::correct_the_data,
     .remedy =
-        "let the machine hang loaded and warm before measuring, revisit the first point at the "
-        "end; the readings are corrected",
+        "let the machine hang loaded and warm up before measuring; the readings are corrected",
     .add = drifted,
 };
 
@@ -331,20 +326,20 @@ constexpr Effect tooth_skip{
     .id = "tooth_skip",
     .station = Station::reading,
     .sides = kOneChain,
-    .parameters = {whole(size("links", "k", "whole links, positive where too many are read", 1.0,
+    .parameters = {whole(size("links", "k", "links, positive if too many are read", 1.0,
                               -20.0, 20.0)),
-                   first_visit("number of the first visit after the skip")},
-    .cause = "the chain jumped over teeth of a sprocket during the measurement",
+                   first_visit("first visit after the skip")},
+    .cause = "the chain skipped teeth of a sprocket during the measurement",
     .signature = "from one visit on, one chain is off by a whole number of links",
     .equation = "+ pitch k for n >= m",
-    .source = "a roller chain that skips does so by whole teeth",
-    .not_modelled = "a second skip back; give it as an effect of its own",
+    .source = "roller chains skip whole teeth",
+    .not_modelled = "a second skip; add another effect",
     .typical = "1 link, 6.35 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::repair,
     .remedy =
-        "look for a slack chain at the sprocket, set the chain to 12 o'clock again; the readings "
-        "after the skip are corrected",
+        "look for a slack chain at the sprocket and set the chain to 12 o'clock again; the "
+        "readings after the skip are corrected",
     .add = teeth_skipped,
 };
 
@@ -352,18 +347,18 @@ constexpr Effect link_miscount{
     .id = "link_miscount",
     .station = Station::reading,
     .sides = kOneChain,
-    .parameters = {whole(size("links", "k", "whole links, positive where too many are read", 1.0,
+    .parameters = {whole(size("links", "k", "links, positive if too many are read", 1.0,
                               -20.0, 20.0)),
                    visit("visit", "number of the visit")},
     .cause = "the links were miscounted at one visit",
-    .signature = "one point alone is off along one chain by a whole number of links",
+    .signature = "one point is off along one chain by a whole number of links",
     .equation = "+ pitch k at visit m alone",
     .source = "counting by hand",
-    .not_modelled = "a reading wrong by other than whole links: a bad point",
+    .not_modelled = "other reading errors, which are bad points",
     .typical = "1 link, 6.35 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::correct_the_data,
-    .remedy = "read that point again; its reading is corrected or left out",
+    .remedy = "measure that point again; its reading is corrected or left out",
     .add =
         [](const LengthState& chain, Values v) {
           return Number(chain.order == v[1] ? chain.tooth_mm * v[0] : 0.0);
@@ -377,21 +372,21 @@ constexpr Effect zero_shift{
     .sides = kOneChain,
     // Half a link: a sprocket that turns on its shaft, or a zero set by eye, stops anywhere between
     // two teeth.
-    .parameters = {size("shift_mm", "z", "how much too long each later reading is", 3.0, -130.0,
+    .parameters = {size("shift_mm", "z", "excess of each later reading", 3.0, -130.0,
                         130.0),
-                   first_visit("number of the first visit after the shift")},
+                   first_visit("first visit after the shift")},
     .cause = "the zero of a chain moved during the measurement",
     .signature =
         "from one visit on, one chain is off by the same amount, which need not be whole links",
     .equation = "+ z for n >= m",
-    .source = "a sprocket slips on its shaft when its grub screw is loose; a zero set again midway",
-    .not_modelled = "a second shift; give it as an effect of its own",
+    .source = "a loose grub screw, or a zero that was set again midway",
+    .not_modelled = "a second shift; add another effect",
     .typical = "1 to 10 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::repair,
     .remedy =
-        "check the sprocket's grub screw and set the chain to 12 o'clock again: a map is of the "
-        "chain as it hung before the shift",
+        "check the sprocket's grub screw and set the chain to 12 o'clock again; maps hold for the "
+        "zero before the shift",
     .add = zero_shifted,
 };
 

@@ -14,10 +14,10 @@ struct Chapter {
 };
 
 constexpr Chapter kChapters[] = {
-    {Station::paper, "the mark is not where it is thought to be"},
+    {Station::paper, "where the marks are"},
     {Station::machine, "geometry and forces"},
-    {Station::chain, "what is paid out"},
-    {Station::reading, "what is written down"},
+    {Station::chain, "the length paid out"},
+    {Station::reading, "the length recorded"},
 };
 
 std::string sides_of(const Effect& effect) {
@@ -55,12 +55,11 @@ std::string row(const Effect& effect) {
 
 std::string paragraph(const Effect& effect) {
   return fmt::format(
-      "**{}** — {}. *Shows as:* {}. *Needs:* {}. *Remedy ({}):* {}. *Not modelled:* {}. *Source:* "
-      "{}.\n\n",
+      "**{}** — {}. *Shows as:* {}.{} *Remedy ({}):* {}. *Not modelled:* {}. *Source:* {}.\n\n",
       effect.id,
       effect.cause,
       effect.signature,
-      name(effect.needs),
+      effect.needs == DataNeed::order ? " Needs the order of visits." : "",
       name(effect.remedy_kind),
       effect.remedy,
       effect.not_modelled,
@@ -72,19 +71,13 @@ std::string paragraph(const Effect& effect) {
 std::string catalogue_document() {
   std::string text =
       "# The catalogue of effects\n\n"
-      "Printed by `chaintrue effects --markdown`; the source is the table "
-      "model/chains/chain_effects.cpp.\n\n"
-      "A reading passes four stations, and each effect stands at exactly one of them. phi is a "
-      "chain's angle below "
-      "the horizontal where it leaves the sprocket, T and H its tension there and the horizontal "
-      "part of it, S the "
-      "free unstretched chain, L0 = wrap + S, n the number of the visit. phi, T, S and L0 come "
-      "from the equilibrium "
-      "with every machine effect on; chain effects are evaluated on that state and added in this "
-      "order; division by "
-      "(1 + e) comes last; then readings are added. Values are added to the machine's own. Every "
-      "effect is exactly "
-      "zero at its null (0 for every size).\n\n";
+      "Printed by `chaintrue effects --markdown` from model/chains/chain_effects.cpp.\n\n"
+      "Each effect acts at one of four stations, and values are added to the machine's own. phi is a "
+      "chain's angle below the horizontal where it leaves the sprocket, T and H its tension there and "
+      "the horizontal part of it, S the free unstretched chain, L0 = wrap + S, n the number of the "
+      "visit. phi, T, S and L0 come from the equilibrium with all machine effects; chain effects are "
+      "evaluated on it and added in this order, division by (1 + e) comes next, and readings are added "
+      "last. An effect of size 0 changes nothing.\n\n";
   for (const Chapter& chapter : kChapters) {
     text += fmt::format("## {}: {}\n\n", name(chapter.station), chapter.words);
     text += "| effect | side | parameters | equation | usual size |\n|---|---|---|---|---|\n";

@@ -96,10 +96,6 @@ TEST(DeclaredExamples, MatchThePage) {
     EXPECT_NE(page.find(declaration_of(declared_by(file))->adds_mm), std::string::npos) << file;
     EXPECT_NE(page.find(std::string("`") + file + "`"), std::string::npos) << file;
   }
-  EXPECT_NE(
-      page.find(grid::files::read_whole_file(fixtures + "/effects/second_harmonic.json") + "```"),
-      std::string::npos)
-      << "the first one whole";
 }
 
 }  // namespace

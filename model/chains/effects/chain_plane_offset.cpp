@@ -14,15 +14,16 @@ extern constinit const Effect chain_plane_offset{
     .station = Station::chain,
     .sides = kNoSide,
     .parameters = {size("distance_mm", "z",
-                        "distance between the plane of the sprockets and that of the chains' ends at the sled",
+                        "distance between the planes of the sprockets and of the chains' ends at "
+                        "the sled",
                         30.0, 0.0, 300.0)},
-    .cause = "the sprockets stand further from the sheet than the chains' ends at the sled",
+    .cause = "the sprockets are farther from the sheet than the chains' ends at the sled",
     .signature =
-        "a few tenths of a millimetre more chain where it is short, near the upper corners",
+        "a few tenths of a millimetre more chain near the upper corners",
     .equation = "+ sqrt(S^2 + z^2) - S, both chains",
-    .source = "Pythagoras; MaslowCNC forum, List of sources of error",
+    .source = "Pythagoras; MaslowCNC forum",
     .not_modelled =
-        "sled and chain leaving the plane they hang in: forces stay those of the flat machine",
+        "forces, which remain those of the flat machine",
     .typical = "20 to 40 mm",
     .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "level the chains with the sheet (spacers under the motors), or enter the distance",
