@@ -63,8 +63,8 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
   if (!check || !(rms(residuals_mm) < kAnotherFrameMm)) {
     return failed(
         Reason::nowhere,
-        "the new lengths do not meet about these anchors: are they of this frame, and is "
-        "\"lengths\" right in their file?");
+        "the new lengths do not fit these anchors: are they from this frame, and is \"lengths\" "
+        "right in their file?");
   }
   return check;
 }

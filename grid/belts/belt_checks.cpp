@@ -287,8 +287,8 @@ std::string question_of(double distance_mm, double by_belts_mm) {
   constexpr double kNear = 0.06;
   const double d = distance_mm;
   std::vector<input_checks::NumberError> slips = {
-      {0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), 0.0},
-      {2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), 0.0},
+      {0.5 * d, fmt::format("is it double the true {:.10g} mm?", 0.5 * d), 0.0},
+      {2.0 * d, fmt::format("is it half of the true {:.10g} mm?", 2.0 * d), 0.0},
       {10.0 * d, fmt::format("is it in centimetres, {:.10g} mm?", 10.0 * d), 0.0}};
   for (input_checks::NumberError& slip : input_checks::number_errors(d, false))
     slips.push_back(std::move(slip));

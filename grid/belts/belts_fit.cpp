@@ -28,8 +28,8 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
   const std::string pulls = repeated_pulls_in_words(belts);
   return failed(
       BeltsFitFailure::Reason::not_determined,
-      fmt::format("the places do not determine the anchors: they lie on a line, or all in one "
-                  "spot; measure at places spread over the sheet's width and height{}{}",
+      fmt::format("the places do not determine the anchors, because they lie on a line or in one "
+                  "spot. Measure at places spread over the sheet's width and height{}{}",
                   pulls.empty() ? "" : ". ",
                   pulls));
 }
@@ -69,16 +69,14 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   }
   const auto frame = belts::fit_anchors_robustly(belts);
   constexpr const char* kNoFrame =
-      "no four anchors fit these lengths: are they of one frame, in mm, each under its "
-      "own "
-      "belt?";
+      "no four anchors fit these lengths: are they from one frame, in mm, each under its own belt?";
   if (!frame)
     return are_in_one_spot(belts) ? not_determined(belts) : failed(Reason::no_frame, kNoFrame);
   const belts::FitDiagnostics view(belts, *frame);
   if (frame->residual_sigma_mm > kNoFrameMm) {
     return failed(Reason::no_frame,
-                  fmt::format("the lengths contradict each other by {:.0f} mm for any anchors: "
-                              "are they of one frame, in mm, each under its own belt?",
+                  fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
+                              "anchors: are they from one frame, in mm, each under its own belt?",
                               frame->residual_sigma_mm));
   }
   const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();

@@ -64,8 +64,8 @@ std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
   const std::vector<RepeatedPull> found = repeated_pulls(belts);
   if (found.empty()) return "";
   std::string text =
-      "Places that were read twice, with the held belts unchanged, show how much the pulled ones "
-      "stretch between the two pulls:";
+      "Places read at two pulls, with the holding belts unchanged, show how much the pulled belts "
+      "stretch from one pull to the other:";
   for (const RepeatedPull& pull : found) {
     fmt::format_to(std::back_inserter(text),
                    "{} points {} and {} {:.3f} +- {:.3f} %",

@@ -57,7 +57,7 @@ class AnalysisRules {
   /// this.
   double false_alarm = kFalseAlarm;
   /// For causes that could not show at any size in their range, with the settings free.
-  std::string_view hidden = "whatever its size, calibrating the settings would hide it";
+  std::string_view hidden = "calibrating the settings would hide it, whatever its size";
 
   /// The system linearised about the state, with the regressors of all testable causes.
   [[nodiscard]] virtual tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const = 0;

@@ -88,8 +88,7 @@ BeltRules::BeltRules(BeltsAnalysis& belts) : belts_(belts) {
   noise = NoiseSize::unknown;
   false_alarm = kFalseAlarmOfBelts;
   hidden =
-      "at any size that it may have, other anchors would hide it: measure at more places, spread "
-      "over the "
+      "other anchors would hide it, whatever its size: measure at more places, spread over the "
       "sheet";
 }
 

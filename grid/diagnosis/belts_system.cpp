@@ -237,18 +237,17 @@ Candidates candidates(const MeasuredBelts& belts) {
   const bool tells_pull = is_pulled_anywhere[0] && is_pulled_anywhere[1];
   const auto hidden_because = [&](const model::effects::Effect* effect, EffectSide side) {
     if (effect == &model::belts::anchor_moved && side == EffectSide::all)
-      return "moving the whole frame with its places changes no length: measure a hole that the "
-             "machine cut from two edges of the sheet";
+      return "moving the whole frame with its places changes no length: measure from two edges of "
+             "the sheet to a hole that the machine cut";
     if (effect == &model::belts::belt_scale && side == EffectSide::all)
-      return "lengths that are all too long by the same share make a larger frame and contradict "
-             "nothing: tape one long distance, between two anchors or two holes that the machine "
-             "cut, "
-             "and give it as distances";
+      return "lengths that are all too long in proportion fit a larger frame without "
+             "contradiction: tape one long distance, between two anchors or two holes that the "
+             "machine cut, and enter it under distances";
     if (effect->needs == model::effects::DataNeed::order && !ordered)
-      return "the order of the places is not in the file: give order";
+      return "the file does not have the order of the places: add order";
     if ((effect == &model::belts::belt_stretch || effect == &model::belts::anchor_flex) &&
         !tells_pull)
-      return "no belt is pulled while others hold: state the pulled ones with pulled";
+      return "no belt is pulled while others hold: name the pulled belts under pulled";
     return "";
   };
   Candidates result;

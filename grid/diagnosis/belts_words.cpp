@@ -30,8 +30,8 @@ std::string improvement_words(const BeltsFindings& found) {
                                  found.residual_sigma_mm);
   if (found.prediction && found.prediction_before) {
     text += fmt::format(
-        "; the lower belts, predicted by the upper two at places left out, from {:.2f} to {:.2f} "
-        "mm",
+        "; that of the lower belts, predicted from the upper two at left-out places, from {:.2f} "
+        "to {:.2f} mm",
         found.prediction_before->rms_mm,
         found.prediction->rms_mm);
   }
@@ -58,8 +58,8 @@ std::string short_of_a_name(const Diagnosis& d) {
   return parts.size() == 1
              ? fmt::format(" No cause is certain, but one is possible: {}.", parts.front())
              : fmt::format(
-                   " No cause is certain, but one of {} is possible, which these lengths do not "
-                   "distinguish: {}.",
+                   " No cause is certain, but one of {} is possible; these lengths do not "
+                   "distinguish them: {}.",
                    parts.size(),
                    joined(parts, "or"));
 }
@@ -78,17 +78,15 @@ std::string sentence(const Diagnosis& d) {
                (d.unexplained->causes_given_law.empty() ? short_of_a_name(d) : "");
       }
       return fmt::format(
-                 "The errors of the lengths change smoothly from place to place, {:.2f} mm a "
-                 "belt over "
-                 "some {:.0f} mm of the sheet, and no listed cause explains them.",
+                 "The errors of the lengths, {:.2f} mm per belt, change smoothly over about {:.0f} "
+                 "mm of the sheet, and no listed cause explains them.",
                  d.unexplained->rms_mm,
                  d.unexplained->length_mm) +
              short_of_a_name(d);
     default:
       return fmt::format(
-                 "Nothing is found beyond the anchors: the error of the lengths at {} places, "
-                 "{:.2f} mm a "
-                 "belt, has no listed cause.",
+                 "Nothing is wrong apart from the anchors: the error of the lengths at {} places, "
+                 "{:.2f} mm per belt, has no listed cause.",
                  d.belts->places.size(),
                  d.belts->residual_sigma_mm) +
              short_of_a_name(d);
@@ -107,9 +105,9 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
     if (std::abs(offset + reach) < kEqualWithin * reach &&
         belts.machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
-          "The lengths exclude arm and extension ({:.0f} mm by the settings, all are {:.0f} mm "
-          "too short): set \"lengths\": \"belt\", or import with --lengths belt, and diagnose "
-          "again.",
+          "The lengths do not include arm and extension ({:.0f} mm in the settings; all lengths "
+          "are {:.0f} mm too short): set \"lengths\": \"belt\", or import with --lengths belt, and "
+          "diagnose again.",
           reach,
           -offset);
     }
@@ -137,8 +135,8 @@ void advise_measurements(const BeltsNext& next, Diagnosis& d) {
         next.measurements);
     if (reached < kLikelierThanNot) {
       text +=
-          " The rest is too close to the noise for so few: measure at more places, out to the "
-          "corners of the frame.";
+          " The remaining causes are too close to the noise for so few places: measure at more, out "
+          "to the corners of the frame.";
     }
   }
   const bool all_does = next.all_once_more && *next.all_once_more >= kWorthMeasuring;
@@ -176,20 +174,20 @@ void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
   if (const Law* law = claimed_law(d)) {
     d.what_to_do.push_back(
         fmt::format("Inspect the {} belt and everything that it runs over for something with this "
-                    "place or period. Then let the machine measure other places, which confirm or "
-                    "deny it.",
+                    "place or period. Then let the machine measure other places to confirm or rule "
+                    "it out.",
                     model::words(belt_of(law->enters).value())));
   }
   advise_measurements(next, d);
   if (!d.belts->scale && !belts.distances.empty()) {
     d.what_to_do.emplace_back(
-        "Tape the distances again: with the causes they fit no frame, so nothing is known about "
-        "the scale.");
+        "Tape the distances again: no frame fits them together with the causes, so the scale is "
+        "unknown.");
   } else if (!d.belts->scale) {
     const bool proposed = !d.next_measurements.empty() &&
                           d.next_measurements.back().kind == MeasurementKind::distance;
     d.what_to_do.push_back(fmt::format(
-        "Tape {}, and give it as distances: belts do not show the size of the frame.",
+        "Tape {}, and enter it under distances: belts do not show the size of the frame.",
         proposed ? d.next_measurements.back().words
                  : "one long distance, between two anchors or two holes that the machine cut"));
   }
@@ -200,10 +198,10 @@ std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, co
   const auto readings = static_cast<double>(4 * belts.points.size());
   std::string text;
   if (belts.firmware_fit) {
-    text = fmt::format("\"Find Anchors fit: rms\": the machine said {:.2f} mm; ",
+    text = fmt::format("\"Find Anchors fit: rms\": the machine printed {:.2f} mm; ",
                        belts.firmware_fit->rms_mm);
   } else {
-    text = "\"Find Anchors fit: rms\" of these readings would say ";
+    text = "\"Find Anchors fit: rms\" for these readings would be ";
   }
   return text + fmt::format(
                     "{}{:.2f} mm by its formula. It divides by all {:.0f} readings, but there are "

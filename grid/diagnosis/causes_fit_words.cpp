@@ -10,18 +10,18 @@ namespace {
 std::string offered_words(const OfferedCause& offered, const std::string& cause) {
   switch (offered.reason) {
     case OfferedCause::Reason::not_sure:
-      return fmt::format("Possible cause: {}. It is not certain enough for the map: chaintrue "
-                         "diagnose proposes what to measure next.",
+      return fmt::format("Possible cause: {}. It is not certain enough to be used in the map; "
+                         "chaintrue diagnose proposes what to measure next.",
                          cause);
     case OfferedCause::Reason::may_be_paper:
       return fmt::format(
-          "Probable cause: {}. It may be the tape that set out the marks instead, and marks "
-          "cannot tell which. Measure a hundred links, or the tape, and give the reading. If you "
+          "Probable cause: {}. The tape used to place the marks may be wrong instead; marks alone "
+          "cannot show which. Measure a hundred links, or the tape, and enter the reading. If you "
           "know that it is the chain, use --accept-class.",
           cause);
     case OfferedCause::Reason::is_paper:
       return fmt::format("Probable cause: {}. The marks themselves are wrong: correct them, or "
-                         "set them out again.",
+                         "place them again.",
                          cause);
     case OfferedCause::Reason::gains_nothing:
       break;
@@ -54,8 +54,8 @@ std::vector<std::string> in_words(const CausesFit& fit) {
     std::vector<std::string> parts;
     for (const Cause& cause : fit.built_on) parts.push_back(sized(cause));
     sentences.push_back(
-        fmt::format("Found, and used in the map: {}. Tested on parts of the bed left out of the "
-                    "fit, the map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
+        fmt::format("Found and used in the map: {}. In parts of the bed left out of the fit the "
+                    "map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
                     joined(parts, "and"),
                     fit.held_out->with_causes_mm,
                     fit.built_on.size() == 1 ? "this cause" : "these causes",

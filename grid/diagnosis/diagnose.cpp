@@ -86,9 +86,9 @@ void state_input(const Measured& measured, Diagnosis& d) {
   const MeasuredHoles& set = *holes.front();
   if (set.machine && set.machine->controller.kind == model::ControllerKind::ideal) {
     d.notes.emplace_back(
-        "The controller is given as ideal: it uses the machine file. These holes were cut with "
-        "the file as it is now: fit them with that, and use the extended machine for what is cut "
-        "with it.");
+        "The machine file has no controller of its own (kind ideal), so the holes were cut with "
+        "the file as it is now. Fit them with that file, and use the extended machine only for "
+        "what is cut with it.");
   }
   d.stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
 }

@@ -155,7 +155,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
       not_testable.push_back(
           {cause,
-           fmt::format("whatever its size, it could hide in these {}", a.session.units_word())});
+           fmt::format("it could hide in these {}, whatever its size", a.session.units_word())});
     } else {
       result.push_back({cause, std::string(size.name), upper});
     }

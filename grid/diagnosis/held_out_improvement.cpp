@@ -122,7 +122,7 @@ std::string scheme_of(const ObservationSet& session,
       blocks.of_the_bed ? fmt::format("{} blocks of the bed", blocks.units.size())
                         : fmt::format("all the distances of each of {} holes", blocks.units.size()),
       naming_repeated ? "the rest diagnosed without it"
-                      : fmt::format("the causes that all {} name fitted without it, because "
+                      : fmt::format("with the causes from all {} fitted without it, because "
                                     "leaving some out changes the answer",
                                     session.units_word()));
 }

@@ -198,7 +198,7 @@ tl::expected<Declaration, std::string> declaration_of(const std::vector<Law>& la
                                                       const model::Bed& bed) {
   if (laws.empty()) {
     return tl::unexpected(
-        std::string("No law is written: with these readings no law is likelier than none."));
+        std::string("No law is written: for these readings no law is more likely than none."));
   }
   const Law& first = laws.front();
   if (first.probability < kLawClaimed) {

@@ -70,7 +70,7 @@ std::string variable_in_words(const Law& law) {
     case Coordinate::y:
       return of_belts ? "y from the bottom left anchor" : "y";
     case Coordinate::across:
-      return fmt::format("the way{} in the direction {:.0f} degrees from x towards y",
+      return fmt::format("the distance{} in the direction {:.0f} degrees from x towards y",
                          of_belts ? " from the bottom left anchor" : "",
                          law.direction_deg);
     case Coordinate::border:
@@ -85,7 +85,7 @@ std::string variable_in_words(const Law& law) {
       belt ? fmt::format("the {} belt", model::words(*belt))
            : fmt::format("the {} chain", chain_of(law.of) == model::Side::left ? "left" : "right");
   const std::string_view unit = unit_of(law.of);
-  if (unit == "n") return "the pull in " + owner;
+  if (unit == "n") return "the tension in " + owner;
   if (unit == "mm") return owner + "'s length";
   return owner + (belt ? "'s angle against the horizontal" : "'s angle below the horizontal");
 }
@@ -112,7 +112,7 @@ std::string form_in_words(const Law& law) {
 std::string in_words(const Law& law) {
   constexpr std::string_view kSentences[] = {
       "{slope} in proportion to {variable}, {entrance}",
-      "a bow over {variable} about {at}, {size} mm high half a bed away, {entrance}",
+      "a parabola over {variable} about {at}, {size} mm high half a bed away, {entrance}",
       "a step of {size} mm at {variable} = {at}, {entrance}",
       "{slope} {side} {variable} = {at}, {entrance}",
       "{size} mm at {variable} = {end}, falling to a third within {at}, {entrance}",
@@ -169,8 +169,8 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
   // Tolerance of a belt's pitch: one per cent.
   if (std::abs(period.value - turn) >= std::max(2.0 * period.sigma, 0.01 * turn)) return {};
   return {fmt::format(
-      "Its period is near one turn of the motor ({:.3f} mm of belt): does its pulley or its "
-      "magnet run out of true?",
+      "Its period is near one turn of the motor ({:.3f} mm of belt): is its pulley or its magnet "
+      "eccentric?",
       turn)};
 }
 
@@ -187,7 +187,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
     // Tolerance of a period: one per cent.
     if (near(turn, 0.01 * turn)) {
       hints.push_back(fmt::format(
-          "Its period is near one turn of the sprocket ({:.1f} mm): does it run out of true?",
+          "Its period is near one turn of the sprocket ({:.1f} mm): is it eccentric?",
           turn));
     } else if (near(0.5 * turn, 0.005 * turn)) {
       hints.push_back(fmt::format(
@@ -210,7 +210,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
       hints.push_back(fmt::format("Its place is near the {} motor.", name));
   }
   if (unit_of(law.of) == "n")
-    hints.emplace_back("It follows a chain's pull: something yields under load.");
+    hints.emplace_back("It follows a chain's tension: something yields under load.");
   return hints;
 }
 

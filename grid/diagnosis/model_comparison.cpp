@@ -45,7 +45,7 @@ std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
 
 const CandidateModel& ModelComparison::best() const {
   if (models.empty()) {
-    throw precondition("the best of no models, of {} systems, total weight {}",
+    throw precondition("no models to choose from ({} systems, total weight {})",
                        marginalised_systems.size(),
                        log_total);
   }

@@ -24,9 +24,9 @@ std::optional<DiagnosisFailure> suspected_tape_zero(const MeasuredHoles& set) {
   return DiagnosisFailure{
       DiagnosisFailure::Reason::contradictory_settings,
       fmt::format(
-          "all distances are about {:.0f} mm {} than commanded, long ones and short ones by the "
-          "same: it looks as if the tape's hook offset, given as {:g} mm, is {:.0f} mm. Enter it "
-          "(\"tape\": {{\"hook_offset_mm\": {:.0f}}}) before causes are looked for",
+          "all distances are about {:.0f} mm {} than commanded, whatever their length: the tape's "
+          "hook offset, entered as {:g} mm, is probably {:.0f} mm. Correct it (\"tape\": "
+          "{{\"hook_offset_mm\": {:.0f}}}), then diagnose again",
           std::abs(*tape_zero_mm),
           *tape_zero_mm > 0.0 ? "longer" : "shorter",
           set.tape.tape_zero_offset_mm,
@@ -42,8 +42,8 @@ std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
       const MeasuredFile& other = measured.files()[k];
       if (!same_readings(first, other)) continue;
       return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
-                              fmt::format("{} holds the same readings as {}, to the last digit: a "
-                                          "copy adds nothing. Leave it out",
+                              fmt::format("{} has the same readings as {}, to the last digit, and "
+                                          "a copy adds nothing. Leave it out",
                                           other.name,
                                           first.name)};
     }

@@ -166,8 +166,8 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   }
   if (!noise) {
     return failure(Reason::no_noise,
-                   "the accuracy of the points is not given, and too few were measured twice to "
-                   "show it. Give it (\"noise\" in the grid file, or --noise-length-mm, "
+                   "the accuracy of the points is unknown, and too few were measured twice to "
+                   "estimate it. Enter it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
   // Orders of different sessions are unrelated.
@@ -209,8 +209,8 @@ std::optional<std::string> too_few(const Measured& measured) {
   if (2 * points + distances >= 2 * kFewestPoints) return std::nullopt;
   if (!measured.holes().empty()) {
     return fmt::format(
-        "{} points and {} distances are too few to name a cause: a point counts as two, and {} in "
-        "all are needed",
+        "{} points and {} distances are too few to name a cause: a point counts as two "
+        "readings, and {} readings are needed",
         points,
         distances,
         2 * kFewestPoints);
@@ -228,9 +228,9 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   if (!measured.machine()) {
     return failure(Reason::no_machine,
                    measured.grids().empty()
-                       ? "the holes name no machine, so the chain lengths for their commands are "
-                         "unknown: give --machine M.json"
-                       : "a diagnosis needs your machine's dimensions: give --machine M.json");
+                       ? "the holes have no machine, so the chain lengths for their commands are "
+                         "unknown: add --machine M.json"
+                       : "a diagnosis needs your machine's dimensions: add --machine M.json");
   }
   Machine stated = *measured.machine();
   std::vector<ExtraReading> readings;

@@ -171,8 +171,8 @@ std::string in_words(const VisitingOrderFound& found, const std::string& session
                                 : fmt::format("{} in {}", found.order.serpentine ? "there and back" : "one way",
                                               found.order.rows ? "rows" : "columns");
   return fmt::format(
-      "The order in which the marks{} were visited was not recorded. By the readings it was: {} "
-      "({}). If that is wrong, record the order, or state it with --assume-order.",
+      "The order in which the marks{} were visited was not recorded. The readings show that it "
+      "was: {} ({}). If that is wrong, record the order, or give it with --assume-order.",
       session.empty() ? "" : " of " + session, order, percent(found.probability));
 }
 

@@ -117,7 +117,7 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
   const std::string which = joined(tried, "and", ", ");
   const std::string text =
       changes == 0
-          ? fmt::format("The answer stays the same whichever of {} is left out.", which)
+          ? fmt::format("Leaving out any of {} does not change the answer.", which)
           : fmt::format("Of {}, each left out in turn, {} would change the answer.", which, changes);
   if (weakest->probability > kBeyondDoubt) return text;
   return text + fmt::format(

@@ -49,9 +49,8 @@ std::string alongside_words(const Diagnosis& d) {
   const std::string probability = percent(left.probability);
   if (d.belts) {
     return fmt::format(
-        " {}, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed "
-        "cause "
-        "makes: {}.",
+        " {}, the errors, {:.2f} mm per belt, form a pattern over about {:.0f} mm of the sheet that "
+        "no listed cause explains: {}.",
         besides,
         left.rms_mm,
         left.length_mm,
@@ -62,7 +61,7 @@ std::string alongside_words(const Diagnosis& d) {
       besides,
       left.rms_mm,
       left.follows.empty()
-          ? fmt::format(" that changes over some {:.0f} mm of the bed", left.length_mm)
+          ? fmt::format(" that changes over about {:.0f} mm of the bed", left.length_mm)
           : fmt::format(" that follows {}", coordinate_words(left.follows)),
       probability);
 }
@@ -110,7 +109,7 @@ std::string causes_in_words(const Diagnosis& d) {
           sized(other.cause, other.parameters));
     }
   } else if (d.verdict == Verdict::named_set) {
-    text = fmt::format("One of {} causes, which these {} do not distinguish: {}.",
+    text = fmt::format("One of {} causes that these {} do not distinguish: {}.",
                        parts.size(),
                        words.readings,
                        joined(parts, "or"));

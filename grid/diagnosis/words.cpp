@@ -19,9 +19,9 @@ std::string improvement_words(const Diagnosis& d) {
   if (!d.improvement) return "";
   if (d.improvement->extended.rms_mm >= d.improvement->calibrated.rms_mm) {
     return fmt::format(
-        " It does not improve {}: left-out readings are predicted to {:.2f} mm with it and "
-        "without, and the scatter of the readings is {:.2f} mm. So the machine is left as it "
-        "is.",
+        " Correcting for it does not improve {}: left-out readings are predicted to {:.2f} mm with "
+        "and without it, and the scatter of the readings is {:.2f} mm. The machine is therefore "
+        "left unchanged.",
         speaks_of_distances(d) ? "distances" : "the tool",
         d.improvement->calibrated.rms_mm,
         d.improvement->noise_floor_mm);
@@ -48,8 +48,9 @@ std::string unknown_words(const Diagnosis& d) {
                 "The {} show a pattern that repeats over the bed and that no cause in the "
                 "catalogue explains",
                 name(d.observations))
-          : "The holes are off the positions given by their chain lengths, neighbours by about "
-            "the same and by more than the scatter of the readings, and no known cause explains it";
+          : "The holes are off the positions that follow from their chain lengths, by more than "
+            "the scatter of the readings and by similar amounts for neighbours, and no known cause "
+            "explains it";
   if (!d.left_over.follows.empty()) {
     text += fmt::format("; it follows {} best ({:.0f} % of it)",
                         coordinate_words(d.left_over.follows),
@@ -98,8 +99,8 @@ std::string nothing_words(const Diagnosis& d, std::size_t units) {
         name(d.observations));
   }
   std::string text = fmt::format(
-      "Nothing is found beyond the settings: what is left {} the {} {} is as large as the readings "
-      "can err.",
+      "Nothing is wrong apart from the settings: the remaining error {} the {} {} is within the "
+      "scatter of the readings.",
       d.observations == Observations::points ? "at" : "of",
       units,
       name(d.observations));
@@ -128,8 +129,8 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
             d.noise_factor);
       }
       return fmt::format(
-          "The {} scatter {:.1f} times as much as you gave, without a pattern: check the tape, the "
-          "{} and play in the sled.",
+          "The {} scatter {:.1f} times as much as you entered, without a pattern: check the tape, "
+          "the {} and play in the sled.",
           name(d.observations),
           d.noise_factor,
           speaks_of_distances(d) ? "drill" : "marking");
@@ -194,8 +195,7 @@ void advise(Diagnosis& d) {
     d.what_to_do.emplace_back(
         d.unexplained->causes_given_law.empty()
             ? "Write the law to a file (chaintrue diagnose --law), measure other points, and "
-              "diagnose these "
-              "with it (--effects): they confirm or deny it."
+              "diagnose these with it (--effects) to confirm it or rule it out."
             : "Write the law to a file (chaintrue diagnose --law) and diagnose these readings "
               "again with it "
               "(--effects): the machine file then has the causes found together with it.");
@@ -205,13 +205,14 @@ void advise(Diagnosis& d) {
         "cause.");
     // More marks on the same sheet cannot tell whose error it is.
     d.what_to_do.emplace_back(
-        "Turn the sheet by half a turn, or set it out with another tape, and measure again: an "
-        "error that turns with it is the sheet's or the tape's; one that stays is the machine's; "
-        "one that is gone was that day's.");
+        "Rotate the sheet by half a turn, or place the marks with a different tape, and measure "
+        "again. An error that rotates with the sheet belongs to the sheet or the tape; one that "
+        "stays belongs to the machine; one that disappears belonged to that session.");
   }
   advise_settings(d);
   if (d.what_to_do.empty()) {
-    d.what_to_do.push_back(fmt::format("Type in the calibrated settings; these {} show no more.",
+    d.what_to_do.push_back(fmt::format("Type in the calibrated settings; these {} show nothing "
+                                       "else.",
                                        name(d.observations)));
   }
 }
@@ -240,13 +241,12 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   const ObservationSet& session = a.session;
   if (!a.converged) {
     d.notes.emplace_back(
-        "The calibration had not converged after its last pass: the settings are less certain "
+        "The calibration had not converged after its last pass, so the settings are less certain "
         "than their sigmas. Look for a reading that is far off, or a wrong setting.");
   }
   if (session.noise_from_repeats && d.improvement) {
     d.notes.push_back(
-        fmt::format("Your readings scatter by about {:.2f} mm, judging by the marks that were "
-                    "measured twice.",
+        fmt::format("Your readings scatter by about {:.2f} mm, as the marks measured twice show.",
                     d.improvement->noise_floor_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));
@@ -258,8 +258,8 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   }
   d.sentence = a.system.regressors.empty()
                    ? fmt::format(
-                         "These {} can test no cause: there are too few of them, or they err "
-                         "too much, for any cause to show.",
+                         "These {} cannot test any cause: there are too few of them, or they "
+                         "scatter too much.",
                          name(d.observations))
                    : sentence(d, session.units.size());
   d.not_proved = not_proved(session, d);

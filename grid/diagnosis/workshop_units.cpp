@@ -30,19 +30,19 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::array kUnits = {
     Unit{"scale", 100.0, "{} %"},
     Unit{"elongation", 100.0, "links {} % longer", "links {} % shorter"},
-    Unit{"angle_rad", 1000.0, "{} mm a metre"},
+    Unit{"angle_rad", 1000.0, "{} mm per metre"},
     Unit{"relative_weight", 100.0, "{} % heavier", "{} % lighter"},
-    Unit{"compliance_per_n", 1e6, "{} millionths a newton"},
-    Unit{"flexibility_mm_per_n", 1.0, "{} mm a newton"},
+    Unit{"compliance_per_n", 1e6, "{} millionths per newton"},
+    Unit{"flexibility_mm_per_n", 1.0, "{} mm per newton"},
     Unit{"force_n", 1.0, "{} N to the right", "{} N to the left"},
     Unit{"offset_mm", 1.0, "radius {} mm larger", "radius {} mm smaller"},
-    Unit{"slope_mm_per_rad", 1.0 / kDegrees, "{} mm a degree"},
+    Unit{"slope_mm_per_rad", 1.0 / kDegrees, "{} mm per degree"},
     Unit{"knee_rad",
          kDegrees,
          "sets in at {} degrees below the horizontal",
          "sets in at {} degrees above the horizontal"},
     Unit{"phase_rad", kDegrees, "phase {} degrees"},
-    Unit{"rate_mm_per_visit", 1.0, "{} mm a visit"},
+    Unit{"rate_mm_per_visit", 1.0, "{} mm per visit"},
     Unit{"links", 1.0, "{} links", "", "{} link"},
     Unit{"shift_mm", 1.0, "{} mm too much read", "{} mm too little read"},
     Unit{"first_visit", 1.0, "from visit {} on"},
@@ -67,7 +67,7 @@ constexpr std::array kSledUnits = {
 constexpr std::array kBeltUnits = {
     UnitOfEffect{"belt_stretch",
              {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
-    UnitOfEffect{"belt_scale", {"scale", 100.0, "{} % more belt a turn", "{} % less belt a turn"}},
+    UnitOfEffect{"belt_scale", {"scale", 100.0, "{} % more belt per turn", "{} % less belt per turn"}},
     UnitOfEffect{"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
     UnitOfEffect{"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
     UnitOfEffect{"", {"give_mm", 1.0, "{} mm when pulled"}},
@@ -81,10 +81,10 @@ constexpr std::array kCordUnits = {
     UnitOfEffect{"servo_arm", {"offset_mm", 1.0, "{} mm to the right", "{} mm to the left"}},
     UnitOfEffect{"gondola_width", {"offset_mm", 1.0, "{} mm wider", "{} mm narrower"}},
     UnitOfEffect{"standoff",
-                 {"offset_mm", 1.0, "{} mm farther off the wall", "{} mm nearer to the wall"}},
+                 {"offset_mm", 1.0, "{} mm farther from the wall", "{} mm closer to the wall"}},
     UnitOfEffect{"gondola_mass", {"relative", 100.0, "{} % heavier", "{} % lighter"}},
     UnitOfEffect{"cord_weight",
-                 {"more_g_per_m", 1.0, "{} g a metre heavier", "{} g a metre lighter"}},
+                 {"more_g_per_m", 1.0, "{} g per metre heavier", "{} g per metre lighter"}},
     UnitOfEffect{"pen_friction", {"force_n", 1.0, "{} N"}},
     UnitOfEffect{"spool_layers", {"growth_mm_per_m2", 1.0, "growth {} mm per square metre"}},
     UnitOfEffect{"", {"teeth", 1.0, "{} teeth", "", "{} tooth"}},
@@ -185,10 +185,10 @@ std::string coordinate_words(std::string_view coordinate) {
       Words{"angle_right", "the angle of the right chain"},
       Words{"length_left", "the length of the left chain"},
       Words{"length_right", "the length of the right chain"},
-      Words{"tension_left", "the pull in the left chain"},
-      Words{"tension_right", "the pull in the right chain"},
+      Words{"tension_left", "the tension in the left chain"},
+      Words{"tension_right", "the tension in the right chain"},
       Words{"order", "the order of the visits"},
-      Words{"x", "the place from left to right"},
+      Words{"x", "the position from left to right"},
       Words{"y", "the height on the sheet"},
   };
   for (const Words& w : kWords) {
@@ -206,7 +206,7 @@ std::string side_words(const CauseId& cause) {
       return " on the right";
     case EffectSide::both:
       return cause.effect->station == model::effects::Station::paper ? " along both axes"
-                                                                     : " by the same on both sides";
+                                                                     : " equally on both sides";
     case EffectSide::x:
       return " along x";
     case EffectSide::y:
@@ -220,7 +220,7 @@ std::string side_words(const CauseId& cause) {
     case EffectSide::br:
       return " at the bottom right";
     case EffectSide::all:
-      return ", all four by the same";
+      return ", all four equally";
     case EffectSide::none:
       break;
   }
@@ -259,7 +259,7 @@ std::vector<std::string> remedies(const std::vector<Cause>& causes) {
 std::string reading_words(ReadingOf what, std::string_view side) {
   if (what == ReadingOf::motor_spacing) return "the distance between the motors' axes, with a tape";
   if (what == ReadingOf::beam_rise)
-    return "how much higher the right motor is than the left, with a level";
+    return "the height of the right motor above the left, with a level";
   if (what == ReadingOf::ring_radius) return "from the bit to the end of a chain";
   if (what == ReadingOf::sled_mass) return "the sled's weight, on a scale";
   if (what == ReadingOf::chain_mass) return "the weight of a metre of chain";

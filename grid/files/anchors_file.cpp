@@ -155,7 +155,7 @@ void add_fit(Record<BeltsFit>& record) {
                 &BeltsFit::machine,
                 belt_machine_record())
       .required("coordinates",
-                "The five coordinates that belts can show.",
+                "The five coordinates that belts determine.",
                 &BeltsFit::coordinates,
                 exactly<5>(object(fitted_coordinate_record()), "five coordinates"))
       .computed(
@@ -175,17 +175,17 @@ void add_fit(Record<BeltsFit>& record) {
                 "Spread of a reading, with 2N - 5 checks in the denominator.",
                 &BeltsFit::residual_sigma_mm,
                 kSigmaMm)
-      .required("checks", "That denominator.", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
+      .required("checks", "Degrees of freedom: that denominator.", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
       .required("rms_mm",
-                "Of all readings, those left out too, as the machine's own message has it.",
+                "Rms over all readings, rejected ones included, as in the machine's message.",
                 &BeltsFit::rms_mm,
                 kSigmaMm)
       .required("rms_of_mm",
-                "Of each belt's readings that count.",
+                "Rms of each belt's readings without the rejected ones.",
                 &BeltsFit::rms_of_mm,
                 per_belt_record<double>(number(kAnyNumber)))
       .part("foretold",
-            "Lower belts as the upper two predict them at places that were not fitted.",
+            "Lower belts predicted from the upper two at places left out of the fit.",
             true,
             both_predictions_record())
       .optional(
@@ -215,7 +215,7 @@ const Record<FittedAnchors>& fitted_anchors_record() {
     anchors.sparse("name", "Name of the set.", &FittedAnchors::name)
         .required("fit", "The fit.", &FittedAnchors::fit, fit_record())
         .optional("holes",
-                  "What cut and taped holes add; absent: none were given.",
+                  "Results from cut and taped holes; absent: none were given.",
                   &FittedAnchors::holes,
                   holes_with_belts_record());
     add_content_hash(add_made_by_key(anchors),

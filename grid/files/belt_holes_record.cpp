@@ -28,11 +28,10 @@ Record<BeltHole> belt_hole_record() {
   coordinate("x_mm", "Commanded x.", path(&BeltHole::commanded, &BedPoint::x_mm));
   coordinate("y_mm", "Commanded y, up.", path(&BeltHole::commanded, &BedPoint::y_mm));
   coordinate("mark_x_mm",
-             "x that the fitted anchors give, in the frame of the commands; the sheet may be "
-             "elsewhere.",
+             "x from the fitted anchors, in the frame of the commands; the sheet may be elsewhere.",
              path(&BeltHole::mark, &MarkPoint::x_mm));
   coordinate(
-      "mark_y_mm", "y that the fitted anchors give, up.", path(&BeltHole::mark, &MarkPoint::y_mm));
+      "mark_y_mm", "y from the fitted anchors, up.", path(&BeltHole::mark, &MarkPoint::y_mm));
   return hole;
 }
 
@@ -170,7 +169,7 @@ const Record<HolesWithBelts>& holes_with_belts_record() {
               converted<DisplacementParts>(
                   object(displacement_record()), displacement_of, stated_of))
           .optional("sheet",
-                    "By its measured edges; absent: the holes, as a whole, lie where they were "
+                    "From its measured edges; absent: the holes, as a whole, are where they were "
                     "commanded.",
                     &HolesWithBelts::sheet,
                     converted<Eigen::Vector3d>(

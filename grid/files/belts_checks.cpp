@@ -66,15 +66,15 @@ void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems&
       problems.warn(
           places.point(i, ""),
           fmt::format("the same four lengths as {} to the last digit; treated as a repeat, like "
-                      "others here. If it was copied, leave one of the two out",
+                      "others here. If it is a copy, leave one of the two out",
                       same));
       continue;
     }
     problems.add(
         places.point(i, ""),
         lengths_in_words(belts.points[i]),
-        fmt::format("a reading of its own: {} has the same four lengths to the last digit; "
-                    "leave one of the two out",
+        fmt::format("a separate reading: {} has the same four lengths to the last digit; leave one "
+                    "of the two out",
                     same),
         ProblemKind::repeated_value);
   }
@@ -88,8 +88,8 @@ void check_pulled(const MeasuredBelts& belts, const BeltPlaces& places, Problems
       if (!model::is_upper(belt)) continue;
       problems.add(places.point(i, "pulled"),
                    std::string(name(belt)),
-                   "bl and br alone: on an upright frame tl and tr hold the sled and are never "
-                   "pulled; if the frame lies flat, say \"orientation\": \"flat\"",
+                   "bl and br only: on an upright frame tl and tr hold the sled and are never "
+                   "pulled; if the frame lies flat, use \"orientation\": \"flat\"",
                    ProblemKind::contradiction);
     }
   }
@@ -102,8 +102,8 @@ void check_pulls(const MeasuredBelts& belts, const BeltPlaces& places, Problems&
     if (own.has_value() == first.has_value() && (!own || own->unit == first->unit)) continue;
     problems.add(places.point(i, "pull"),
                  own ? words_of(*own) : "no pull",
-                 fmt::format("a pull like that of point 1 ({}): all points state the pull, in one "
-                             "unit (pull_n, pull_ma or pull), or none does",
+                 fmt::format("a pull like that of point 1 ({}): either all points have a pull, in "
+                             "one unit (pull_n, pull_ma or pull), or none has",
                              first ? words_of(*first) : "none"),
                  ProblemKind::contradiction);
     return;
@@ -126,11 +126,11 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
       places.points,
       found,
       fmt::format(
-          "each belt's lengths under its own name: exchanged they agree to {:.1f} mm, as they are "
-          "they {}",
+          "each belt's lengths under its own name: exchanged, they agree to {:.1f} mm; as they "
+          "are, they {}",
           swap->swapped_mm,
           swap->as_stated_mm < kMirroredMm
-              ? std::string("make a mirror image of the frame")
+              ? std::string("form a mirror image of the frame")
               : fmt::format("contradict each other by {}{:.0f} mm",
                             swap->as_stated_mm > kMostReported ? "more than " : "",
                             std::min(swap->as_stated_mm, kMostReported))),
@@ -147,14 +147,14 @@ void check_settings(const MeasuredBelts& belts,
       fmt::format("{}/anchors", places.machine),
       fmt::format("{} of {:.0f} mm", other->coordinate, other->stated_mm),
       fmt::format(
-          "anchors of the measured frame, whose {} is {:.0f} mm by the lengths{}; these are "
-          "settings of another frame, or belts are at the wrong anchors. Give the settings of "
-          "this machine, or none (leave x_mm and y_mm out, or --settings)",
+          "anchors of the measured frame, whose {} is {:.0f} mm according to the lengths{}; these "
+          "settings are from another frame, or belts are at the wrong anchors. Use the settings of "
+          "this machine, or none (leave out x_mm and y_mm, or --settings)",
           other->coordinate,
           other->fitted_mm,
           other->upper_mm > 0.0
-              ? fmt::format(", and where the machine was sent its upper belts read {:.0f} mm "
-                            "off what these anchors have",
+              ? fmt::format(", and at the commanded places the upper belts read {:.0f} mm off "
+                            "these anchors",
                             other->upper_mm)
               : ""),
       ProblemKind::contradiction);
@@ -170,7 +170,7 @@ void check_readings(const MeasuredBelts& belts,
   for (const DistanceQuestion& asked : suspected_distances(belts, frame)) {
     problems.add(fmt::format("/distances/{}/distance_mm", asked.distance),
                  fmt::format("{:.10g}", belts.distances[asked.distance].distance_mm),
-                 fmt::format("about {:.0f}, by the lengths of the belts; {}",
+                 fmt::format("about {:.0f}, according to the lengths of the belts; {}",
                              asked.by_belts_mm,
                              asked.question),
                  ProblemKind::contradiction);
@@ -184,9 +184,9 @@ void check_nowhere(const MeasuredBelts& belts,
   for (const NowherePoint& nowhere : points_nowhere(belts, frame)) {
     problems.add(places.point(nowhere.point, ""),
                  lengths_in_words(belts.points[nowhere.point]),
-                 fmt::format("four lengths that meet at one place; with the anchors from the "
-                             "other points, the best place is off by {:.0f} mm: is a digit lost, "
-                             "or is it from another frame? Correct it or leave the point out",
+                 fmt::format("four lengths that meet at one place; with the anchors from the other "
+                             "points, the best place is off by {:.0f} mm: is a digit missing, or "
+                             "is it from another frame? Correct it or leave the point out",
                              nowhere.residual_mm),
                  ProblemKind::contradiction);
   }
@@ -225,8 +225,8 @@ void check_belt_distances(const MeasuredBelts& belts,
         problems.add(
             place(key),
             words_of(end),
-            "a point or an anchor; where a hole is follows from the anchors in force when it "
-            "was cut, and the machine states no x_mm and y_mm of them",
+            "a point or an anchor; the position of a hole follows from the anchors in force when "
+            "it was cut, and the machine has no x_mm and y_mm for them",
             ProblemKind::unknown_word);
       }
     };
@@ -235,7 +235,7 @@ void check_belt_distances(const MeasuredBelts& belts,
     if (words_of(distance.from) == words_of(distance.to)) {
       problems.add(place("to"),
                    words_of(distance.to),
-                   "another end than the one it starts at",
+                   "an end different from its start",
                    ProblemKind::repeated_value);
     }
   }
@@ -255,9 +255,9 @@ bool check_belts_together(const MeasuredBelts& belts,
       problems.explain(
           places.point(*other, ""),
           ProblemKind::other_sheet,
-          "from here on the places are of another frame than those before: each part agrees "
-          "with itself, both together make no frame. A belt that was hooked in anew, an anchor "
-          "that was moved, or two files in one make that; give each part as a file of its own");
+          "from here on the places are from a different frame: each part is consistent, but no "
+          "frame fits both. Possible causes: a belt that was hooked in again, an anchor that was "
+          "moved, or two files joined into one. Make each part a separate file");
       return false;
     }
     if (const auto frame = frame_of_lengths(belts)) {
@@ -284,7 +284,7 @@ bool check_belts_together(const MeasuredBelts& belts,
   if (reason == Reason::too_few_points) {
     problems.add(places.points,
                  found,
-                 fmt::format("at least {}, of which {} checks of the anchors are left over",
+                 fmt::format("at least {}, which leave {} checks of the anchors",
                              kFewestBeltPoints,
                              2 * kFewestBeltPoints - 5),
                  ProblemKind::too_few);
@@ -292,12 +292,12 @@ bool check_belts_together(const MeasuredBelts& belts,
     problems.add(
         places.points,
         found + " on a line",
-        "places spread over the sheet's width and height: on a line, or in one spot, they do not "
+        "places spread over the sheet's width and height; on a line or in one spot they do not "
         "determine the anchors",
         ProblemKind::on_a_line);
   } else {
     problems.add(places.points,
-                 found + " of no frame",
+                 found + " that fit no frame",
                  fmt::format("lengths of one frame; {}", fit.error().sentence()),
                  ProblemKind::contradiction);
   }

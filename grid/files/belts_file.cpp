@@ -39,8 +39,8 @@ void move_ends(const std::vector<std::optional<std::size_t>>& kept,
         problems.add(
             fmt::format("/distances/{}", i),
             words_of(*end),
-            "a point that is used: --without leaves it out; leave the distance out of the file, "
-            "or keep the point",
+            "a point that is used: --without leaves it out. Remove the distance from the file, or "
+            "keep the point",
             ProblemKind::contradiction);
         return;
       }

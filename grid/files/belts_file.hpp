@@ -74,7 +74,7 @@ struct ReadBelts {
 [[nodiscard]] std::vector<std::size_t> point_numbers_of(
     const std::string& text,
     const std::string& option,
-    std::string_view what = "points as the messages have them");
+    std::string_view what = "points as the messages number them");
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_belts(const MeasuredBelts& belts,

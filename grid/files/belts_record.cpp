@@ -67,7 +67,7 @@ void read_anchors(const Cursor& at, BeltMachine& machine) {
   if (known != 0 && known != 8 && at.clean()) {
     at.problems().add(at.pointer(),
                       fmt::format("{} of eight coordinates", known),
-                      "x_mm and y_mm of all four anchors, or of none where they are not known yet",
+                      "x_mm and y_mm of all four anchors, or of none if they are not known yet",
                       ProblemKind::missing);
   }
 }
@@ -142,8 +142,8 @@ void add_lengths(Record<BeltPoint>& record) {
     record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), kBeltLengthMm);
   };
   length("tl_mm",
-         "Length of the top left belt as the controller prints it; the machine's lengths says what "
-         "it means.",
+         "Length of the top left belt as the controller prints it; the machine's lengths defines "
+         "its meaning.",
          &Lengths::tl);
   length("tr_mm", "Length of the top right belt.", &Lengths::tr);
   length("bl_mm", "Length of the bottom left belt.", &Lengths::bl);
@@ -352,18 +352,18 @@ const Record<BeltMachine>& belt_machine_record() {
                   &BeltMachine::orientation,
                   by_name({model::Orientation::upright, model::Orientation::flat}))
         .optional("lengths",
-                  "What a printed length means: the belt, the belt with extension and arm, or the "
-                  "level span from anchor to tool.",
+                  "What a printed length includes: the belt, the belt with extension and arm, or "
+                  "the level span from anchor to tool.",
                   &BeltMachine::lengths,
                   by_name({model::BeltLengths::belt,
                            model::BeltLengths::belt_and_arm,
                            model::BeltLengths::span}))
         .optional("scale_x",
-                  "Factor of the controller on commands along x.",
+                  "The controller's factor for commands along x.",
                   &BeltMachine::scale_x,
                   number_in(""))
         .optional("scale_y",
-                  "Factor of the controller on commands along y.",
+                  "The controller's factor for commands along y.",
                   &BeltMachine::scale_y,
                   number_in(""))
         .optional(

@@ -51,8 +51,8 @@ void check_content(const Cursor& at) {
   const Cursor hash = at.child("content_hash");
   if (hash.json() != content_hash(at.json())) {
     hash.expect(
-        "the hash of this file's content: it was changed or damaged since it was written; fit the "
-        "points again",
+        "the hash of this file's content: the file was changed or damaged after it was written; "
+        "fit the points again",
         ProblemKind::content_hash);
   }
 }

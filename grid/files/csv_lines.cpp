@@ -133,7 +133,7 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     if (number < first) {
       problems.warn(line_and_column(number, 1),
-                    fmt::format("a note, no reading: left out ({})", shortened(line)));
+                    fmt::format("a note without a reading: left out ({})", shortened(line)));
       return true;
     }
     if (line.size() > kLongestLine) {

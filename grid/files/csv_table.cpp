@@ -99,7 +99,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
       place = {i, column.factor != 1.0 ? column.factor : of_column};
     } else {
       is_wrong = true;
-      remarks += fmt::format("; \"{}\" stands there twice", name);
+      remarks += fmt::format("; \"{}\" is there twice", name);
     }
   }
   bool missing = false;
@@ -119,7 +119,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
   });
   const auto is_there = [&](std::string_view name) { return contains(found, name); };
   if (is_there("x_mm") && is_there("y_mm") && found.size() <= 3) {
-    remarks += "; these are only places, and the measurements are missing";
+    remarks += "; these are only places, without measurements";
   } else if (any_of(found, [](const std::string& name) {
                return name.find("distance") != std::string::npos ||
                       name.find("length") != std::string::npos ||
@@ -127,7 +127,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
              })) {
     remarks += fmt::format("; {}", kLengthsBetween);
   }
-  if (numbers) remarks = "; the first line holds numbers, the header is missing";
+  if (numbers) remarks = "; the first line has numbers, so the header is missing";
   if (!numbers && header.size() == names_of(columns, true).size()) {
     remarks += fmt::format("; if these are the columns in this order, the line should read {}",
                            fmt::join(names_of(columns, true), ","));
@@ -189,7 +189,7 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
                               : text.find(' ') != std::string::npos && !length_with_unit_mm(text);
     if (filled != 1 || !is_words || rows[0].size() < 2) return;
     problems.warn(last.front().place(),
-                  fmt::format("a note, no reading: left out ({})", shortened(text)));
+                  fmt::format("a note without a reading: left out ({})", shortened(text)));
     rows.pop_back();
   }
 }
@@ -238,8 +238,8 @@ CsvTable read_csv(std::string_view text,
     problems.explain(
         rows[1].front().place(),
         ProblemKind::decimal_comma,
-        fmt::format("these commas look like decimal commas: write decimals with a point "
-                    "({} cells stand under a header of {}).",
+        fmt::format("these commas look like decimal commas: write decimals with a point ({} cells "
+                    "are under a header of {}).",
                     rows[1].size(),
                     width));
     return table;

@@ -21,8 +21,8 @@ namespace chaintrue::grid::files {
 
 /// How to give lengths between places, for messages about tables that hold such.
 inline constexpr std::string_view kLengthsBetween =
-    "lengths between places are given below from_x_mm,from_y_mm,to_x_mm,to_y_mm,distance_mm, a line each: "
-    "-300,0,300,0,604 where 600 was commanded and 604 was cut";
+    "write lengths between places below from_x_mm,from_y_mm,to_x_mm,to_y_mm,distance_mm, one per "
+    "line: -300,0,300,0,604 if 600 was commanded and 604 was cut";
 
 /// The names of the columns, by the header: in small letters, `X (mm)` and `x_in` as x_mm.
 [[nodiscard]] std::vector<std::string> csv_header(std::string_view text);

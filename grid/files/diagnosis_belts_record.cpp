@@ -105,7 +105,7 @@ Record<SecondPass> second_pass_record() {
 
 const Record<BeltsFindings>& belts_findings_record() {
   static const auto record = [] {
-    Record<BeltsFindings> found("what belts tell");
+    Record<BeltsFindings> found("results for four belts");
     found
         .required("machine",
                   "The machine, with anchors fitted together with the causes.",
@@ -152,8 +152,8 @@ const Record<BeltsFindings>& belts_findings_record() {
                   &BeltsFindings::firmware_fit,
                   firmware_fit_record())
         .optional("second_pass",
-                  "All places measured again with more tension, if that separates causes that "
-                  "nothing less separates.",
+                  "All places measured again with more tension, if nothing less separates the "
+                  "causes.",
                   &BeltsFindings::second_pass,
                   second_pass_record())
         .required("places",

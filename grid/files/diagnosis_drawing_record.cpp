@@ -46,7 +46,7 @@ void take_cause_of_cords(CauseId& cause) {
 
 const Record<DrawingFindings>& drawing_findings_record() {
   static const auto record =
-      Record<DrawingFindings>("what a drawing tells")
+      Record<DrawingFindings>("results for a drawing")
           .required("plotter", "Name of the plotter.", &DrawingFindings::plotter)
           .required("settings",
                     "All settings of the controller.",

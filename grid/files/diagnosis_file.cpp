@@ -24,7 +24,7 @@ using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
 Record<StatedNoise> stated_noise_record() {
-  return Record<StatedNoise>("the noise as it was said")
+  return Record<StatedNoise>("the noise as entered")
       .required(
           "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNotNegative)
       .required("position_mm",
@@ -32,7 +32,7 @@ Record<StatedNoise> stated_noise_record() {
                 &StatedNoise::position_mm,
                 kNotNegative)
       .required(
-          "dof", "How well that is known, in degrees of freedom.", &StatedNoise::dof, kNotNegative);
+          "dof", "Degrees of freedom with which this is known.", &StatedNoise::dof, kNotNegative);
 }
 
 Record<VisitingOrder> line_order_record() {
@@ -65,7 +65,7 @@ Record<diagnosis::VisitingOrderFound> visiting_order_record() {
 }
 
 Record<StatedTape> stated_tape_record() {
-  return Record<StatedTape>("the noise of holes and a tape as it was said")
+  return Record<StatedTape>("the noise of holes and a tape as entered")
       .required("tape_sigma_mm",
                 "Noise of a tape reading, 1 sigma.",
                 &StatedTape::tape_sigma_mm,
@@ -75,7 +75,7 @@ Record<StatedTape> stated_tape_record() {
                 &StatedTape::hole_sigma_mm,
                 kNotNegative)
       .required("dof",
-                "How well these are known, in degrees of freedom.",
+                "Degrees of freedom with which these are known.",
                 &StatedTape::dof,
                 kNotNegative);
 }
@@ -94,15 +94,15 @@ const Record<Shift>& shift_record() {
   static const auto record =
       Record<Shift>("a bad point's shift")
           .optional("x_mm",
-                    "x that its tool would need to have had, minus the x written down.",
+                    "x that its tool must have had, minus the recorded x.",
                     &Shift::x_mm,
                     kMillimetres)
           .optional("y_mm",
-                    "y that its tool would need to have had, minus the y written down.",
+                    "y that its tool must have had, minus the recorded y.",
                     &Shift::y_mm,
                     kMillimetres)
           .optional("off_mm",
-                    "For a distance: how much too long it was read.",
+                    "For a distance: excess of the reading.",
                     &Shift::residual_mm,
                     kMillimetres)
           .required("sigmas", "The same in sigmas.", &Shift::sigmas, kNotNegative)
@@ -242,8 +242,8 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
   if (of_drawing) take_causes_of_cords(object);
   if (!of_belts && !of_drawing && !at.has("extended_machine"))
     at.child("extended_machine").missing("a chaintrue_machine");
-  if (of_belts && !object.belts) at.child("belts").missing("what belts tell");
-  if (of_drawing && !object.drawing) at.child("drawing").missing("what a drawing tells");
+  if (of_belts && !object.belts) at.child("belts").missing("results for four belts");
+  if (of_drawing && !object.drawing) at.child("drawing").missing("results for a drawing");
   if (object.drawing) {
     const std::size_t measures = object.drawing->measures.size();
     for (const Outlier& bad : object.outliers) {
@@ -353,7 +353,7 @@ Record<Diagnosis> make_diagnosis_record() {
                 &Diagnosis::noise_factor,
                 kNotNegative)
       .required("family_wise_p",
-                "How often noise alone lets any effect look as strong.",
+                "How often noise alone makes any effect look as strong.",
                 &Diagnosis::family_wise_p,
                 kShare)
       .required(

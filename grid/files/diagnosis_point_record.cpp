@@ -132,7 +132,7 @@ const Record<HolePicture>& hole_picture_record() {
   static const auto record = [] {
     Record<HolePicture> hole("a hole");
     hole.required(
-        "name", "Any word; without one the holes are numbered from 0.", &HolePicture::name);
+        "name", "Any word; without names the holes are numbered from 0.", &HolePicture::name);
     place_keys(hole);
     pair_key(hole,
              "commanded_mm",

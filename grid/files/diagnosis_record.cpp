@@ -262,7 +262,7 @@ const Record<Hypothesis>& hypothesis_record() {
 
 const Record<LeftOver>& left_over_record() {
   static const auto record = [] {
-    Record<LeftOver> left("what is left over");
+    Record<LeftOver> left("what remains");
     left.required("delta", "Signal-to-noise ratio.", &LeftOver::signal_to_noise, kNotNegative);
     left.nullable(
         "follows",

@@ -113,7 +113,7 @@ Record<Removal> removal_record() {
 
 const Record<Stability>& stability_record() {
   static const auto record =
-      Record<Stability>("whether the name stands")
+      Record<Stability>("whether the name is stable")
           .required(
               "probability", "Smallest probability of the name.", &Stability::probability, kShare)
           .required("removals",

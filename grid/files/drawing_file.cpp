@@ -47,7 +47,7 @@ void check_middle(const Cursor& at, MeasureInFile& measure) {
   if (is_bow && measure.middle.empty())
     at.child("middle").missing("the cross at which the bow was measured");
   if (!is_bow && !measure.middle.empty())
-    at.child("middle").expect("to be left out: a length has two ends alone");
+    at.child("middle").expect("to be left out, because a length has only two ends");
 }
 
 Record<MeasureInFile> measure_record() {

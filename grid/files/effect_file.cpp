@@ -85,7 +85,7 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
   if (known != machine.declared.end()) {
     problems.add("/id",
                  effect.id,
-                 "a name that no other effect has: two of one name are declared",
+                 "a name that no other effect has; two have this name",
                  ProblemKind::repeated_value);
     return;
   }

@@ -33,7 +33,7 @@ double assumed_nominal(const DeclaredParameter& p) {
 void check_parameter(const Cursor& at, DeclaredParameter& p) {
   const bool place = p.role == ParameterRole::place;
   if (place && at.has("null") && !at.child("null").json().is_null())
-    at.child("null").expect("to be left out of a place, which has no value without effect");
+    at.child("null").expect("to be left out for a place, which has no null");
   if (!at.has("nominal") || at.child("nominal").json().is_null()) p.nominal = assumed_nominal(p);
   if (place) p.null = p.nominal;
   if (p.symbol.empty()) p.symbol = p.name;
@@ -71,7 +71,7 @@ Record<DeclaredParameter> parameter_record() {
           [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
           [](const DeclaredParameter& p) { return p.nominal; })
       .required("prior_sigma",
-                "Prior sigma of a size about null, of a place about nominal.",
+                "Prior sigma: for a size about null, for a place about nominal.",
                 &DeclaredParameter::prior_sigma,
                 kAnyNumber)
       .required("lower", "The smallest value.", &DeclaredParameter::lower, kAnyNumber)
@@ -143,7 +143,7 @@ const Record<Declaration>& declaration_record() {
                   "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
                   "everything that is added.",
                   &Declaration::elongation)
-          .required("cause", "The cause, in the words of a diagnosis.", &Declaration::cause)
+          .required("cause", "The cause, as a diagnosis words it.", &Declaration::cause)
           .sparse("signature", "How it shows on the bed.", &Declaration::signature)
           .optional("remedy_kind",
                     "Where the remedy is applied.",

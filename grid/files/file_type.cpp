@@ -83,8 +83,8 @@ std::string what_takes(std::string_view file_type) {
   if (format == nullptr || format->noun.empty()) return {};
   return format->is_result()
              ? fmt::format(
-                   "; this is {}, no measurement: give the file that chaintrue {} was given, "
-                   "or the one that it wrote with -o",
+                   "; this is {}, not a measurement: use the input of chaintrue {}, or the file "
+                   "that it wrote with -o",
                    format->noun,
                    format->verbs)
              : fmt::format("; this is {}; did you mean chaintrue {}?", format->noun, format->verbs);

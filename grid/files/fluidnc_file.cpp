@@ -23,7 +23,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   if (!is_fluidnc(text)) {
     problems.add("",
                  "no WallPlotter",
-                 "kinematics: WallPlotter: with its anchors, as FluidNC has it",
+                 "kinematics: WallPlotter: with its anchors, as in FluidNC",
                  ProblemKind::missing);
     problems.throw_if_any();
   }
@@ -49,16 +49,16 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   problems.throw_if_any();
   problems.warn(
       "",
-      fmt::format("FluidNC has no settings for what hangs on the anchors. Assumed: a sled of "
-                  "{} kg, a ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} "
-                  "kg/m, a frame that leans {} degrees: put your own into the machine file",
+      fmt::format("FluidNC has no settings for the sled and chains. Assumed: a sled of {} kg, a "
+                  "ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} kg/m, a frame that "
+                  "leans {} degrees. Enter your values in the machine file",
                   machine.sled.mass_kg,
                   std::get<model::Ring>(machine.attachment).radius_mm,
                   machine.sprocket.teeth,
                   machine.sprocket.pitch_mm,
                   machine.chain.mass_kg_per_m,
                   machine.frame.tilt_from_vertical_deg));
-  settings.warn_of_others("says where the sled hangs");
+  settings.warn_of_others("describes where the sled hangs");
   read.warnings = problems.warnings();
   return read;
 }

@@ -28,23 +28,23 @@ constexpr std::array kDescribed = {
     Described{&kMachineFormat,
               machine_schema,
               "A machine",
-              "A machine. `chaintrue start` and `chaintrue import` write one from the "
-              "controller's settings; `chaintrue start` alone writes one to fill in. Ranges "
-              "include every real hanging router. The motors must hang above the bed, the left "
-              "one on the left."},
+              "A machine. `chaintrue start` and `chaintrue import` write one from the controller's "
+              "settings; `chaintrue start` without a file writes one to fill in. Ranges include "
+              "every real hanging router. The motors must hang above the bed, the left one on the "
+              "left."},
     Described{&kGridFormat,
               grid_schema,
               "A grid of measured points",
               "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue "
-              "plan` writes one to fill in, `simulate` and `import optical` write whole ones; "
+              "plan` writes one to fill in, `simulate` and `import optical` write complete ones; "
               "`fit`, `diagnose` and `check` read them.\n\nAs CSV the first line names the "
               "columns, in any order: `x_mm`, `y_mm`, and `left_mm`, `right_mm` or "
               "`commanded_x_mm`, `commanded_y_mm`, and optionally `order`; the rest comes from "
-              "options. Cells are separated by commas, semicolons or tabs; with semicolons "
-              "numbers may have decimal commas. A cell may carry its unit (`12.5 cm`, `43 13/16 "
-              "in`; a fraction is of an inch), a column may be in inches (`x_in`), and unknown "
-              "columns, notes below the last row and lines that begin with # are ignored. A row "
-              "without readings counts as not measured."},
+              "options. Cells are separated by commas, semicolons or tabs; with semicolons numbers "
+              "may have decimal commas. A cell may carry its unit (`12.5 cm`, `43 13/16 in`; a "
+              "fraction is of an inch), a column may be in inches (`x_in`), and unknown columns, "
+              "notes below the last row and lines that begin with # are ignored. A row without "
+              "readings counts as not measured."},
     Described{&kHolesFormat,
               holes_schema,
               "Holes and distances",
@@ -67,13 +67,13 @@ constexpr std::array kDescribed = {
     Described{&kSweepFormat,
               sweep_schema,
               "A sweep",
-              "The combinations that `chaintrue sweep` simulates: all combinations of the lists' "
-              "entries. See [sweeps](../sweeps.md)."},
+              "What `chaintrue sweep` simulates: all combinations of the lists' entries. See "
+              "[sweeps](../sweeps.md)."},
     Described{&kBeltsFormat,
               belts_schema,
               "Belt lengths of a router on four belts",
               "The four belt lengths at places whose positions are unknown. `chaintrue import "
-              "maslow4` writes one from the machine's log; `fit` makes anchors of it."},
+              "maslow4` writes one from the machine's log; `fit` estimates the anchors from it."},
     Described{&kAnchorsFormat,
               anchors_schema,
               "Anchors of a router on four belts",
@@ -85,15 +85,15 @@ constexpr std::array kDescribed = {
               "A declared effect",
               "A cause of error that is not in the catalogue: what it acts on, its size, its "
               "place, and a formula. `--effects` gives it to `diagnose`, `fit`, `simulate` and "
-              "`effects`; [effects](../effects.md) explains formulas and shows three."},
+              "`effects`; [effects](../effects.md) explains formulas and has three examples."},
     Described{&kPlotterFormat,
               plotter_schema,
               "A V-plotter",
               "A plotter whose pen hangs on two cords, with the controller's settings and the "
               "results of a test drawing. `chaintrue import plotter` writes one from the "
               "controller's settings, `fit` adds the results; `start` and `export plotter` read "
-              "it. See [plotters](../plotters.md). Places are from the middle between the two "
-              "pins, x to the right, y up."},
+              "it. See [plotters](../plotters.md). Places are measured from the middle between the "
+              "two pins, x to the right, y up."},
     Described{&kDrawingFormat,
               drawing_schema,
               "A test drawing",
@@ -131,7 +131,7 @@ void put_machine_ranges(Json& schema) {
   for (const model::MachineRange& range : model::machine_ranges()) {
     Json* property = property_at(schema, range.place);
     if (property == nullptr)
-      throw std::logic_error(fmt::format("a machine file has no place {}", range.place));
+      throw std::logic_error(fmt::format("a machine file has no key {}", range.place));
     (*property)["minimum"] = range.least;
     (*property)["maximum"] = range.most;
   }
@@ -257,12 +257,12 @@ std::string values_of(const Json& schema) {
 }
 
 std::string absent_words(const Json& object, const std::string& key, const Json& schema) {
-  if (key == "file_type" || key == "format_version") return "must begin a file";
+  if (key == "file_type" || key == "format_version") return "required at the start of a file";
   const Json names = object.value("required", Json::array());
   if (contains(names, Json(key)))
-    return allows_null(schema) ? "must stand; may be null" : "must stand";
+    return allows_null(schema) ? "required; may be null" : "required";
   if (schema.contains("default")) return fmt::format("`{}`", compact_json(schema["default"]));
-  return "may be left out";
+  return "optional";
 }
 
 /// Tables of an object and of the objects in it, each noun once.
@@ -291,15 +291,14 @@ class Tables {
   void table(const std::string& noun, const Json& schema) {
     const auto out = std::back_inserter(text_);
     fmt::format_to(
-        out, "\n## {}\n\n| key | what it is | values | where absent |\n|---|---|---|---|\n", noun);
+        out, "\n## {}\n\n| key | what it is | values | if absent |\n|---|---|---|---|\n", noun);
     for (const auto& [key, property] : schema["properties"].items()) {
       if (key == "comment") continue;
       fmt::format_to(out,
                      "| `{}` | {} | {} | {} |\n",
                      key,
                      property.value("description",
-                                    std::string("In a part of another file it may be "
-                                                "left out.")),
+                                    std::string("Optional inside another file.")),
                      values_of(property),
                      absent_words(schema, key, property));
     }
@@ -334,14 +333,10 @@ std::string write_format_schema(std::string_view name) {
 std::string write_format_page(std::string_view name) {
   const Described& d = described(name);
   std::string text = fmt::format(
-      "# {0}\n\n{1}\n\nA JSON file of type `{2}`, version {3}. Unknown keys are errors, but for "
-      "`comment`, "
-      "which may hold anything; a key that may be left out may be null as well. "
-      "`chaintrue formats {4} --schema` prints the JSON Schema, with which editors complete and "
-      "check "
-      "such files. This page is written by `chaintrue formats {4}` from the tables that the reader "
-      "goes "
-      "by.\n",
+      "# {0}\n\n{1}\n\nA JSON file of type `{2}`, version {3}. Unknown keys are errors, except "
+      "`comment`, which may contain anything; an optional key may also be null. `chaintrue formats "
+      "{4} --schema` prints the JSON Schema, with which editors complete and check such files. "
+      "`chaintrue formats {4}` writes this page from the reader's tables.\n",
       d.title,
       d.about,
       d.format->file_type,

@@ -38,13 +38,13 @@ inline constexpr Format kMachineFormat{"chaintrue_machine",
 inline constexpr Format kGridFormat{"chaintrue_grid",
                                     "a grid of measured points",
                                     "fit, diagnose or check",
-                                    "copy its readings into a file of chaintrue plan",
+                                    "copy its readings into a file from chaintrue plan",
                                     Origin::measured,
                                     FileKind::grid};
 inline constexpr Format kHolesFormat{"chaintrue_holes",
                                      "a set of holes",
                                      "fit, diagnose or check",
-                                     "copy its readings into a file of chaintrue plan",
+                                     "copy its readings into a file from chaintrue plan",
                                      Origin::measured,
                                      FileKind::holes};
 inline constexpr Format kBeltsFormat{"chaintrue_belts",
@@ -75,21 +75,21 @@ inline constexpr Format kPlotterFormat{
     "chaintrue_plotter",
     "a V-plotter",
     "start or export plotter",
-    "make it again with chaintrue import plotter, or of a drawing with fit",
+    "make it again with chaintrue import plotter, or from a drawing with fit",
     Origin::machine,
     FileKind::plotter};
 inline constexpr Format kDrawingFormat{"chaintrue_drawing",
                                        "a test drawing of a V-plotter",
                                        "fit",
-                                       "copy its measures into a sheet of chaintrue start",
+                                       "copy its measures into a sheet from chaintrue start",
                                        Origin::measured,
                                        FileKind::drawing};
 inline constexpr Format kEffectFormat{"chaintrue_effect",
                                       "a declared effect",
                                       "effects --effects, diagnose --effects or simulate --effects",
-                                      "write it by docs/formats/effect.md"};
+                                      "write it as docs/formats/effect.md describes"};
 inline constexpr Format kSweepFormat{
-    "chaintrue_sweep", "a sweep", "sweep", "write it by docs/formats/sweep.md"};
+    "chaintrue_sweep", "a sweep", "sweep", "write it as docs/formats/sweep.md describes"};
 inline constexpr Format kFitFormat{"chaintrue_fit", "the result of a fit", "fit"};
 inline constexpr Format kCheckFormat{
     "chaintrue_check", "the result of a check", "check", "", Origin::check};

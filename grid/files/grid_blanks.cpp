@@ -48,8 +48,8 @@ void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Pr
   if (kept.size() == points.size()) return;
   problems.warn(
       places.all,
-      fmt::format("{} of {} points are copies of others, to the last digit of both lengths, "
-                  "and count once ({}): a repeated measurement would differ",
+      fmt::format("{} of {} points are copies of others, to the last digit of both lengths, and "
+                  "count once ({}); a repeated measurement would differ",
                   points.size() - kept.size(),
                   points.size(),
                   example));
@@ -91,8 +91,8 @@ void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problem
   const double by_rounding = copies_by_rounding(grid);
   if (static_cast<double>(copies.size()) <= by_rounding + 2.33 * std::sqrt(by_rounding)) return;
   problems.warn(places.all,
-                fmt::format("{} lie exactly where they were commanded, to the last digit. Were "
-                            "they measured? Leave x_mm and y_mm blank where not",
+                fmt::format("{} are exactly where they were commanded, to the last digit. Were "
+                            "they measured? If not, leave x_mm and y_mm blank",
                             how_many(copies, grid.points.size(), "points")));
 }
 

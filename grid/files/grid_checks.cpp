@@ -241,7 +241,7 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
   problems.warn(
       places.all,
       fmt::format(
-          "all points lie within {:.4g} x {:.4g} mm of a bed of {} x {} mm; are they in inches?",
+          "all points are within {:.4g} x {:.4g} mm of a bed of {} x {} mm; are they in inches?",
           2.0 * half_width_mm,
           2.0 * half_height_mm,
           bed.width_mm,
@@ -307,7 +307,7 @@ void check_points_together(const MeasuredGrid& grid,
   if (count < fewest_points) {
     problems.explain(places.all,
                      ProblemKind::too_few,
-                     fmt::format("{} filled in, and it takes at least {}: measure {} more.",
+                     fmt::format("{} filled in, and at least {} are needed: measure {} more.",
                                  count == 0   ? "No point is"
                                  : count == 1 ? "Only 1 point is"
                                               : fmt::format("Only {} points are", count),
@@ -319,8 +319,8 @@ void check_points_together(const MeasuredGrid& grid,
   if (has_commands && !grid.machine) {
     problems.add(places.all,
                  "commanded positions, but no machine",
-                 "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
-                 "or --machine)",
+                 "a machine with the controller that received the commands (\"machine\", "
+                 "\"machine_file\" or --machine)",
                  ProblemKind::missing);
   }
   if (count == 0 || check_entries(grid, places, problems)) return;
@@ -329,7 +329,7 @@ void check_points_together(const MeasuredGrid& grid,
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistanceMm) {
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),
-                 std::string("points that span an area, as a map of the bed needs") +
+                 std::string("points that span an area, which a map of the bed needs") +
                      (is_tiny ? "; are they in inches?" : ""),
                  ProblemKind::on_a_line);
   }

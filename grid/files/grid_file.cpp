@@ -44,7 +44,7 @@ Record<StatedNoise> noise_record() {
                 &StatedNoise::position_mm,
                 kNoiseMm)
       .optional("dof",
-                "How well these are known, in degrees of freedom; 15 means to about a fifth.",
+                "Degrees of freedom with which these are known; 15 means to about a fifth.",
                 &StatedNoise::dof,
                 kNoiseDof);
 }
@@ -146,7 +146,7 @@ const Record<StatedGrid>& grid_record() {
                   &StatedGrid::machine_file)
           .optional("noise",
                     "Noise of the readings. Missing values are estimated from repeated visits, or "
-                    "assumed; none is taken below what the readings' digits leave.",
+                    "assumed; none is taken below the rounding of the readings.",
                     &StatedGrid::noise,
                     noise_record())
           .optional("sheet",

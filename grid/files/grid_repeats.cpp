@@ -110,9 +110,8 @@ void warn_of_pair(const Comparison& comparison,
   const bool first_is_worse = first_mm >= second_mm;
   problems.warn(
       places.of(b.index, ""),
-      fmt::format("this mark was measured twice, also at {}, and the two differ by {} ({}), "
-                  "where {:.1f} mm would be usual{}. Is a digit or a minus wrong in one of "
-                  "them?",
+      fmt::format("this mark was also measured at {}, and the two readings differ by {} ({}); at "
+                  "most {:.1f} mm is normal{}. Is a digit or a minus wrong in one of them?",
                   places.of(a.index, ""),
                   difference_in_words(std::max(first_mm, second_mm)),
                   first_is_worse ? comparison.first_name : comparison.second_name,

@@ -120,7 +120,7 @@ model::ControllerSettings measures_as_settings(const Machine& machine) {
 
 GroundcontrolText write_groundcontrol(const Machine& machine) {
   return write_groundcontrol_settings(
-      machine, measures_as_settings(machine), "the measures of the machine");
+      machine, measures_as_settings(machine), "the machine's dimensions");
 }
 
 bool says_more_than_its_settings(const Machine& machine) {

@@ -127,17 +127,17 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
   const std::string place = settings.look("encodersteps")->place;
   if (std::abs(more) > kSameMotors) {
     problems.warn(place,
-                  fmt::format("encodersteps {:g}: not Maslow's own motors, which turn once in {:g} "
-                              "counts; taken as right for yours",
+                  fmt::format("encodersteps {:g}: not the standard Maslow motors, which turn once "
+                              "in {:g} counts; assumed right for yours",
                               *counts,
                               kCountsOfATurn));
     return 0.0;
   }
   problems.warn(place,
-                fmt::format("encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs out "
-                            "than the controller counts; entered as links that much {} (/effects). "
-                            "An export makes up for it; if you set {:g} at the machine instead, import "
-                            "its settings anew",
+                fmt::format("encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs "
+                            "out than the controller counts; entered as links that are {} by this "
+                            "amount (/effects). An export corrects for it; if you set {:g} at the "
+                            "machine instead, import its settings again",
                             *counts,
                             kCountsOfATurn,
                             100.0 * std::abs(more),
@@ -171,7 +171,8 @@ void state_pitch(const SettingValues& numbers,
   if (links.empty()) return;
   const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
   problems.warn("",
-                fmt::format("chain tolerance: links {} than new, each number good to {:g} % (/effects)",
+                fmt::format("chain tolerance: links {} than new, each value within {:g} % "
+                            "(/effects)",
                             fmt::join(links, " and "),
                             100.0 * effect->parameters.front().prior_sigma));
 }
@@ -240,7 +241,7 @@ class OldReleases {
   void say() const {
     if (assumed_.empty()) return;
     problems_.warn("",
-                   fmt::format("assumed as in releases of GroundControl without this setting: {}",
+                   fmt::format("assumed, as in releases of GroundControl without this setting: {}",
                                fmt::join(assumed_, ", ")));
   }
 
@@ -274,9 +275,9 @@ void check_sag(SettingReader& settings, const Machine& machine, Problems& proble
       model::closed_form_sag_correction(hangs.chain_weight_n_per_mm, hangs.sled_weight_n);
   if (set == 0.0 || (set < kFarFrom * own && kFarFrom * set > own)) return;
   problems.warn(settings.look("chainsagcorrection")->place,
-                fmt::format("chainsagcorrection {:g}: the weights of chain and sled make {:.1f}. "
-                            "A calibration that compensates other errors gives such a number; it "
-                            "is kept as the controller's setting",
+                fmt::format("chainsagcorrection {:g}: the weights of chain and sled suggest "
+                            "{:.1f}. A calibration that compensates other errors can produce such "
+                            "a number; it is kept as the controller's setting",
                             set,
                             own));
 }
@@ -290,8 +291,8 @@ void check_reach(double chain_mm,
   if (longest_mm <= chain_mm) return;
   problems.add(settings.look("chainlength")->place,
                fmt::format("chainlength {:g}", chain_mm),
-               fmt::format("at least {:.0f} mm, which the lower corners of the bed take; state the "
-                           "chain that is there, or the bed that it reaches",
+               fmt::format("at least {:.0f} mm to reach the lower corners of the bed; correct the "
+                           "chain's length or the size of the bed",
                            std::ceil(longest_mm)),
                ProblemKind::out_of_range);
 }
@@ -350,7 +351,7 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   old.say();
   weigh(numbers, read.machine, problems);
   check_sag(settings, read.machine, problems);
-  settings.warn_of_others("says where the sled hangs");
+  settings.warn_of_others("describes where the sled hangs");
   check_geometry(read.machine, problems);
   if (chain_mm && !problems.any()) check_reach(*chain_mm, read.machine, settings, problems);
   problems.throw_if_any();

@@ -93,8 +93,8 @@ void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& 
                  fmt::format("{}, {:.4g} mm apart as commanded",
                              words_of(set, distance),
                              commanded_mm(set, distance)),
-                 fmt::format("two holes at least {:.0f} mm apart; hole {} was cut at the same spot "
-                             "as hole {}: is a minus missing at one of them?",
+                 fmt::format("two holes at least {:.0f} mm apart; holes {} and {} are at the same "
+                             "spot: is a minus missing at one of them?",
                              kLeastMm,
                              set.holes[distance.from].name,
                              set.holes[distance.to].name),
@@ -140,8 +140,8 @@ void check_triangles(const MeasuredHoles& set,
       problems.add(
           places.distance(sides[0], "distance_mm"),
           fmt::format("{:g}", set.distances[sides[0]].distance_mm),
-          fmt::format("at most {:.1f} mm: {} cannot be longer than {} ({:g}) plus {} ({:g}); one "
-                      "of the three was misread{}",
+          fmt::format("at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus {} "
+                      "({:g}); one of the three was misread{}",
                       set.distances[sides[0]].distance_mm - excess,
                       words_of(set, set.distances[sides[0]]),
                       words_of(set, set.distances[sides[1]]),
@@ -195,7 +195,7 @@ void check_enough(const MeasuredHoles& set,
   std::string expected = fmt::format("at least {} independent distances between holes", fewest);
   if (fewest == kFewestHoleDistances) {
     expected +=
-        ", one for each unknown: the motors' spacing, the zero and the scale of either chain";
+        ", one for each unknown: the motors' spacing and the zero and scale of each chain";
   }
   const std::string more = missing_pairs(set, lacking);
   const bool holes_suffice =
@@ -231,19 +231,19 @@ void check_tape_zero(const MeasuredHoles& set,
   if (std::abs(total_mm - mark_mm) < (mark_mm == 0.0 ? kAtZeroMm : kAtTheMarkMm))
     total_mm = mark_mm;
   const std::string state =
-      fmt::format("give {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
+      fmt::format("enter {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {
     problems.warn(places.distances,
-                  fmt::format("{}, short ones like long ones. Was the hook's offset subtracted "
-                              "twice? If so, {}.",
+                  fmt::format("{}, whatever their length. Was the hook's offset subtracted twice? "
+                              "If so, {}.",
                               found,
                               state));
     return;
   }
   problems.add(places.distances,
                found,
-               fmt::format("the tape's hook offset, since the short ones are off like the long "
-                           "ones: {}; 0 if they are right as they are",
+               fmt::format("the tape's hook offset, because short and long ones are off by the "
+                           "same amount: {}; 0 if they are right",
                            state),
                ProblemKind::constant_offset);
 }
@@ -281,13 +281,13 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     const std::string& name = holes[i].name;
     if (edge_of(name)) {
       problems.add(
-          places.hole(i), name, "a name that is no edge of the sheet", ProblemKind::repeated_value);
+          places.hole(i), name, "a name that is not an edge of the sheet", ProblemKind::repeated_value);
     }
     const auto [other, is_new] = first.emplace(name, i);
     if (!is_new) {
       problems.add(places.hole(i),
                    name,
-                   fmt::format("a name of its own for each hole; {} has the same",
+                   fmt::format("a different name for each hole; {} has the same",
                                places.hole(other->second)),
                    ProblemKind::repeated_value);
     }
@@ -325,7 +325,7 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
       if (start && end && *start == *end) {
         problems.add(places.distance(i, "to"),
                      from.to,
-                     "another hole than the distance starts at",
+                     "a hole different from the distance's start",
                      ProblemKind::repeated_value);
       }
       distance.from = start.value_or(0);

@@ -16,7 +16,7 @@ Record<Tape> tape_record() {
   return Record<Tape>("the tape")
       .optional(
           "sigma_mm",
-          "Noise of a tape reading, 1 sigma; not taken below what the readings' digits leave.",
+          "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
           &Tape::sigma_mm,
           kTapeSigmaMm)
       .optional("hook_offset_mm",
@@ -47,7 +47,7 @@ Record<SheetSize> sheet_record() {
 
 Record<Hole> hole_record() {
   Record<Hole> hole("a hole");
-  hole.sparse("name", "Any word; without one the holes are numbered from 0.", &Hole::name);
+  hole.sparse("name", "Any word; without names the holes are numbered from 0.", &Hole::name);
   const auto coordinate = [&hole](const char* key, const char* meaning, auto member) {
     hole.required(key, meaning, path(&Hole::commanded, member), kHoleCoordinate);
   };
@@ -142,11 +142,12 @@ const Record<StatedHoles>& holes_record() {
           .optional("tape", "Noise and hook offset of the tape.", &StatedHoles::tape, tape_record())
           .optional(
               "hole_sigma_mm",
-              "Distance of a hole from the position that its chains give, 1 sigma on each axis.",
+              "Distance of a hole from the position that follows from its chains, 1 sigma on each "
+              "axis.",
               &StatedHoles::hole_sigma_mm,
               kHoleSigmaMm)
           .optional("noise_dof",
-                    "How well these are known, in degrees of freedom.",
+                    "Degrees of freedom with which these are known.",
                     &StatedHoles::noise_dof,
                     kNoiseDof)
           .optional("sheet",

@@ -145,7 +145,7 @@ std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) cons
     for (const Field& field : fields_) {
       if (!at.has(field.key)) free.push_back(field.key);
     }
-    std::string expected = fmt::format("a key that {} has ({})", noun_, joined(keys()));
+    std::string expected = fmt::format("a key of {} ({})", noun_, joined(keys()));
     if (const std::string meant = nearest(key, free); !meant.empty()) {
       probably_meant.push_back(meant);
       expected =

@@ -85,12 +85,12 @@ std::string likely_error(std::string_view text, std::size_t offset) {
     return "; a decimal comma? Decimals are written with a point";
   }
   if (after_comma && !rest.empty() && (rest[0] == '}' || rest[0] == ']')) {
-    return "; the comma before it is one too many";
+    return "; the comma before it is superfluous";
   }
   if (rest.substr(0, 2) == "//" || rest.substr(0, 2) == "/*" || rest.substr(0, 1) == "#") {
     return R"(; JSON has no comments, use the key "comment")";
   }
-  if (rest.substr(0, 1) == "'") return "; put texts between double quotes";
+  if (rest.substr(0, 1) == "'") return "; put text between double quotes";
   return {};
 }
 
@@ -216,7 +216,7 @@ class Builder : public nlohmann::json_sax<Json> {
                     value.is_object()  ? "an object"
                     : value.is_array() ? "a list"
                                        : compact_json(value),
-                    "this key once; it stands here a second time",
+                    "this key only once",
                     ProblemKind::repeated_key);
     }
     auto& members = level.value->get_ref<Json::object_t&>();

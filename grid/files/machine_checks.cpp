@@ -36,7 +36,7 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                              machine.motors.right.x_mm,
                              -half,
                              half),
-                 "motors beyond either side of the bed",
+                 "motors beyond both sides of the bed",
                  ProblemKind::impossible);
     return;
   }
@@ -50,7 +50,7 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                                place.x_mm,
                                place.y_mm,
                                pose.error().sentence()),
-                   "a bed under the motors that the sled reaches",
+                   "a bed below the motors that the sled can reach",
                    ProblemKind::impossible);
       return;
     }
@@ -102,12 +102,13 @@ void refuse_foreign_settings(std::string_view text, Problems& problems) {
     problems.explain(
         line_and_column_of(text, at),
         ProblemKind::file_kind,
-        fmt::format("these are settings of {}, which do not say how a machine hangs and are not read. "
-                    "Give the machine in plain numbers: of a router on two chains chaintrue start "
-                    "without a file writes a machine file to fill in; of a V-plotter a text of the "
-                    "lines machine.width=, machine.motors.mmPerRev=, machine.motors.stepsPerRev=, "
-                    "controller.homepoint.x= and controller.homepoint.y=, in mm from the left motor, "
-                    "right and down",
+        fmt::format("these are settings of {}, which do not describe a hanging machine and are not "
+                    "read. Enter the machine's dimensions instead: for a router on two chains, "
+                    "chaintrue start without a file writes a machine file to fill in; for a "
+                    "V-plotter, write a text with the lines machine.width=, "
+                    "machine.motors.mmPerRev=, machine.motors.stepsPerRev=, "
+                    "controller.homepoint.x= and controller.homepoint.y=, in mm from the left "
+                    "motor, right and down",
                     program.name));
     problems.throw_if_any();
   }

@@ -174,7 +174,7 @@ Record<Uncertainty> uncertainty_record() {
         for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
           const Cursor value = at.child(key);
           if (!at.has(key) || value.json().is_null())
-            value.warn("not given, its default is assumed");
+            value.warn("missing; its default is assumed");
         }
       });
 }
@@ -228,8 +228,8 @@ void check_machine(const Cursor& at, Machine& machine) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
         .warn(fmt::format(
-            "not given; assumed: motor positions within {} mm, chain zeros within {} mm "
-            "and the ring's radius within {} mm (1 sigma)",
+            "missing; assumed: motor positions within {} mm, chain zeros within {} mm and the "
+            "ring's radius within {} mm (1 sigma)",
             assumed.motor_position_mm,
             assumed.chain_zero_mm,
             assumed.ring_radius_mm));
@@ -243,8 +243,7 @@ void check_machine(const Cursor& at, Machine& machine) {
         at.pointer(),
         ProblemKind::other_unit,
         fmt::format(
-            "these look like {}: multiply all lengths by {:g}, then the bed is {} mm, where it "
-            "is {} now.",
+            "these look like {}: multiply all lengths by {:g}. The bed is then {} mm; it is {} now.",
             unit.word,
             unit.mm,
             size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm),
@@ -303,15 +302,15 @@ const Record<ControllerSettings>& controller_settings_record() {
                     &Settings::rotation_radius_mm,
                     kMillimetres)
           .optional("sledwidth",
-                    "Of a sled on brackets: distance between the brackets.",
+                    "For a sled on brackets: distance between the brackets.",
                     &Settings::sled_width_mm,
                     kMillimetres)
           .optional("sledheight",
-                    "Of a sled on brackets: height of the brackets above the bit.",
+                    "For a sled on brackets: height of the brackets above the bit.",
                     &Settings::sled_height_mm,
                     kMillimetres)
           .optional("sledcg",
-                    "Of a sled on brackets: distance of its centre of gravity below the bit.",
+                    "For a sled on brackets: distance of its centre of gravity below the bit.",
                     &Settings::sled_cg_mm,
                     kMillimetres)
           .optional("chainsagcorrection",
@@ -361,7 +360,7 @@ const Record<model::AppliedEffect>& effect_record() {
                     &AppliedEffect::parameters,
                     dictionary(number_in("")))
           .optional("probability",
-                    "Its probability, if a diagnosis added it; absent if a person did.",
+                    "Its probability, if a diagnosis added it; otherwise absent.",
                     &AppliedEffect::probability,
                     kShare);
   return record;

@@ -29,7 +29,7 @@ Record<model::MarkPoint> mark_record() {
 }
 
 Record<OutsideRule> outside_record() {
-  return Record<OutsideRule>("what the map does beyond its points")
+  return Record<OutsideRule>("behaviour outside the measured part")
       .required("way",
                 "Behaviour outside the measured part.",
                 &OutsideRule::way,
@@ -45,7 +45,7 @@ Record<OutsideRule> outside_record() {
 }
 
 Record<MapNoise> map_noise_record() {
-  return Record<MapNoise>("the noise that the fit went by")
+  return Record<MapNoise>("the noise used by the fit")
       .required(
           "length_mm", "Noise of a chain reading, 1 sigma.", &MapNoise::length_mm, kNotNegative)
       .required("position_mm",
@@ -151,7 +151,7 @@ Record<MapPoint> map_point_record() {
 }
 
 Record<MirrorTest> mirror_record() {
-  return Record<MirrorTest>("the mirror claim")
+  return Record<MirrorTest>("comparison of mirrored chains")
       .required("points",
                 "Number of points whose mirror image was measured.",
                 &MirrorTest::points,
@@ -195,7 +195,7 @@ void check_map(const Cursor& at, MapContents& map) {
   }
   if (stands("direct") && map.outside.way == Outside::fade) {
     at.child("outside").child("way").expect(
-        "another way: without a machine nothing is left where a surface fades out");
+        "a different value: without a machine there is no value where a surface fades out");
   }
   if (!at.clean()) return;
   check_content(at);
@@ -275,7 +275,7 @@ Record<MapContents> make_map_record() {
                 &MapContents::settings,
                 list(setting_record()))
       .required("points",
-                "The points that it was made from.",
+                "The points that the map was made from.",
                 &MapContents::points,
                 list(map_point_record()))
       .optional("mirror",

@@ -56,7 +56,7 @@ Record<SplinePart> spline_record() {
       .check([](const Cursor& at, SplinePart& part) {
         if (!at.clean()) return;
         const Eigen::Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
-        const std::string expected = fmt::format("{} coefficients, as the intervals say", size);
+        const std::string expected = fmt::format("{} coefficients, as the intervals require", size);
         const auto& [left, right] = part.coefficients_mm;
         if (left.size() != size) at.child("coefficients_left_mm").expect(expected);
         if (right.size() != size) at.child("coefficients_right_mm").expect(expected);
@@ -113,8 +113,8 @@ void check_nodes(const Cursor& at,
                  const Surface& surface,
                  std::initializer_list<NodeValues> values) {
   if (!at.clean()) return;
-  if (!rises(surface.x_nodes_mm)) at.child("x_nodes_mm").expect("numbers that rise");
-  if (!rises(surface.y_nodes_mm)) at.child("y_nodes_mm").expect("numbers that rise");
+  if (!rises(surface.x_nodes_mm)) at.child("x_nodes_mm").expect("increasing numbers");
+  if (!rises(surface.y_nodes_mm)) at.child("y_nodes_mm").expect("increasing numbers");
   const std::size_t columns = surface.x_nodes_mm.size();
   const std::size_t rows = surface.y_nodes_mm.size();
   for (const NodeValues& own : values) {
@@ -146,7 +146,7 @@ void node_keys(Record<Surface>& record, model::PerSide<Eigen::MatrixXd> Surface:
 constexpr const char* kBetweenNodes = "Error of the splines between nodes, 1 sigma.";
 
 Record<LatticeResidual> lattice_record() {
-  Record<LatticeResidual> lattice("splines through what the machine leaves at every node");
+  Record<LatticeResidual> lattice("splines through the residuals at every node");
   node_keys(lattice, &LatticeResidual::values_mm);
   return lattice
       .required("doubt_mm",
@@ -179,7 +179,7 @@ const Record<interp::Rectangle>& rectangle_record() {
           .required("y_max", "Upper edge.", &interp::Rectangle::y_max, kPlaceMm)
           .check([](const Cursor& at, interp::Rectangle& r) {
             if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
-              at.expect("a rectangle whose maxima lie above its minima");
+              at.expect("a rectangle whose maxima exceed its minima");
             }
           });
   return record;

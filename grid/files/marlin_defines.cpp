@@ -219,7 +219,7 @@ class Defines {
           place,
           "more names or conditions",
           fmt::format(
-              "at most {} names, and {} conditions within each other", kMostNames, kMostConditions),
+              "at most {} names, and {} nested conditions", kMostNames, kMostConditions),
           ProblemKind::too_many);
       return;
     }
@@ -324,7 +324,7 @@ class Defines {
       problems_.add(
           texts[0].place,
           fmt::format("{} {}, and at {}, {}", name, texts[0].text, texts[1].place, texts[1].text),
-          "one #define of it: which #if holds is not known here, so leave the one in force",
+          "one #define of it; which #if applies is unknown here, so keep only the one in force",
           ProblemKind::repeated_key);
     }
     return nullptr;
@@ -369,8 +369,8 @@ class Defines {
         own.place,
         own.text.empty() ? "nothing" : own.text,
         std::isfinite(value)
-            ? fmt::format("a quotient that comes out whole, or .0 behind one of its numbers: "
-                          "the compiler cuts {} down ({})",
+            ? fmt::format("a whole quotient, or .0 after one of its numbers: the compiler "
+                          "truncates {} ({})",
                           *parsed.cut(),
                           name)
             : fmt::format("a number, or a sum of numbers and of defined names ({}){}", name, hint),

@@ -70,30 +70,28 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   const double most_mm = spread(stopped.readings_mm[worst]);
   if (most_mm <= 0.0) return "";
   const std::string text =
-      fmt::format(" At waypoint {} the readings of the {} belt lie {:.1f} mm apart",
+      fmt::format(" At waypoint {} the readings of the {} belt are {:.1f} mm apart",
                   stopped.last_measured + 1,
                   model::words(worst),
                   most_mm);
   if (const int turns = whole_turns(most_mm, turn_mm)) {
     return fmt::format(
-        "{}, {}: an encoder that lost turns makes that. Look at its magnet and its cable, retract "
-        "that belt, extend it anew and measure again.",
+        "{}, {}. Probable cause: an encoder that lost turns. Check its magnet and its cable, "
+        "retract that belt, extend it again and measure again.",
         text,
         turns_in_words(turns));
   }
   if (apart > 1) {
     return fmt::format(
-        "{}, and {} belts have inconsistent readings. Possible causes: a sled that still swings, "
-        "a frame that yields, "
-        "or "
-        "a pull that is too weak. Fasten the frame, and raise "
-        "Maslow_Calibration_Current_Threshold by a little.",
+        "{}, and {} belts have inconsistent readings. Possible causes: a sled that still swings, a "
+        "frame that yields, or too weak a pull. Brace the frame, and raise "
+        "Maslow_Calibration_Current_Threshold slightly.",
         text,
         apart);
   }
   return fmt::format(
       "{}, the others agree. Probable cause: a slack belt, or one that catches at the arm or on "
-      "the spool. Free it, see that it is taut at this place, and measure again.",
+      "the spool. Free it, make sure that it is taut at this place, and measure again.",
       text);
 }
 
@@ -105,9 +103,8 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
   if (!found) return "";
   if (found->swapped) {
     return fmt::format(
-        " The lengths look like {}: belts at the wrong anchors, or plugged in in the wrong order, "
-        "make "
-        "that. Set it right and measure again.",
+        " The lengths look like {}. Probable cause: belts at the wrong anchors, or plugged in in "
+        "the wrong order. Correct this and measure again.",
         grid::words_of(*found->swapped));
   }
   Belt worst = Belt::tl;
@@ -137,35 +134,34 @@ std::string_view by_kind(StopKind kind) {
   switch (kind) {
     case StopKind::readings_disagree:
     case StopKind::gave_up_reading:
-      return " The readings of one place did not agree: a slack belt, a belt that catches, or an "
-             "encoder that loses turns make that. Watch the four belts at that place: each must be "
-             "taut and its spool must stand still while it is read.";
+      return " The readings at one place did not agree. Possible causes: a slack belt, a belt that "
+             "catches, or an encoder that loses turns. Watch the four belts at that place: each "
+             "must be taut, and its spool must not turn while it is read.";
     case StopKind::imbalance:
-      return " The machine gives up if one belt's misfit is twice another's; with six places good "
-             "readings do that by chance. The belts may be fine: start it again, or go with the "
-             "readings so far.";
+      return " The machine gives up if one belt's misfit is twice another's, which good readings "
+             "at six places can produce by chance. The belts may be fine: start it again, or use "
+             "the readings so far.";
     case StopKind::not_converged:
       return " The machine's solver stalled, which shows little about the readings. Possible "
              "causes: a frame far from the set size, belts at the wrong anchors, or chance. Tape "
-             "the frame, put its size into the settings and start again.";
+             "the frame, enter its size in the settings and start again.";
     case StopKind::low_fitness:
       return " By the machine's criterion the readings contradict each other. Possible causes: "
              "belts at the wrong anchors, a slack belt at some place, an encoder that lost turns, "
-             "or arms that are swapped. See that each belt goes to its own anchor (tl, tr, bl, "
-             "br), and that all are taut.";
+             "or arms that are swapped. Make sure that each belt goes to its own anchor (tl, tr, "
+             "bl, br) and that all are taut.";
     case StopKind::centre_off:
       return " The first place is not where the settings put it. Possible causes: settings of "
              "another frame, belts at the wrong anchors, or belts that were not retracted before "
-             "they were extended. Retract all, extend all, tape the frame and state its size.";
+             "they were extended. Retract all, extend all, tape the frame and enter its size.";
     case StopKind::went_back:
       return " The machine went back to \"Belts Extended\" without a message: it was stopped, "
              "its power failed for a moment, or it lost the connection. Start again.";
     case StopKind::other_error:
       return " Read the machine's message there, and start again.";
     case StopKind::log_ends:
-      return " Either the run was stopped there or the text was cut when it was copied: paste it "
-             "once "
-             "more from its beginning to its end, or measure on.";
+      return " Either the run was stopped there or the text was cut off when it was copied: paste "
+             "it again from beginning to end, or continue measuring.";
   }
   return "";
 }
@@ -205,28 +201,26 @@ bool is_setting_refused(std::string_view line) {
 
 std::string words_of(const SettingsRefused& refused) {
   return fmt::format(
-      "the controller refused its settings ({}), so those typed in or found are not in force. "
-      "Firmware "
-      "before July 2025 takes lines such as $/Maslow_trX=, later firmware "
-      "$/kinematics/MaslowKinematics/trX=. Look at the maslow.yaml that is on the machine, send "
-      "the "
-      "lines in its layout (export maslow4 writes them so once import maslow4 was given it as "
-      "--settings), restart the machine and see that it prints no error",
+      "the controller rejected its settings ({}), so the typed or found ones are not in force. "
+      "Firmware before July 2025 accepts lines such as $/Maslow_trX=, later firmware "
+      "$/kinematics/MaslowKinematics/trX=. Send the lines in the layout of the machine's "
+      "maslow.yaml (export maslow4 does so if import maslow4 read that file with --settings), "
+      "restart the machine and check that it prints no error",
       shortened(refused.said));
 }
 
 std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   std::string text = where(stopped);
-  if (!stopped.said.empty()) text += fmt::format("; it said {}", shortened(stopped.said));
+  if (!stopped.said.empty()) text += fmt::format("; it printed {}", shortened(stopped.said));
   text += ".";
   const std::string found =
       shown_by_readings(stopped, belts.machine.belt_turn_mm) + shown_by_commands(belts);
   text += found.empty() ? std::string(by_kind(stopped.kind)) : found;
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {
-    text += fmt::format(" {} places were read before: chaintrue diagnose can use these.", count);
+    text += fmt::format(" {} places were read before that; chaintrue diagnose can use them.", count);
   } else {
-    text += fmt::format(" {} were read before; a fit needs {}.",
+    text += fmt::format(" {} were read before that; a fit needs {}.",
                         count == 0   ? "No places"
                         : count == 1 ? "One place"
                                      : fmt::format("{} places", count),

@@ -171,10 +171,10 @@ void choose_lengths(const Maslow4Options& options,
   }
   assumed.emplace_back(
       is_list
-          ? "lengths that are level from anchor to tool, as printed since October 2024 (older "
-            "prints slant: --lengths belt_and_arm)"
-          : "lengths that are level from anchor to tool; this note looks older than October 2024, "
-            "when they still slanted by the anchors' heights (--lengths belt_and_arm)");
+          ? "level lengths from anchor to tool, as printed since October 2024 (older ones are "
+            "slanted: --lengths belt_and_arm)"
+          : "level lengths from anchor to tool; this note looks older than October 2024, when they "
+            "were still slanted by the anchors' heights (--lengths belt_and_arm)");
 }
 
 }  // namespace
@@ -297,7 +297,7 @@ Maslow4Import parse_maslow4(const std::string& text,
   Settings settings(options, result.assumed);
   result.belts.machine = machine_of(options, settings, result.assumed);
   result.settings_pull = settings_pull(settings);
-  settings.reader().warn_of_others("says where the belts go");
+  settings.reader().warn_of_others("describes the anchors of the belts");
   problems.add_warnings(settings.problems().warnings());
   try {
     settings.problems().throw_if_any();
@@ -335,12 +335,12 @@ Maslow4Import parse_maslow4(const std::string& text,
   const bool is_last = result.taken + 1 == runs.size();
   if (is_last && !log.list_has_end) {
     problems.warn("",
-                  "the log ends in the middle of a list: the readings before are used. If the list "
-                  "continues, paste it again from its beginning to its end");
+                  "the log ends in the middle of a list; the readings before that are used. If the "
+                  "list continues, paste it again from beginning to end");
   }
   if (log.first_passed_over) {
     problems.warn(fmt::format("line {}", *log.first_passed_over),
-                  "ignored: this line and others like it hold no reading, place, pull or fit");
+                  "ignored: this line and others like it contain no reading, place, pull or fit");
   }
   check_all(belts, places.lines, result, problems);
   if (is_last && log.stopped) result.stopped = words_of(*log.stopped, belts);

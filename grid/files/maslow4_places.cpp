@@ -154,8 +154,8 @@ void report_unreadable(const ScannedRun& run,
   if (run.list_is_short && !run.commanded.empty()) {
     problems.warn(
         line_words(run.points[within.first].line),
-        "the list has fewer readings than measured places, so it is unknown which are lost: the "
-        "commanded places are left out");
+        "the list has fewer readings than measured places, and which are missing is unknown, so "
+        "the commanded places are left out");
   }
 }
 
@@ -172,8 +172,8 @@ void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pro
     left_out.push_back(
         {problems.file(),
          line_words(lines[i]),
-         fmt::format("this reading is left out: it has the same four lengths as that of "
-                     "line {} to the last digit, and was copied",
+         fmt::format("this reading is left out: it is a copy, with the same four lengths as line "
+                     "{} to the last digit",
                      lines[other->second])});
   }
   warn_of(left_out, "further readings are copies and left out", problems);
@@ -232,7 +232,7 @@ void part_frames(const model::BeltMachine& machine,
     run.fit.reset();
     problems.warn(
         line_words(other.first_line),
-        "from here on the readings are from another frame: they are treated as two runs");
+        "from here on the readings are from another frame; they are treated as a second run");
     parted.push_back(std::move(run));
     parted.push_back(std::move(other));
   }

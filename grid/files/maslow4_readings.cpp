@@ -106,13 +106,13 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
       problems.add(
           place,
           whole,
-          fmt::format("a length of {} as well: a reading has tl, tr, bl and br", name(belt)),
+          fmt::format("a length of {} too; a reading has tl, tr, bl and br", name(belt)),
           ProblemKind::missing);
     }
   }
   if (end == End::lost && !problems.any())
     problems.add(
-        place, whole, "the whole reading: the log ends in the middle of it", ProblemKind::missing);
+        place, whole, "a complete reading; the log ends in the middle of this one", ProblemKind::missing);
   ScannedReading reading;
   reading.line = line_;
   reading.problems = problems.list();

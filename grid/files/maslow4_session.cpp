@@ -54,8 +54,7 @@ void check_all_have_pulls(const std::vector<Maslow4Import>& runs, std::size_t gi
           "",
           "no Maslow_Calibration_Current_Threshold",
           "how hard belts were pulled in each run: --pulls 1300mA,1900mA (that setting), or "
-          "--pulls "
-          "1,1.6 where only the ratio is known; --pulls 1,1 where nothing was changed"}});
+          "--pulls 1,1.6 if only the ratio is known; --pulls 1,1 if nothing was changed"}});
   }
 }
 
@@ -83,8 +82,8 @@ std::vector<BeltPull> pulls_of(const std::string& text, const std::string& optio
     throw InputError({{"the command line",
                        option,
                        shortened(text),
-                       "how hard belts were pulled, one number for each run: 1,1.6 against each "
-                       "other, 1300mA,1900mA of the motors' current, or 150N,240N"}});
+                       "how hard belts were pulled, one number for each run: a ratio 1,1.6, motor "
+                       "currents 1300mA,1900mA, or forces 150N,240N"}});
   }
   return pulls;
 }

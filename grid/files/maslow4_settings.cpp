@@ -55,8 +55,8 @@ void add_scale(const BeltMachine& machine,
   const double scale = scale_of(*found);
   if (is_in_force(machine, *found)) {
     settings.remarks.push_back(
-        fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: the tape gives {:.5f} +- "
-                    "{:.5f}, which is in force.",
+        fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: the taped distances give "
+                    "{:.5f} +- {:.5f}, which is already in force.",
                     scale,
                     found->sigma));
     return;
@@ -113,13 +113,12 @@ Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
     for (const Cause& cause : found.causes) add_cause(cause, machine, settings);
   } else if (found.verdict == Verdict::named_set) {
     settings.remarks.emplace_back(
-        "Several causes are possible; the anchors are those with the likeliest. Decide first "
-        "which one acts: the diagnosis proposes measurements.");
+        "Several causes are possible; the anchors are for the most probable one. First find out "
+        "which one acts; the diagnosis proposes measurements.");
   }
   add_scale(machine,
             found.belts->scale,
-            "no distance was taped, or none fits with the "
-            "causes",
+            "no distance was taped, or none fits the causes",
             settings);
   return settings;
 }

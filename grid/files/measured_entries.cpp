@@ -89,7 +89,7 @@ void check_orders(const std::vector<StatedOrder>& orders,
           place_of(i, "order"),
           "",
           fmt::format(
-              "the number of the visit, as {} other points have it; all points have it or none",
+              "the number of the visit, as for {} other points; either all points have it or none",
               with_order),
           ProblemKind::missing);
       continue;
@@ -98,7 +98,7 @@ void check_orders(const std::vector<StatedOrder>& orders,
     if (!is_new) {
       problems.add(place_of(i, "order"),
                    fmt::format("{}", *orders[i].order),
-                   fmt::format("a number of its own for each visit; {} has the same",
+                   fmt::format("a different number for each visit; {} has the same",
                                place_of(other->second, "")),
                    ProblemKind::repeated_value);
     }

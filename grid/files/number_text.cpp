@@ -115,7 +115,7 @@ std::optional<double> checked_number(std::string_view text,
   std::string hint = looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";
   if (const auto fraction = fraction_of_date(text)) {
     hint = fmt::format(
-        "; a spreadsheet has made a date of {0}: write 0 {0}, in a column whose format is text",
+        "; a spreadsheet converted {0} to a date: write 0 {0}, in a column formatted as text",
         *fraction);
   }
   problems.add(place,

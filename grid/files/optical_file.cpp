@@ -62,7 +62,7 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
   if (rows.empty())
     problems.add("",
                  "an empty file",
-                 "the scan that an optical calibration writes",
+                 "the scan written by an optical calibration",
                  ProblemKind::empty_file);
   problems.throw_if_any();
   check_shape(rows, problems);
@@ -116,7 +116,7 @@ void check_options(const OpticalOptions& options, Problems& problems) {
     problems.add(
         "the machine's /controller",
         "",
-        "the controller that carried the commands out (\"kind\": \"maslow_classic\", \"holey\" or "
+        "the controller that executed the commands (\"kind\": \"maslow_classic\", \"holey\" or "
         "\"fluidnc_wallplotter\") and its settings",
         ProblemKind::missing);
   }

@@ -118,7 +118,7 @@ fs::path file_behind(const fs::path& path) {
   if (is_protected || ::access(target.c_str(), W_OK) != 0) {
     refuse_file(path.string(),
                 is_protected ? "a protected file" : system_words(errno),
-                "a file that may be written to",
+                "a file that may be overwritten",
                 ProblemKind::output_place);
   }
   return target;
@@ -214,7 +214,7 @@ void PendingFile::refuse(int error_number) {
   discard();
   refuse_file(path_.string(),
               system_words(error_number),
-              "room and the right to write the file",
+              "free space and permission to write the file",
               ProblemKind::output_place);
 }
 

@@ -68,7 +68,7 @@ void take_places(const std::vector<PendingFile*>& files);
 /// The reader of standard output or of a pipe has closed it: not an error.
 class ReaderGone : public std::exception {
  public:
-  [[nodiscard]] const char* what() const noexcept override { return "nobody reads the output"; }
+  [[nodiscard]] const char* what() const noexcept override { return "the output was closed by its reader"; }
 };
 
 /// After this call SIGINT, SIGTERM, SIGHUP and SIGPIPE remove pending files and then end the

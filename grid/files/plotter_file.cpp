@@ -13,7 +13,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 Record<FoundSetting> found_setting_record() {
-  return Record<FoundSetting>("a setting that was found")
+  return Record<FoundSetting>("an estimated setting")
       .required("value", "Its value.", &FoundSetting::value, kMillimetres)
       .required("sigma", "Its uncertainty, 1 sigma.", &FoundSetting::sigma, kSigmaMm);
 }
@@ -24,7 +24,7 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   if (found.correlations.size() != kPairs) {
     at.problems().add(at.pointer() + "/correlations",
                       fmt::format("{} numbers", found.correlations.size()),
-                      "15: of each of the six settings with those after it",
+                      "15, of each of the six settings with those after it",
                       ProblemKind::wrong_count);
     return;
   }
@@ -39,15 +39,15 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   }
   if (linear::SymmetricEigen(of_ones).eigenvalues().minCoeff() >= -kRounding) return;
   at.problems().add(at.pointer() + "/correlations",
-                    "numbers that no six quantities can have",
-                    "those that chaintrue fit wrote",
+                    "correlations that six quantities can have",
+                    "the ones that chaintrue fit wrote",
                     ProblemKind::impossible);
 }
 
 Record<FoundPlotter> found_plotter_record() {
   using Found = FoundPlotter;
   const auto setting = [] { return object(found_setting_record()); };
-  return Record<Found>("the settings that a drawing found")
+  return Record<Found>("settings estimated from a drawing")
       .required("pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting())
       .required(
           "pin_rise_mm", "Height of the right pin above the left.", &Found::pin_rise_mm, setting())

@@ -166,8 +166,8 @@ Record<PlotterMachine> plotter_machine_record() {
 Record<model::PerSide<double>> steps_record() {
   using Steps = model::PerSide<double>;
   return Record<Steps>("steps per millimetre")
-      .required("left", "Of the left motor; 0: unknown.", &Steps::left, number({"", 0.0, 1e5}))
-      .required("right", "Of the right motor; 0: unknown.", &Steps::right, number({"", 0.0, 1e5}));
+      .required("left", "For the left motor; 0: unknown.", &Steps::left, number({"", 0.0, 1e5}))
+      .required("right", "For the right motor; 0: unknown.", &Steps::right, number({"", 0.0, 1e5}));
 }
 
 Record<BedPoint> wall_point_record() {
@@ -188,13 +188,13 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
   if (is_mural && model::is_point(set.machine.gondola)) {
     at.problems().add(at.pointer() + "/machine/gondola/spacing_mm",
                       "0",
-                      "of a mural the distance between its two pulleys, 85 as it is built",
+                      "for a mural, the distance between its two pulleys, 85 as built",
                       ProblemKind::out_of_range);
   }
   if (!is_mural && !set.home) {
     at.child("home").missing(
-        "where the controller takes the pen to be when it is switched on, from the middle between "
-        "the pins");
+        "position that the controller assumes when it is switched on, from the middle between the "
+        "pins");
   }
 }
 
@@ -202,7 +202,7 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
 
 const Record<SetPlotter>& set_plotter_record() {
   static const auto record =
-      Record<SetPlotter>("a V-plotter as its controller holds it")
+      Record<SetPlotter>("a V-plotter with its controller's settings")
           .required("firmware",
                     "The firmware, whose kinematics converts a command into cord lengths; a "
                     "Makelangelo is a marlin.",
@@ -239,7 +239,7 @@ const Record<SetPlotter>& set_plotter_record() {
                     number({"mm/min", 1.0, 1e5}))
           .optional(
               "longest_belt_mm",
-              "Longest belt that the controller allows: no cross of the test drawing needs more.",
+              "Longest belt that the controller allows; the test drawing stays within it.",
               &SetPlotter::longest_belt_mm,
               number({"mm", 1.0, 40000.0}))
           .optional("segments_per_second",

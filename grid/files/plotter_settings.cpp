@@ -36,7 +36,7 @@ constexpr const char* kMeasured = "measured";
 constexpr const char* kPolargraphWidth = "machine.width";
 constexpr const char* kBootLine = "Loaded ";
 
-constexpr const char* kSaysWhatHangs = "says where the pen hangs";
+constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
 
 bool has_line_with(const std::string& text, const std::string& begin) {
   return text.starts_with(begin) || text.find("\n" + begin) != std::string::npos;
@@ -62,9 +62,9 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
   const double bottom = std::max(-0.85 * w, -height_mm.value_or(w));
   machine.area = {-0.3 * w, 0.3 * w, -0.25 * w, bottom};
   problems.warn("",
-                fmt::format("the settings do not give the paper's position. Assumed: a drawing "
-                            "area of {:.0f} x {:.0f} mm, its top {:.0f} mm below the pins. Put "
-                            "your own into /set/machine/area",
+                fmt::format("the settings do not contain the paper's position. Assumed: a drawing "
+                            "area of {:.0f} x {:.0f} mm, its top {:.0f} mm below the pins. Enter "
+                            "yours in /set/machine/area",
                             0.6 * w,
                             -0.25 * w - bottom,
                             0.25 * w));
@@ -72,9 +72,8 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
 
 void warn_of_gondola(const PlotterMachine& machine, Problems& problems) {
   problems.warn("",
-                fmt::format("the settings do not describe the gondola. Assumed: cords that both "
-                            "end at the pen, and {} kg. Put your own into "
-                            "/set/machine/gondola",
+                fmt::format("the settings do not describe the gondola. Assumed: both cords end at "
+                            "the pen, and {} kg. Enter yours in /set/machine/gondola",
                             machine.gondola.mass_kg));
 }
 
@@ -163,16 +162,16 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
   if (is_assumed) {
     problems.warn("",
                   fmt::format("the settings lack some of X_MIN_POS, X_MAX_POS, Y_MIN_POS and "
-                              "Y_MAX_POS. Assumed: the bed about its middle: {:g} to {:g} and {:g} to "
-                              "{:g}",
+                              "Y_MAX_POS. Assumed: a bed centred on the middle, {:g} to {:g} and "
+                              "{:g} to {:g}",
                               area.left,
                               area.right,
                               area.bottom,
                               area.top));
   }
   problems.warn("",
-                fmt::format("of Configuration.h only these names are read, the others say nothing of "
-                            "where the pen hangs: {}",
+                fmt::format("only these names are read from Configuration.h; the others do not "
+                            "describe where the pen hangs: {}",
                             joined(kMarlinNames)));
   return area;
 }
@@ -193,8 +192,8 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
   if (side == std::end(kSides)) {
     problems.add("the page",
                  fmt::format("a bed of {:g} mm, a belt of {:g} mm", bed_mm, belt_mm),
-                 fmt::format("under {:g} mm between the motors a bed of at least {:.0f} mm and a belt of "
-                             "at least {:.0f} mm, which a page takes",
+                 fmt::format("for {:g} mm between the motors, a bed of at least {:.0f} mm and a "
+                             "belt of at least {:.0f} mm, which a page needs",
                              machine.pin_spacing_mm,
                              std::ceil(least),
                              std::ceil(std::hypot((1.0 + kSides[5]) * half, least))),
@@ -205,8 +204,9 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
   machine.area = {-*side * half, *side * half, -kTop * half, -bottom};
   if (bottom == bed_mm && *side == kSides[0]) return;
   problems.warn("",
-                fmt::format("the longest belt, {:g} mm, does not reach all of the bed: the page is {:.0f} mm "
-                            "wide and ends {:g} mm below the motors; a belt of {:.0f} mm reaches the whole",
+                fmt::format("the longest belt, {:g} mm, does not reach the whole bed: the page is "
+                            "{:.0f} mm wide and ends {:g} mm below the motors; a belt of {:.0f} mm "
+                            "would reach all of it",
                             belt_mm,
                             2.0 * *side * half,
                             bottom,
@@ -234,7 +234,7 @@ void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Pro
                            set.home->x_mm,
                            set.home->y_mm,
                            longest),
-               fmt::format("a home under the motors that a belt of {:g} mm reaches "
+               fmt::format("a home below the motors within reach of a belt of {:g} mm "
                            "(MANUAL_X_HOME_POS, MANUAL_Y_HOME_POS)",
                            belt),
                ProblemKind::out_of_range);
@@ -314,7 +314,7 @@ model::BedPoint polargraph_home(SettingReader& settings,
   constexpr double kUsualDownMm = 120.0;
   problems.warn("",
                 fmt::format("a boot log does not contain home. Assumed: the middle, {:g} mm below "
-                            "the motors. Put your own into /set/home",
+                            "the motors. Enter yours in /set/home",
                             kUsualDownMm));
   return {0.5 * width, kUsualDownMm};
 }
@@ -385,7 +385,7 @@ void take_calibration(SettingReader& settings, PlotterMachine& machine, Problems
   if (extended.has_value() == measured.has_value()) return;
   problems.add(extended ? kMeasured : kExtended,
                "",
-               "both distances of the calibration: the extended length, and that length by a tape",
+               "both distances of the calibration: the extended length, and the same length by tape",
                ProblemKind::missing);
 }
 

@@ -108,7 +108,7 @@ void Problems::throw_if_any() const {
     shown.push_back({file_,
                      "",
                      fmt::format("{} more problems", more),
-                     "those above corrected first",
+                     "the problems above to be corrected first",
                      {},
                      ProblemKind::too_many});
   }

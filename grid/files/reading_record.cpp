@@ -40,7 +40,7 @@ void check_reading(const Cursor& at, ExtraReading& reading) {
     const auto& sides = kind.sides;
     if (reading.side.empty() || !at.child("side").clean()) continue;
     if (sides.empty())
-      at.child("side").expect(fmt::format("no side, {} has none", name(kind.what)));
+      at.child("side").expect(fmt::format("no side, because {} has none", name(kind.what)));
     if (!sides.empty() && !contains(sides, reading.side)) {
       at.child("side").expect(fmt::format("{} for {}", fmt::join(sides, ", "), name(kind.what)));
     }
@@ -62,7 +62,7 @@ const Record<ExtraReading>& reading_record() {
       Record<ExtraReading>("a reading")
           .required("what", "The quantity that was measured.", &ExtraReading::what, reading_name())
           .sparse("side",
-                  "For a pitch left, right or both; for a tape error x, y or both.",
+                  "For a pitch: left, right or both; for a tape error: x, y or both.",
                   &ExtraReading::side,
                   one_of({"left", "right", "both", "x", "y"}))
           .required("value",

@@ -38,7 +38,7 @@ bool is_first(std::map<std::string, std::string>& places,
   if (!is_new) {
     problems.add(place,
                  line,
-                 fmt::format("this key once; it stands at {} already", same->second),
+                 fmt::format("this key only once; it is already at {}", same->second),
                  ProblemKind::repeated_key);
   }
   return is_new;

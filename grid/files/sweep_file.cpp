@@ -107,7 +107,7 @@ Record<UseLevel> use_record() {
   return Record<UseLevel>("a machine that the map is used on")
       .required("name", "Name of this level in results.", &UseLevel::name)
       .sparse("effects",
-              "Effects that it has besides those of the measured machine.",
+              "Effects in addition to those of the measured machine.",
               &UseLevel::effects,
               list(effect_record()))
       .optional("another_of_the_build",

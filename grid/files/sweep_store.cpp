@@ -130,7 +130,7 @@ FinishedCells finished_cells(const fs::path& directory, const ReadSweep& read) {
     if (line + '\n' != header) {
       refuse(entry->path(),
              "cells of another sweep",
-             "an empty folder, or one that holds parts of this very specification");
+             "an empty folder, or one with parts of the same specification");
     }
     while (std::getline(in, line)) take_line(line, cells);
   }

@@ -38,8 +38,8 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
   while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) {
     if (text.size() + count > kMostBytes) {
       refuse_file(name,
-                  "a longer file",
-                  fmt::format("at most {} MB: no file of measurements or settings is longer",
+                  "a larger file",
+                  fmt::format("at most {} MB; no file of measurements or settings is larger",
                               kMostBytes >> 20U),
                   ProblemKind::file_kind);
     }
@@ -70,13 +70,13 @@ void check_is_text(const std::string& text, const std::string& name) {
        "a spreadsheet of Excel or LibreOffice (.xlsx, .ods), or a zip archive",
        "text: open it in the spreadsheet and save it as CSV"},
       {"\xD0\xCF\x11\xE0"sv,
-       "a spreadsheet of an old Excel (.xls)",
+       "an old Excel spreadsheet (.xls)",
        "text: open it in a spreadsheet and save it as CSV"},
       {"%PDF"sv,
        "a PDF",
-       "text: what a PDF shows has to be typed, or saved as CSV where it was made"},
-      {"\x89PNG"sv, "a picture", "text: the numbers have to be typed"},
-      {"\xFF\xD8\xFF"sv, "a picture", "text: the numbers have to be typed"},
+       "text: the contents of a PDF must be typed, or saved as CSV in the program that made it"},
+      {"\x89PNG"sv, "a picture", "text: the numbers must be typed"},
+      {"\xFF\xD8\xFF"sv, "a picture", "text: the numbers must be typed"},
   };
   for (const Kind& kind : kKinds) {
     if (text.starts_with(kind.beginning))
@@ -179,7 +179,7 @@ void write_whole_files(const std::vector<OutputFile>& outputs) {
     if (!is_device && !names.insert(place).second)
       refuse_file(output.path.string(),
                   "a name given twice",
-                  "a file of its own for each output",
+                  "a different file for each output",
                   ProblemKind::output_repeated);
     files.push_back(pending.emplace_back(std::make_unique<PendingFile>(output.path)).get());
     files.back()->write(output.text);

@@ -150,13 +150,13 @@ void add_axes(HoleTransformations& list) {
     });
   };
   holes(
-      "the sign of the holes' x_mm looks turned round, or the edges left and right exchanged: x_mm "
+      "the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
       "counts to the right",
       [](model::BedPoint p) {
         return model::BedPoint{-p.x_mm, p.y_mm};
       });
   holes(
-      "the sign of the holes' y_mm looks reversed, or the edges top and bottom exchanged: y_mm "
+      "the sign of the holes' y_mm looks reversed, or the top and bottom edges exchanged: y_mm "
       "counts up the sheet",
       [](model::BedPoint p) {
         return model::BedPoint{p.x_mm, -p.y_mm};
@@ -206,7 +206,7 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Hole
                  });
     for (std::size_t other = 0; other < h; ++other) {
       list.of_holes(ProblemKind::other_order,
-                   fmt::format("the holes {} and {} look exchanged", set.holes[other].name, name),
+                   fmt::format("holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
                      std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
                    });
@@ -267,8 +267,8 @@ struct DistanceRows {
     constexpr double kFewer = 1.4;
     constexpr double kTwice = 0.7;
     const double d = written.distance_mm;
-    value(0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), kTwice);
-    value(2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), kTwice);
+    value(0.5 * d, fmt::format("is it twice the distance, {:.10g} mm?", 0.5 * d), kTwice);
+    value(2.0 * d, fmt::format("is it half of the distance, {:.10g} mm?", 2.0 * d), kTwice);
     for (const NumberError& slip : number_errors(d, false))
       value(slip.value, slip.question, slip.penalty - kFewer);
     others(written, weigh);
@@ -305,7 +305,7 @@ struct DistanceRows {
       const std::string question = question_of(row);
       if (question.empty()) continue;
       found.push_back({row,
-                       fmt::format("{} is {} off what the others say: {}",
+                       fmt::format("{} is {} off the prediction by the others: {}",
                                    words_of(set, set.distances[row]),
                                    length_in_words(residual_mm(row)),
                                    question)});
@@ -355,8 +355,8 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
       !suspected_tape_zero_offset_mm(set)) {
     findings.whole = WholeFinding{
         std::nullopt,
-        "the distances are not those between these holes: are they of another sheet, or "
-        "of other holes?",
+        "the distances do not belong to these holes: are they from another sheet, or between other "
+        "holes?",
         fmt::format("half of them differ by more than {} from the commanded ones",
                     length_in_words(median_mm)),
         false};

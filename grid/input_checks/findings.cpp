@@ -45,7 +45,7 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
 }
 
 std::string_view or_say_inches(Written written) {
-  return written == Written::in_table ? ", or say --inches" : "";
+  return written == Written::in_table ? ", or use --inches" : "";
 }
 
 std::string WholeFinding::sentence() const {

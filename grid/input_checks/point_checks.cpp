@@ -47,7 +47,7 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
   return WholeFinding{
       std::nullopt,
       "marks and readings do not belong together, and no usual typing error explains it; are they "
-      "of another sheet, another list or another machine?",
+      "from another sheet, another list or another machine?",
       std::isfinite(plain.median_mm)
           ? fmt::format("half of the points are more than {:.0f} mm from where the machine puts them",
                         plain.median_mm)
@@ -96,7 +96,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
       tried,
       kOddPoints,
       std::isfinite(plain.median_mm)
-          ? fmt::format("half of the marks are over {} off where the machine puts them",
+          ? fmt::format("half of the marks are more than {} from where the machine puts them",
                         length_in_words(plain.median_mm))
           : std::string("the machine cannot have these readings"));
   if (finding && finding->from_row.value_or(0) > 0) {
@@ -104,7 +104,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
     std::vector<double> residual_mm;
     for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i)
       residual_mm.push_back(trend.residual_mm[i]);
-    finding->found = fmt::format("half of the marks from here on are over {} off",
+    finding->found = fmt::format("half of the marks from here on are off by more than {}",
                                  length_in_words(median(std::move(residual_mm))));
   }
   if (finding) return finding;
@@ -124,13 +124,13 @@ std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts,
   constexpr double kMmPerMetre = 1000.0;
   return WholeFinding{
       std::nullopt,
-      fmt::format("the sheet looks turned by {:.0f} mm a metre, its right end {}: was it laid askew, or "
-                  "does the beam with the motors lean? Where it was laid by hand, say how well "
-                  "(\"sheet\": {{\"shift_mm\": 10, \"rotation_mrad\": 20}}); else measure from the bed's "
-                  "own axes",
+      fmt::format("the sheet looks rotated by {:.0f} mm per metre, its right end {}: was it placed "
+                  "at an angle, or is the beam with the motors tilted? If it was placed by hand, "
+                  "enter how accurately (\"sheet\": {{\"shift_mm\": 10, \"rotation_mrad\": 20}}); "
+                  "otherwise measure from the bed's axes",
                   kMmPerMetre * std::abs(turn),
                   turn > 0.0 ? "up" : "down"),
-      fmt::format("all marks agree in it to {:.1f} mm", trend.median_residual_mm()),
+      fmt::format("all marks agree on it to {:.1f} mm", trend.median_residual_mm()),
       true,
       std::nullopt,
       ProblemKind::axes};
@@ -211,12 +211,12 @@ struct PointRows {
     const model::MarkPoint mark = grid.points[row].mark;
     const auto& motors = grid.machine->motors;
     if (mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm) && !accounts.can_hold(mark)) {
-      return {row, fmt::format("Mark {} lies above the motors: {}", number, slip.question), true};
+      return {row, fmt::format("Mark {} is above the motors: {}", number, slip.question), true};
     }
     if (!accounts.can_hold(mark)) {
       return {row,
               fmt::format(
-                  "Mark {} lies where the machine cannot hold the sled: {}", number, slip.question),
+                  "Mark {} is where the machine cannot hold the sled: {}", number, slip.question),
               true};
     }
     const auto apart = places[row] ? apart_from_its_repeat(grid.points, places, row) : std::nullopt;
@@ -237,7 +237,7 @@ struct PointRows {
               false};
     }
     return {row,
-            fmt::format("Mark {} lies {} off where the others put it. {}",
+            fmt::format("Mark {} is {} from where the others put it. {}",
                         number,
                         length_in_words(residual_mm(row)),
                         question),

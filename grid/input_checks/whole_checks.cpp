@@ -89,10 +89,10 @@ void add_axes(List& list) {
   constexpr const char* kQuarter =
       "the axes look rotated by a quarter turn: x_mm counts to the right, y_mm up the sheet";
   const Axes axes[] = {
-      {"the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
+      {"the sign of x_mm looks reversed: x_mm counts to the right of the bed's middle",
        Eigen::Matrix2d{{-1, 0}, {0, 1}}},
       {"y_mm looks counted downwards: it counts up the sheet", Eigen::Matrix2d{{1, 0}, {0, -1}}},
-      {"the signs of x_mm and y_mm both look turned round: they count to the right and up the sheet",
+      {"the signs of x_mm and y_mm both look reversed: they count to the right and up the sheet",
        Eigen::Matrix2d{{-1, 0}, {0, -1}}},
       {"the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
        Eigen::Matrix2d{{0, 1}, {1, 0}}},
@@ -115,7 +115,7 @@ void add_signs(List& list, const PlacedPoints& written) {
   };
   const auto add = [&](bool of_x, bool of_y, const char* which, const char* where) {
     list.mark(ProblemKind::minus_signs,
-              fmt::format("all the minus signs{} look left out: places {} need one", which, where),
+              fmt::format("all minus signs{} seem to be missing: places {} need one", which, where),
               [=](MarkPoint m, BedPoint p) {
                 return MarkPoint{of_x ? std::copysign(m.x_mm, p.x_mm) : m.x_mm,
                                  of_y ? std::copysign(m.y_mm, p.y_mm) : m.y_mm};
@@ -199,7 +199,8 @@ void add_shifts(List& list, bool reads_lengths) {
         Transformation& own = list.shift(
             sign * by_mm * x,
             sign * by_mm * y,
-            fmt::format("all {} look {:g} mm too {}: was {}, or are the machine's measures off by that?",
+            fmt::format("all {} look {:g} mm too {}: was {}, or are the machine's measures off by "
+                        "that amount?",
                         what,
                         by_mm,
                         too,
@@ -395,8 +396,8 @@ std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
         fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
                     written.points.front().lengths ? "lengths" : "command",
                     by < 0 ? "before" : "after",
-                    by < 0 ? "written twice, or one left out of the other columns"
-                           : "left out, or one written twice in the other columns"),
+                    by < 0 ? "written twice, or missing from the other columns"
+                           : "missing, or written twice in the other columns"),
         std::move(slipped)));
     result.back().of = Transformation::Of::tail;
   }
@@ -404,8 +405,7 @@ std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
       accounts,
       written,
       ProblemKind::other_order,
-      fmt::format("the lines look as if one of the two lists, marks and {}, runs from its end to its "
-                  "beginning",
+      fmt::format("one of the two lists, marks and {}, seems to be in reverse order",
                   readings_of(written)),
       {written.places.rbegin(), written.places.rend()}));
   return result;

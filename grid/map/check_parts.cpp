@@ -75,8 +75,8 @@ MeasuredHoles merged(const MeasuredHoles& set) {
 tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const char* what) {
   return failed(
       Reason::too_many_readings,
-      fmt::format("{} {} are more than a check takes ({}); three to five far from each other show "
-                  "as much. For a map of all of them, use chaintrue fit",
+      fmt::format("{} {} are more than a check accepts ({}); three to five far from each other "
+                  "show as much. For a map from all of them, use chaintrue fit",
                   found,
                   what,
                   most));
@@ -144,7 +144,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                                                      const MeasuredHoles& set) {
   if (!set.machine) {
     return failed(Reason::no_machine,
-                  "the holes name no machine, so the chain lengths for their commands are unknown");
+                  "the holes have no machine, so the chain lengths for their commands are unknown");
   }
   MeasuredHoles once = merged(with_true_tape(set));
   if (once.distances.size() > kMostCheckedDistances)

@@ -30,9 +30,9 @@ void decide(Check& check) {
 
 std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
   if (h.what == model::Change::nothing) return "nothing has changed";
-  if (h.what == model::Change::bad_point) return fmt::format("{} alone is wrong", h.name);
+  if (h.what == model::Change::bad_point) return fmt::format("only {} is wrong", h.name);
   if (h.what == model::Change::unknown)
-    return "something has changed that follows no known pattern";
+    return "something has changed that has no known pattern";
   return words.change(h);
 }
 
@@ -41,8 +41,8 @@ std::string sentence_of(const Check& check, const CheckWords& words) {
   const double percent = 100.0 * check.probability[static_cast<std::size_t>(check.verdict)];
   if (first.what == model::Change::bad_point) {
     return fmt::format(
-        "Measure {} again ({:.0f} %): it alone is wrong, so it does not show "
-        "whether {} is valid.",
+        "Measure {} again ({:.0f} %): only this reading is wrong, and it does not show whether {} "
+        "is valid.",
         first.name,
         percent,
         words.subject);

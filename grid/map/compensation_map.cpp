@@ -92,7 +92,7 @@ CompensationMap::CompensationMap(MapContents contents)
   if (contents_.outside.way == Outside::fade &&
       std::holds_alternative<DirectSurface>(contents_.surface)) {
     throw std::invalid_argument(
-        "a map without a machine has nothing left where its surface fades out");
+        "a map without a machine has no value where its surface fades out");
   }
   field_ = MapField::make(contents_);
 }

@@ -105,8 +105,8 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
       if (auto done = correct_readings(corrected.grid, both, rest); !done)
         return tl::unexpected(done.error());
       corrected.notes.push_back(
-          fmt::format("What changed during the session was taken out of the readings ({}): the map, and the "
-                      "errors with it and without, are those of the machine as it was before.",
+          fmt::format("Changes during the session were removed from the readings ({}): the map, "
+                      "and the errors with it and without, are for the machine before the change.",
                       names_of(visit)));
     } else {
       corrected.notes.push_back(

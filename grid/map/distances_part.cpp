@@ -29,7 +29,7 @@ class DistancesPart final : public FitPart {
   [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
     std::string sentence = fmt::format(
         "{} of {} distances contradict the others or the machine file; check the machine's "
-        "measures, the settings that the controller runs with, and which holes the distances join",
+        "measures, the controller's settings, and which holes the distances join",
         bad,
         all);
     if (const auto tape_zero = suspected_tape_zero_offset_mm(set())) {
@@ -86,8 +86,8 @@ class DistancesPart final : public FitPart {
   void note_noise(double factor, std::vector<std::string>& notes) const {
     if (factor <= kNoiseDisagreement) return;
     notes.push_back(
-        fmt::format("The distances scatter {:.1f} times as much as you gave ({:g} mm for the tape, "
-                    "{:g} mm for a hole), so the results are that much less certain.",
+        fmt::format("The distances scatter {:.1f} times as much as you entered ({:g} mm for the "
+                    "tape, {:g} mm for a hole), so the results are that much less certain.",
                     factor,
                     set().tape.sigma_mm,
                     set().hole_sigma_mm));
@@ -103,8 +103,8 @@ class DistancesPart final : public FitPart {
     }
     if (free.empty()) return;
     notes.push_back(
-        fmt::format("No measured edges fix where the sheet lay ({}). The map assumes that the "
-                    "holes, on average, are where they were commanded.",
+        fmt::format("No edges were measured, so the position of the sheet is unknown ({}). The map "
+                    "assumes that the holes, on average, are where they were commanded.",
                     free));
   }
 
@@ -118,8 +118,8 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& 
     throw precondition("a fit of no distances between {} holes", set.holes.size());
   if (!set.machine) {
     return failed(FitReason::no_machine,
-                  "the holes name no machine, whose controller turns commands "
-                  "into chain lengths: give --machine");
+                  "the holes have no machine, whose controller turns commands into chain lengths: "
+                  "add --machine");
   }
   auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {

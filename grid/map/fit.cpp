@@ -125,9 +125,9 @@ tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
   if (missing == 0 && nx >= 2 && ny >= 2) return {};
   return failed(
       FitReason::not_a_grid,
-      fmt::format("--surface direct needs a point on every crossing of full rows and columns; "
-                  "these points make {} columns and {} rows with {} crossings empty. If the sled "
-                  "stood off its marks, --surface residual takes the points as they are",
+      fmt::format("--surface direct needs a point at every crossing of full rows and columns; "
+                  "these points form {} columns and {} rows with {} empty crossings. If the sled "
+                  "was off its marks, --surface residual accepts the points as they are",
                   nx,
                   ny,
                   missing));
@@ -173,9 +173,9 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                     options.ends,
                     std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
   map.notes.push_back(
-      "The lengths were interpolated without a machine. Between few points the error is "
-      "millimetres near the motors, however well each point was measured. Leave-one-out here "
-      "means one column or row at a time, blocked the worse of the two.");
+      "The lengths were interpolated without a machine. With few points the error between them "
+      "reaches millimetres near the motors, however accurately each point was measured. "
+      "Leave-one-out here leaves out one column or row at a time; blocked is the worse of the two.");
   const CompensationMap bare(map);
   for (const LengthPoint& point : *points) {
     const auto here = bare.lengths(point.mark);

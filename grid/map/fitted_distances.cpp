@@ -49,7 +49,7 @@ void note_rejected(const MeasuredHoles& set,
     if (count < 2) continue;
     notes.push_back(
         fmt::format("{} of the distances that were left out end at hole {}: perhaps the hole is "
-                    "misplaced, not the tape.",
+                    "misplaced and the tape is right.",
                     count,
                     set.holes[hole].name));
   }
@@ -62,8 +62,8 @@ std::string tape_zero_sentence(const FoundTapeZero& zero) {
       zero.sigma_mm,
       zero.mm > 0.0 ? "long" : "short",
       zero.mm > 0.0
-          ? "is the hook or the bit's width in it? Measure from centre to centre, or give it "
-            "(--hook-offset-mm)."
+          ? "does it include the hook or the bit's width? Measure from centre to centre, or enter "
+            "the offset (--hook-offset-mm)."
           : "was it measured between the near edges of the holes, or is the hook's offset "
             "too large?");
 }
@@ -133,8 +133,8 @@ std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDi
   note_rejected(set, fit, notes);
   if (const auto tape_zero = suspected_tape_zero_offset_mm(set)) {
     notes.push_back(
-        fmt::format("All distances are about {:.1f} mm {} than commanded, short ones like long "
-                    "ones: was the tape's hook offset left out or taken off twice?",
+        fmt::format("All distances are about {:.1f} mm {} than commanded, whatever their length: "
+                    "was the tape's hook offset left out or subtracted twice?",
                     std::abs(*tape_zero),
                     *tape_zero > 0.0 ? "longer" : "shorter"));
   } else if (fit.tape_zero &&

@@ -43,7 +43,7 @@ tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>
     const auto& machine = file.machine();
     if (!machine) {
       return failed(FitFailure::Reason::no_machine,
-                    fmt::format("{} names no machine: give --machine", file.name));
+                    fmt::format("{} has no machine: add --machine", file.name));
     }
     const std::string difference = difference_of_settings(*files.front().machine(), *machine);
     if (!difference.empty()) {
@@ -182,7 +182,7 @@ void note_zeros(const std::vector<MeasuredFile>& files,
     if (words.empty()) continue;
     notes.push_back(
         fmt::format("{}: the chains' zeros differ from those in {}: {}. The map is for the zeros "
-                    "of {}. If the machine has the other ones now, name that file first.",
+                    "of {}. If the machine now has the other zeros, name that file first.",
                     files[k].name,
                     files[of_map].name,
                     words,
@@ -215,14 +215,15 @@ std::vector<std::string> notes_of(const Parts& parts,
   if (fitting.input.surface == estimation::SurfaceUse::on_evidence) {
     notes.emplace_back(
         fitting.estimate.has_surface
-            ? "The distances show more than settings can explain: the map bends smoothly there."
-            : "Settings and chain scales explain the distances: the map is the calibrated machine. "
-              "Its expected error does not include what no setting explains.");
+            ? "Settings cannot explain all of the distances, so the map includes a smooth "
+              "correction."
+            : "Settings and chain scales explain the distances, so the map is the calibrated "
+              "machine. Its expected error does not include effects that no setting explains.");
   }
   if (!fitting.estimate.converged) {
     notes.push_back(fmt::format(
-        "The fit had not fully converged after its last pass: some {} are on the limit between "
-        "good and bad. Measure the ones with the largest errors again.",
+        "The fit had not fully converged after its last pass, because some {} are on the limit "
+        "between good and bad. Measure those with the largest errors again.",
         parts.size() > 1 ? "readings" : parts.front()->observation->kind().units));
   }
   append(draft.last_notes);
@@ -257,9 +258,9 @@ CompensationMap with_held_out_error(CompensationMap map, const std::vector<Fitte
   const double larger_mm = std::sqrt(left_out_mm2);
   return with_larger_error(map, larger_mm / expected_mm)
       .with_notes_first(
-          {fmt::format("The fit expects an error of {:.2f} mm rms, but points in left-out parts "
-                       "of the bed are off by {:.2f} mm, more than the scatter of the readings. "
-                       "The larger number is given. The map lacks some cause; chaintrue diagnose "
+          {fmt::format("The fit expects an error of {:.2f} mm rms, but points in left-out parts of "
+                       "the bed are off by {:.2f} mm, more than the scatter of the readings. The "
+                       "larger number is reported. The map lacks some cause; chaintrue diagnose "
                        "looks for it.",
                        expected_mm,
                        larger_mm)});

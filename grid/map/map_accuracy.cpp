@@ -83,17 +83,15 @@ MirrorTest test_mirror(const CompensationMap& map) {
   const auto than = [](double value) { return value >= 0.0 ? "longer" : "shorter"; };
   if (test.holds) {
     test.sentence = fmt::format(
-        "Within the noise the right chain mirrors the left one: the largest difference at {} "
+        "The right chain mirrors the left one within the noise: the largest difference at {} "
         "points is {:.2f} mm.",
         test.points,
         std::abs(test.worst_signed_mm));
   } else {
     test.sentence = fmt::format(
         "The right chain does not mirror the left one: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than "
-        "the left chain at the "
-        "mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One surface for both "
-        "chains would cut that "
-        "error into every part.",
+        "the left chain at the mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One "
+        "surface for both chains would put that error into every part.",
         test.worst_at.x_mm,
         test.worst_at.y_mm,
         std::abs(test.worst_signed_mm),

@@ -63,8 +63,8 @@ void note_settings_off(const std::vector<SettingResult>& settings,
   for (const SettingResult& setting : settings) {
     if (!setting.off) continue;
     notes.push_back(
-        fmt::format("{} differs by {:+.3f} from your file, more than three times its "
-                    "uncertainty. Measure it again; otherwise something else imitates it.",
+        fmt::format("{} differs by {:+.3f} from your file, more than three times its uncertainty. "
+                    "Measure it again; if it is right, something else imitates it.",
                     model::name(setting.setting),
                     setting.calibrated - setting.stated));
   }

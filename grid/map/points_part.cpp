@@ -60,14 +60,14 @@ void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& latti
 
 void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual& lattice) {
   notes.emplace_back(
-      "The readings have no noise and are on full rows and columns: the map passes through every "
-      "one of them.");
+      "The readings have no noise and are on full rows and columns, so the map passes through "
+      "every one of them.");
   for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
     for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
       notes.push_back(
-          fmt::format("No reading at ({:.0f}, {:.0f}) was used: the map there comes from the row "
-                      "or column through it, accurate to about {:.2g} mm.",
+          fmt::format("No reading at ({:.0f}, {:.0f}) was used; the map there comes from the row "
+                      "or column through it and is accurate to about {:.2g} mm.",
                       lattice.x_nodes_mm[as_size(ix)],
                       lattice.y_nodes_mm[as_size(iy)],
                       lattice.doubt_mm(ix, iy)));
@@ -242,8 +242,8 @@ class PointsPart final : public FitPart {
     const MapNoise& noise = draft.map.noise;
     if (noise.source == NoiseSource::stated && noise.factor_found > kNoiseDisagreement) {
       draft.notes.push_back(
-          fmt::format("The readings scatter {:.1f} times as much as you gave: check how the marks "
-                      "and the lengths were measured.",
+          fmt::format("The readings scatter {:.1f} times as much as you entered: check how the "
+                      "marks and the lengths were measured.",
                       noise.factor_found));
     }
   }
@@ -277,8 +277,8 @@ class PointsPart final : public FitPart {
 tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& grid) {
   if (!grid.machine) {
     return failed(FitReason::no_machine,
-                  "the grid names no machine; a residual surface needs one: "
-                  "give --machine, or ask for --surface direct");
+                  "the grid has no machine, which a residual surface needs: add --machine, or use "
+                  "--surface direct");
   }
   auto corrected = corrected_data(grid);
   if (!corrected) return tl::unexpected(corrected.error());

@@ -87,7 +87,7 @@ std::string_view sentence_of(StraightReason reason) {
       return "this map was made without a machine, so its anchors are unknown: fit the points "
              "again with --machine, and without --surface direct";
     case StraightReason::no_origin:
-      return "the map has no answer at 0, 0, where such a controller is switched on";
+      return "the map does not cover 0, 0, where such a controller is switched on";
     case StraightReason::not_converged:
       break;
   }

@@ -218,7 +218,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
       return failed(TapeDistancesReason::no_lengths,
-                    fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's reach: {}",
+                    fmt::format("the controller cannot reach hole {} at ({:.1f}, {:.1f}): {}",
                                 hole.name,
                                 hole.commanded.x_mm,
                                 hole.commanded.y_mm,
@@ -341,8 +341,8 @@ std::string TapeDistances::untestable(const model::effects::Effect& effect,
     return "the order in which the holes were cut is not in the file, and no chain was read";
   }
   if (effect.station == model::effects::Station::paper && !is_of_tape(effect, side)) {
-    return "a tape has one scale whichever way it is held, and no axes: print or set out marks "
-           "and read the chains there";
+    return "a tape has one scale in every direction, and no axes: print or place marks and read "
+           "the chains there";
   }
   return "";
 }

@@ -108,7 +108,7 @@ tl::expected<std::vector<int>, std::string> visit_numbers(const std::vector<Meas
   std::vector<std::vector<MarkInLine>> lines = lines_of(visits.first);
   if (lines.empty()) {
     return tl::unexpected(
-        fmt::format("marks that stand in {}; these do not", order.rows ? "rows" : "columns"));
+        fmt::format("marks that are in {}; these are not", order.rows ? "rows" : "columns"));
   }
   std::vector<int> numbers(points.size());
   int visit = 0;

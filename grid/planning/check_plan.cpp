@@ -176,7 +176,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   const std::vector<MarkPoint> places = places_of(map, request.margin_mm);
   if (places.size() < as_size(request.points)) {
     return failed(PlanReason::too_few_places,
-                  fmt::format("the map answers at only {} of the places tried", places.size()));
+                  fmt::format("the map covers only {} of the places tried", places.size()));
   }
   const auto readings = readings_at(map, places, request);
   if (!readings) return tl::unexpected(readings.error());

@@ -59,8 +59,8 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
   if (found->converged) return found.value();
   return failed(
       DrawingReason::not_converged,
-      "the fit did not converge: no settings near those in the file give this drawing. Check that "
-      "the machine's kind, its pins' spacing and the crosses are those of the drawing");
+      "the fit did not converge: no settings near those in the file explain this drawing. Check "
+      "that the machine's kind, the spacing of its pins and the crosses belong to the drawing");
 }
 
 /// Smaller residuals do not show that the readings are more accurate than stated.
@@ -178,9 +178,9 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(
         DrawingReason::no_settings_fit,
         fmt::format(
-            "no settings give this drawing: {} of {} measures do not fit the rest, which scatter "
-            "{:.1f} times as much as a ruler. Measure the worst again, then draw "
-            "the page a second time: a machine that slips draws another one",
+            "no settings explain this drawing: {} of {} measures do not fit the rest, which "
+            "scatter {:.1f} times as much as a ruler. Measure the worst again, then draw the page "
+            "a second time; a machine that slips draws it differently",
             bad,
             rejected.size(),
             estimate->noise_factor));

@@ -73,10 +73,11 @@ std::string drawing_svg(const TestDrawing& drawing) {
 
 std::string measuring_list(const TestDrawing& drawing) {
   std::string text =
-      "Lengths: with a ruler or a tape, from the middle of one cross to the middle of the other.\n"
-      "Bows: hold a string from the first cross to the last; measure from the string across to the "
-      "line at the cross between them.\nPositive if the line is to the left as you go from the "
-      "first to the last, that is above a line that runs to the right.\n\n";
+      "Lengths: with a ruler or a tape, from the middle of one cross to the middle of the "
+      "other.\nBows: hold a string from the first cross to the last, and measure across from the "
+      "string to the line at the cross between them.\nA bow is positive if the line is to the left "
+      "as you go from the first cross to the last, so above the string for a line that runs to the "
+      "right.\n\n";
   for (std::size_t i = 0; i < drawing.measures.size(); ++i)
     text += fmt::format("{:2}. {:<28} ________ mm\n", i + 1, words_of(drawing, i));
   return text;

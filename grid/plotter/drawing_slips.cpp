@@ -70,17 +70,17 @@ std::vector<Transformation> drawing_transformations(
     scale(ProblemKind::other_unit, sentence("the lengths and the bows"), all, mm);
   }
   scale(ProblemKind::minus_signs,
-        "the signs of the bows look reversed: count them as on the sheet, with a minus on the "
-        "other side",
+        "the signs of the bows look reversed: count them as shown on the sheet, with a minus on "
+        "the other side",
         bows,
         -1.0);
   const double share = median_share(drawing, as_set);
   if (std::abs(share - 1.0) > kFittedToSheet) {
     Transformation& page = scale(
         ProblemKind::other_sheet,
-        fmt::format("all lengths are {:.3f} times what was commanded, the same in every direction: the "
-                    "page was scaled, when it was printed or when it was sent to the plotter. Draw it at "
-                    "100 % and measure that",
+        fmt::format("all lengths are {:.3f} times the commanded ones, in every direction: the page "
+                    "was scaled when it was printed or sent to the plotter. Draw it at 100 % and "
+                    "measure again",
                     share),
         all,
         1.0 / share);
@@ -122,8 +122,8 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
     return DrawingFailure{
         DrawingFailure::Reason::bow_is_a_length,
         fmt::format("{} is {:.1f} mm, and the line is {:.0f} mm long: that is a length along the "
-                    "line. Hold a string from one end to the other and measure from the string "
-                    "across to the line at its middle",
+                    "line. Hold a string from one end to the other and measure across from the "
+                    "string to the line at its middle",
                     words_of(drawing, i),
                     own.value_mm,
                     length)};
@@ -165,7 +165,7 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
       plain,
       tried,
       kOddDrawing,
-      fmt::format("half of the measures are over {} off the prediction by the settings",
+      fmt::format("half of the measures are more than {} off the prediction by the settings",
                   input_checks::length_in_words(plain.median_mm)));
   if (!found) return std::nullopt;
   return DrawingFailure{reason_of(found->kind), found->sentence()};
@@ -186,8 +186,8 @@ std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
         continue;
       return DrawingFailure{
           DrawingFailure::Reason::rows_exchanged,
-          fmt::format("{} ({:.1f} mm) and {} ({:.1f} mm) fit if they are exchanged: they were "
-                      "typed into each other's row. Look at the sheet and correct them",
+          fmt::format("{} ({:.1f} mm) and {} ({:.1f} mm) fit if they are exchanged: each was typed "
+                      "into the other's row. Check the sheet and correct them",
                       words_of(drawing, i),
                       a.value_mm,
                       words_of(drawing, j),
