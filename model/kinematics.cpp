@@ -35,8 +35,7 @@ void require_sound(const EquilibriumParameters& p) {
   if (!(p.motors.right.x_mm - p.motors.left.x_mm > 2.0 * p.sprocket_radius_mm)) {
     throw std::invalid_argument(
         fmt::format("motor x_mm, left {} and right {}: expected the right motor right of the left "
-                    "one, by more than "
-                    "the sprocket's diameter",
+                    "one by more than the sprocket's diameter",
                     p.motors.left.x_mm,
                     p.motors.right.x_mm));
   }
@@ -98,14 +97,14 @@ EquilibriumParameters equilibrium_parameters(const Machine& machine) {
 MechanismReason named(PoseReason reason) {
   constexpr std::array<MechanismReason, 6> kReasons = {{
       {"outside_verticals",
-       "the point does not lie between the two motors: no sled can hang outside them"},
+       "the point is not between the two motors; no sled can hang outside them"},
       {"above_sprockets",
-       "the point lies as high as the motors or higher: a sled can only hang below them"},
+       "the point is at least as high as the motors; a sled can only hang below them"},
       {"link_does_not_fit",
        "the point is so close to a sprocket that the ring or bracket would reach past it"},
-      {"slack", "one chain would have to push: it hangs slack"},
+      {"slack", "one chain would have to push, so it hangs slack"},
       {"too_short", "the chains are too short to meet"},
-      {"not_converged", "no resting place of the sled was found"},
+      {"not_converged", "no equilibrium of the sled was found"},
   }};
   return kReasons.at(static_cast<std::size_t>(reason));
 }

@@ -246,7 +246,7 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   }
   if (session.noise_from_repeats && d.improvement) {
     d.notes.push_back(
-        fmt::format("Your readings scatter by about {:.2f} mm, as the marks measured twice show.",
+        fmt::format("Your readings scatter by about {:.2f} mm, judged by the marks measured twice.",
                     d.improvement->noise_floor_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));

@@ -34,9 +34,10 @@ tl::expected<Printed, BeltFailure> printed(const BeltMachine& machine, Belt belt
 
 MechanismReason named(BeltReason reason) {
   constexpr std::array<MechanismReason, 3> kReasons = {{
-      {"inside_the_arm", "the tool would be nearer to the anchor than arm and extension are long"},
-      {"shorter_than_height", "the length is shorter than the anchor is high"},
-      {"circles_do_not_meet", "two belts of these lengths end nowhere together"},
+      {"inside_the_arm", "the tool would be closer to the anchor than the length of arm and "
+                         "extension"},
+      {"shorter_than_height", "the length is less than the anchor's height"},
+      {"circles_do_not_meet", "two belts of these lengths do not meet"},
   }};
   return kReasons.at(static_cast<std::size_t>(reason));
 }

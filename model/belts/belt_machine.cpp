@@ -26,8 +26,8 @@ void check_anchors(const BeltMachine& machine, RangeChecks& checks) {
     if (value == 0.0) return;
     checks.add(place,
                fmt::format("{}", value),
-               "0: the bottom left anchor is the origin, and the bottom right one lies "
-               "on the x axis");
+               "0, because the bottom left anchor is the origin and the bottom right one is on the "
+               "x axis");
   };
   zero("/anchors/bl/x_mm", a.bl.x_mm);
   zero("/anchors/bl/y_mm", a.bl.y_mm);

@@ -27,7 +27,7 @@ constexpr std::array kCoordinates = {
 constexpr std::array<std::string_view, 4> kBeltLengths = {"tl", "tr", "bl", "br"};
 
 constexpr MechanismReason kAnchorsNotKnown{"anchors_not_known",
-                                           "the anchors' places are not given"};
+                                           "the positions of the anchors are unknown"};
 
 /// Index of the scale among the parameters.
 constexpr auto kScale = static_cast<Eigen::Index>(kCoordinates.size());

@@ -61,7 +61,7 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
       problems.push_back(
           {place,
            named.effect,
-           "together with the machine's own values: sprocket radius, chain mass and spacing of "
+           "together with the machine's values: sprocket radius, chain mass and spacing of "
            "brackets above 0, ring radius, height of brackets and compliance not below 0"});
       return;
     }

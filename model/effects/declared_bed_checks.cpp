@@ -137,7 +137,7 @@ class FormulaOnBed {
           offset,
           shortened ? "a chain without length" : "not finite",
           fmt::format("a formula that is finite, with its slopes, over the bed of the machine "
-                      "between the bounds; this is not{} with {}",
+                      "between the bounds; this one is not{} with {}",
                       at_words(trial),
                       words_of(own_, values)));
     }
@@ -151,7 +151,7 @@ class FormulaOnBed {
       if (std::abs(left) <= kNothingMm) continue;
       return at(0,
                 fmt::format("{:g}", left),
-                fmt::format("a formula that gives 0 at null; this gives {:g}{} with {}",
+                fmt::format("a formula that is 0 at null; this one is {:g}{} with {}",
                             left,
                             at_words(trial),
                             words_of(own_, values)));
@@ -185,8 +185,8 @@ class FormulaOnBed {
         return at(
             0,
             fmt::format("not in proportion{}", at_words(trial)),
-            "a formula in proportion to x and y, as a tape's scale and a skew are; an effect on "
-            "a chain may use x and y in any way");
+            "a formula linear in x and y, like a tape's scale or a skew; an effect on a chain may "
+            "use x and y in any way");
       }
     }
     return std::nullopt;

@@ -36,7 +36,8 @@ void check_names(const Declaration& own, Problems& problems) {
         {"/id",
          {},
          own.id,
-         "another name: the catalogue has an effect of this one; \"instead_of\" takes its place"});
+         "another name, because the catalogue has an effect with this one; to replace it, use "
+         "\"instead_of\""});
   }
   if (own.instead_of.empty()) return;
   const Effect* stood = find_effect(own.instead_of);
@@ -46,8 +47,8 @@ void check_names(const Declaration& own, Problems& problems) {
                         own.instead_of,
                         stood == nullptr
                             ? "an effect of the catalogue, as chaintrue effects lists them"
-                            : "an effect of paper, chain or reading: what changes the equilibrium "
-                              "cannot be written as a formula"});
+                            : "an effect of paper, chain or reading, because formulas cannot "
+                              "change the equilibrium"});
   }
 }
 
@@ -65,8 +66,8 @@ void check_sides(const Declaration& own, Problems& problems) {
       problems.push_back({fmt::format("/sides/{}", i),
                           {},
                           std::string(name(side)),
-                          paper ? "x, y or both: it acts on the paper"
-                                : "left, right or both: it acts on a chain"});
+                          paper ? "x, y or both, because it acts on the paper"
+                                : "left, right or both, because it acts on a chain"});
     }
   }
 }
@@ -106,8 +107,9 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
                         {},
                         first ? "place" : "size",
                         first
-                            ? "a size: the first parameter is how large the effect is"
-                            : "a place: an effect has one size, and behind it one place at most"});
+                            ? "a size, because the first parameter is the size of the effect"
+                            : "a place, because an effect has one size and at most one place after "
+                              "it"});
   }
   std::set<std::string> taken = {
       "pi", "mm", "sin", "cos", "exp", "log", "sqrt", "abs", "min", "max", "step", "ramp"};
@@ -124,8 +126,8 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
         {at + "/name",
          {},
          p.name,
-         "a name that ends in a unit which formulas know: mm, n, rad, visit, one per "
-         "another as in mm_per_rad, or in none for a plain number"});
+         "a name that ends in a unit: mm, n, rad, visit, one per another as in mm_per_rad, or none "
+         "for a plain number"});
   }
   if (!(p.prior_sigma > 0.0)) {
     problems.push_back(
@@ -136,7 +138,7 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
         {at + "/whole",
          {},
          "true",
-         "false: only an effect on readings or on one visit counts in whole numbers"});
+         "false, because only an effect on readings or on one visit uses whole numbers"});
   }
   check_range(p, at, problems);
 }
@@ -146,7 +148,7 @@ void check_parameters(const Declaration& own, Problems& problems) {
     problems.push_back({"/parameters",
                         {},
                         fmt::format("{} parameters", own.parameters.size()),
-                        "one size, and behind it one place at most"});
+                        "one size, and at most one place after it"});
     return;
   }
   for (std::size_t i = 0; i < own.parameters.size(); ++i) check_parameter(own, i, problems);
@@ -243,7 +245,7 @@ void check_formula(const Declaration& own,
         {place,
          0,
          "d together with other values of the chain",
-         "d with parameters alone: play that changes from place to place cannot be declared"});
+         "d with parameters only; play that changes from place to place cannot be declared"});
   }
 }
 

@@ -94,7 +94,7 @@ class FormulaParser {
     if (at_ < text_.size()) {
       stop(at_,
            found_here(),
-           text_[at_] == ')' ? "no bracket that closes nothing"
+           text_[at_] == ')' ? "no unmatched closing bracket"
                              : "an operator + - * / ^, or the end");
     }
     const Operand& whole = operands_.back();
@@ -151,7 +151,7 @@ class FormulaParser {
       if (++parser_.depth_ > Formula::kDeepest) {
         stop(offset,
              fmt::format("brackets, signs and powers more than {} deep", Formula::kDeepest),
-             "a formula that is written with fewer of them inside each other");
+             "a formula with fewer nested levels");
       }
     }
     ~Level() { --parser_.depth_; }
@@ -243,7 +243,7 @@ class FormulaParser {
         std::string_view(digits).substr(0, digits.find_first_of("eE"));
     const bool vanished = value == 0.0 && mantissa.find_first_of("123456789") != std::string::npos;
     if (stream.fail() || vanished || !std::isfinite(value))
-      stop(offset, found_here(), "a number that a computer can hold");
+      stop(offset, found_here(), "a number within the range of the computer");
     at_ += digits.size();
     skip_blanks();
     push(number_of(value), {Kind::number, value, 0, offset});
@@ -264,7 +264,7 @@ class FormulaParser {
     known.insert(known.end(), {"mm", "N", "pi"});
     stop(offset,
          word,
-         is_function(word) ? fmt::format("a bracket behind {}, as in {}(...)", word, word)
+         is_function(word) ? fmt::format("a bracket after {}, as in {}(...)", word, word)
                            : "a name that this formula may use: " + joined(known));
   }
 
@@ -327,7 +327,8 @@ class FormulaParser {
           offset,
           fmt::format("{} of {}", word, words_of(own)),
           fmt::format(
-              "{} of a number: divide by what has its unit, as in {}(x / (100 * mm))", word, word));
+              "{} of a plain number; divide by a quantity with the same unit, as in {}(x / (100 * "
+              "mm))", word, word));
     }
     if (kind == Kind::root) own.unit = {0.5 * own.unit.mm, 0.5 * own.unit.n};
     // The constant 1 or 0, in any unit.
@@ -367,12 +368,12 @@ class FormulaParser {
 
   static FormulaUnit raised(const Operand& a, const Operand& b, std::size_t offset) {
     if (!(b.unit == FormulaUnit{}))
-      stop(offset, fmt::format("a power of {}", words_of(b)), "a number behind ^");
+      stop(offset, fmt::format("a power of {}", words_of(b)), "a number after ^");
     if (a.unit == FormulaUnit{}) return {};
     if (!b.constant) {
       stop(offset,
            fmt::format("{} to a power that varies", words_of(a)),
-           "a plain number behind ^, so that the unit is known");
+           "a plain number after ^, so that the unit is known");
     }
     return {a.unit.mm * *b.constant, a.unit.n * *b.constant};
   }

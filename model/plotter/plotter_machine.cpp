@@ -24,14 +24,14 @@ void check_gondola(const PlotterMachine& machine, RangeChecks& checks) {
       g.mass_right_mm != 0.0) {
     checks.add("/gondola",
                "a spacing of 0, and a pen or a mass away from the cords' end",
-               "0 for pen and mass where both cords end at the pen, or the spacing of the two "
+               "0 for pen and mass if both cords end at the pen; otherwise the spacing of the two "
                "points where the cords hold the gondola");
   }
   if (machine.motors == MotorPlace::gondola) {
     checks.add(
         "/motors",
         "gondola",
-        "wall where both cords end at the pen, or the spacing of the pulleys in the gondola");
+        "wall if both cords end at the pen; otherwise the spacing of the pulleys in the gondola");
   }
 }
 

@@ -8,9 +8,10 @@ namespace chaintrue::model {
 
 MechanismReason named(PlotterReason reason) {
   constexpr std::array<MechanismReason, 5> kReasons = {{
-      {"above_the_pins", "the gondola would be above a point that its cords hang from"},
-      {"outside_the_pins", "the gondola would not be between the points that its cords hang from"},
-      {"slack", "a cord would be slack: the gondola is too light for what pulls at it"},
+      {"above_the_pins", "the gondola would be above a point where its cords are attached"},
+      {"outside_the_pins", "the gondola would not be between the points where its cords are "
+                           "attached"},
+      {"slack", "a cord would be slack, because the gondola is too light for the forces on it"},
       {"cords_do_not_meet", "cords of these lengths do not meet"},
       {"not_converged", "no equilibrium was found"},
   }};

@@ -166,7 +166,7 @@ TEST(BeltsDiagnosis, UntestableCausesNameTheMeasurementThatTestsThem) {
     return "";
   };
   EXPECT_THAT(reason("belt_scale", "all"), HasSubstr("tape one long distance"));
-  EXPECT_THAT(reason("tooth_skip", "bl"), HasSubstr("give order"));
+  EXPECT_THAT(reason("tooth_skip", "bl"), HasSubstr("add order"));
   EXPECT_THAT(reason("anchor_moved", "all"), HasSubstr("from two edges of the sheet"));
 }
 

@@ -105,7 +105,7 @@ TEST(RealBeltSets, ATensionTestShowsTheStretchOfEachPull) {
   ASSERT_FALSE(fit);
   // Four positions within 10 mm.
   EXPECT_EQ(fit.error().reason, BeltsFitFailure::Reason::not_determined);
-  EXPECT_NE(fit.error().sentence().find("how much the pulled ones stretch"), std::string::npos);
+  EXPECT_NE(fit.error().sentence().find("how much the pulled belts stretch"), std::string::npos);
   const auto pulls = repeated_pulls(import.belts);
   ASSERT_EQ(pulls.size(), 4U);
   // 4.38 of 1855.75 and 5.80 of 1855.04 mm, and so on, from the owner's notes; the last pair is his

@@ -220,7 +220,7 @@ TEST(Sessions, RefuseACopy) {
   const auto d = diagnose(both, verdict_alone());
   ASSERT_FALSE(d);
   EXPECT_EQ(d.error().sentence(),
-            "two.json holds the same readings as one.json, to the last digit: a copy adds nothing. Leave it out");
+            "two.json has the same readings as one.json, to the last digit, and a copy adds nothing. Leave it out");
 }
 
 // For two files without numbers of visits, the first driven there and back in columns by a machine with friction.

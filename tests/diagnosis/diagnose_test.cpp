@@ -52,7 +52,7 @@ TEST(DiagnoseBadInput, EstimatesMissingNoiseFromRepeats) {
   grid.noise.reset();
   const auto answer = diagnose(grid, {});
   ASSERT_TRUE(answer);
-  EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("by the marks that were measured twice")));
+  EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("judged by the marks measured twice")));
 }
 
 TEST(DiagnoseBadInput, RefusesAMissingMachine) {
@@ -108,7 +108,7 @@ TEST(DiagnoseBadInput, RefusesAnotherMachine) {
   }
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
-                 "are they of another sheet, another list or another machine?");
+                 "are they from another sheet, another list or another machine?");
 }
 
 /// Every effect, at a strength that identifies it, is named with its size within four sigma.

@@ -74,14 +74,14 @@ TEST(HolesDiagnosisBadInput, ReportsAForgottenHookOffset) {
   for (HoleDistance& distance : set.distances) distance.distance_mm += 40.0;
   expect_refused(set,
                  DiagnosisFailure::Reason::contradictory_settings,
-                 "all distances are about 40 mm longer than commanded, long ones and short ones "
-                 "by the same: it looks as if the tape's hook offset, given as 0 mm, is 40 mm");
+                 "all distances are about 40 mm longer than commanded, whatever their length: the "
+                 "tape's hook offset, entered as 0 mm, is probably 40 mm");
 }
 
 TEST(HolesDiagnosisBadInput, RefusesAMissingMachine) {
   MeasuredHoles set = holes({}, 1);
   set.machine.reset();
-  expect_refused(set, DiagnosisFailure::Reason::no_machine, "give --machine M.json");
+  expect_refused(set, DiagnosisFailure::Reason::no_machine, "add --machine M.json");
 }
 
 TEST(HolesDiagnosisBadInput, RefusesAHoleOutOfReach) {

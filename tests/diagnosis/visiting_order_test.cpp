@@ -73,7 +73,7 @@ TEST(VisitNumbers, AScatteredSetHasNoLines) {
     points.push_back(at(40.0 * ((k * 37) % 50), 40.0 * ((k * 23) % 31)));
   const auto numbers = visit_numbers(points, {});
   ASSERT_FALSE(numbers);
-  EXPECT_EQ(numbers.error(), "marks that stand in rows; these do not");
+  EXPECT_EQ(numbers.error(), "marks that are in rows; these are not");
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(WorkshopUnits, TheSignChoosesTheWord) {
             "links 0.122 +- 0.012 % shorter");
   EXPECT_EQ(worded("sprocket_radius", "offset_mm", -0.4, 0.0), "radius 0.4 mm smaller");
   EXPECT_EQ(worded("side_pull", "force_n", -1.5, 0.0), "1.5 N to the left");
-  EXPECT_EQ(worded("belt_scale", "scale", -0.004, 0.0), "0.4 % less belt a turn");
+  EXPECT_EQ(worded("belt_scale", "scale", -0.004, 0.0), "0.4 % less belt per turn");
   EXPECT_EQ(worded("belt_zero", "offset_mm", -3.0, 0.0), "3 mm too little read");
   EXPECT_EQ(worded("anchor_height", "offset_mm", -12.0, 0.0), "12 mm lower");
 }

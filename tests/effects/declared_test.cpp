@@ -142,16 +142,16 @@ TEST(DeclaredEffect, APlaceIsComparedWithTheOneVariableOfItsUnit) {
 
 TEST(DeclaredEffect, ReportsItsErrors) {
   EXPECT_EQ(own_problem([](Declaration& d) { d.id = "drift"; }),
-            "/id: drift: another name: the catalogue has an effect of this one; \"instead_of\" "
-            "takes its place");
+            "/id: drift: another name, because the catalogue has an effect with this one; to replace "
+            "it, use \"instead_of\"");
   EXPECT_THAT(own_problem([](Declaration& d) { d.id = "Wave 2"; }),
               HasSubstr("/id: Wave 2: a name of small letters"));
   EXPECT_THAT(own_problem([](Declaration& d) { d.instead_of = "chain_sag"; }),
-              HasSubstr("what changes the equilibrium cannot be written as a formula"));
+              HasSubstr("because formulas cannot change the equilibrium"));
   EXPECT_THAT(own_problem([](Declaration& d) { d.instead_of = "rust"; }),
               HasSubstr("/instead_of: rust"));
   EXPECT_EQ(own_problem([](Declaration& d) { d.sides = {EffectSide::x}; }),
-            "/sides/0: x: left, right or both: it acts on a chain");
+            "/sides/0: x: left, right or both, because it acts on a chain");
   EXPECT_EQ(own_problem([](Declaration& d) { d.parameters[0].lower = 9.0; }),
             "/parameters/0/lower: 9: a number below \"upper\"");
   EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[0].nominal = 9.0; }),
@@ -163,17 +163,17 @@ TEST(DeclaredEffect, ReportsItsErrors) {
   EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[1].name = "turn"; }),
               HasSubstr("nothing else in the formula has"));
   EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[1].name = "phase_deg"; }),
-              HasSubstr("a unit which formulas know"));
+              HasSubstr("a name that ends in a unit"));
   EXPECT_THAT(own_problem([](Declaration& d) {
                 d.parameters[1].role = ParameterRole::size;
                 d.parameters[1].null = -1.0;
               }),
-              HasSubstr("one size, and behind it one place"));
+              HasSubstr("one size and at most one place"));
   EXPECT_THAT(own_problem([](Declaration& d) {
                 d.parameters[0].integer = true;
                 d.parameters[0].nominal = 1.0;
               }),
-              HasSubstr("counts in whole numbers"));
+              HasSubstr("uses whole numbers"));
   EXPECT_THAT(own_problem([](Declaration& d) { d.parameters.clear(); }), HasSubstr("0 parameters"));
   EXPECT_EQ(own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * L0 / turn"; }),
             "/parameters/1/name: phase_rad: a parameter that the formula uses, or none");
@@ -184,7 +184,7 @@ TEST(DeclaredEffect, ReportsItsErrors) {
             "/adds_mm@0: a formula in mm N: one whose units come out as mm");
   EXPECT_THAT(
       own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * d * sin(phi + phase_rad)"; }),
-      HasSubstr("d with parameters alone"));
+      HasSubstr("d with parameters only"));
   EXPECT_THAT(own_problem([](Declaration& d) { d.adds_mm = ""; }),
               HasSubstr("no formula: \"adds_mm\" or \"elongation\""));
   EXPECT_THAT(own_problem([](Declaration& d) {
@@ -206,7 +206,7 @@ TEST(DeclaredEffect, ReportsWhereItIsNotFinite) {
   const std::string said = only_problem(problems_on_bed(own, Machine{}));
   EXPECT_THAT(said, HasSubstr("/adds_mm@15: not finite: "));
   EXPECT_THAT(said,
-              HasSubstr("over the bed of the machine between the bounds; this is not at (-1219, "
+              HasSubstr("over the bed of the machine between the bounds; this one is not at (-1219, "
                         "-610) mm with amplitude_mm = -5"));
 }
 
@@ -222,7 +222,7 @@ TEST(DeclaredEffect, ReportsWhereItIsNotZeroAtNull) {
   own.adds_mm = "amplitude_mm + 0.1 * mm * sin(phase_rad + L0 / turn)";
   ASSERT_THAT(problems_of(own), IsEmpty());
   EXPECT_THAT(only_problem(problems_on_bed(own, Machine{})),
-              HasSubstr("a formula that gives 0 at null; this gives "));
+              HasSubstr("a formula that is 0 at null; this one is "));
 }
 
 TEST(DeclaredEffect, ThePaperMovesInProportion) {
@@ -234,7 +234,7 @@ TEST(DeclaredEffect, ThePaperMovesInProportion) {
   own.adds_y_mm = "bow_mm * (x / (1000 * mm))^2";
   ASSERT_THAT(problems_of(own), IsEmpty());
   EXPECT_THAT(only_problem(problems_on_bed(own, Machine{})),
-              HasSubstr("a formula in proportion to x and y"));
+              HasSubstr("a formula linear in x and y"));
   own.adds_y_mm = "bow_mm * x / (1000 * mm)";
   EXPECT_THAT(problems_on_bed(own, Machine{}), IsEmpty());
 }

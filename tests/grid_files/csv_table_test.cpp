@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(CsvTable, SkipsNotesAboveTheHeader) {
   EXPECT_THAT(read("My machine\n\nx_mm,y_mm\n1,2\n3,4\n").warnings,
-              ElementsAre("t.csv: line 1, column 1: a note, no reading: left out (My machine)"));
+              ElementsAre("t.csv: line 1, column 1: a note without a reading: left out (My machine)"));
   // A line of units below the header is a line of the table.
   EXPECT_THAT(read("x_mm,y_mm\nmm,mm\n1,2\n").refusals, ElementsAre(HasSubstr("found mm"), HasSubstr("found mm")));
 }
@@ -111,7 +111,7 @@ TEST(CsvTable, ReportsUnusedColumns) {
   EXPECT_THAT(read("x_mm,y_mm,note\n1,2,ok\n").warnings,
               ElementsAre("t.csv: line 1, column 11: the column \"note\" is not used"));
   EXPECT_THAT(read("x_mm,y_mm\n1,2\nmeasured with the steel rule,\n").warnings,
-              ElementsAre(HasSubstr("line 3, column 1: a note, no reading: left out")));
+              ElementsAre(HasSubstr("line 3, column 1: a note without a reading: left out")));
 }
 
 // A column with nearly a known name is a slip, not an additional column.

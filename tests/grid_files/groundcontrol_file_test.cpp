@@ -160,7 +160,7 @@ TEST(GroundcontrolSettings, ReportTheChangeOfANumber) {
   machine.motors.right.x_mm += 1.5;
   EXPECT_THAT(write_groundcontrol(machine).remarks,
               ::testing::ElementsAre(
-                  "motorspacingx changes from 2978.4 to 2981.4, by the measures of the machine"));
+                  "motorspacingx changes from 2978.4 to 2981.4, by the machine's dimensions"));
   EXPECT_TRUE(says_more_than_its_settings(machine));
 }
 

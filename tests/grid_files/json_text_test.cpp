@@ -88,8 +88,8 @@ TEST(JsonText, KeepsTheOrderOfKeysAndNamesDuplicates) {
   EXPECT_EQ(compact_json(parse(R"({"z": 1, "a": 2})")), R"({"z": 1, "a": 2})");
   EXPECT_THAT(
       problems_of_text(R"({"a": [0, {"b/c": 1, "b/c": 2}], "d": 3, "d": [4]})"),
-      ElementsAre("file: /a/1/b~1c: found 2, expected this key once; it stands here a second time",
-                  "file: /d: found a list, expected this key once; it stands here a second time"));
+      ElementsAre("file: /a/1/b~1c: found 2, expected this key only once",
+                  "file: /d: found a list, expected this key only once"));
 }
 
 struct Broken {
@@ -116,10 +116,10 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"{\"a\": 1,\n \"b\" 2}", "file: line 2, column 6: found 2, expected JSON: ':' here"},
         Broken{"{\"a\": 1} x", "line 1, column 10: found x, expected JSON"},
         Broken{"{'a': 1}",
-               "line 1, column 2: found ', expected JSON: string literal here; put texts"},
+               "line 1, column 2: found ', expected JSON: string literal here; put text"},
         Broken{"[1, 2,]",
                "line 1, column 7: found ], expected JSON: '[', '{', or a literal here; the comma "
-               "before it is one too many"},
+               "before it is superfluous"},
         Broken{"{\"a\": \"b\nc\"}",
                "line 1, column 9: found  , expected JSON: in a text, control character"},
         Broken{"{\"a\": \"\xFF\"}", "expected JSON: in a text, ill-formed UTF-8 byte"},
@@ -160,7 +160,7 @@ TEST(Problems, ListTheFirstHundredAndCountTheRest) {
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 101U);
     EXPECT_EQ(error.problems().back().message(),
-              "file: found 40 more problems, expected those above corrected first");
+              "file: found 40 more problems, expected the problems above to be corrected first");
   }
 }
 

@@ -73,7 +73,7 @@ TEST_F(WholeFile, ProtectedIsKept) {
   write_whole_file(file, "old");
   fs::permissions(file, fs::perms::owner_read);
   EXPECT_THAT(refusal_of([&] { write_whole_file(file, "new"); }),
-              HasSubstr("found a protected file, expected a file that may be written to"));
+              HasSubstr("found a protected file, expected a file that may be overwritten"));
   EXPECT_EQ(read_whole_file(file), "old");
 }
 

@@ -239,7 +239,7 @@ TEST(HolesFit, ReportsAHoleOutOfReach) {
   const auto fit = joint_fit(set);
   ASSERT_FALSE(fit);
   EXPECT_THAT(fit.error().sentence(),
-              HasSubstr("hole Z at (0.0, 1500.0) is out of the controller's reach"));
+              HasSubstr("the controller cannot reach hole Z at (0.0, 1500.0)"));
   const auto distances = observation::TapeDistances::of(set);
   ASSERT_FALSE(distances);
   EXPECT_EQ(distances.error().reason, observation::TapeDistancesFailure::Reason::no_lengths);

@@ -161,7 +161,7 @@ TEST(TapeZero, UnstatedIsRemovedAndReported) {
     EXPECT_THAT(fit->map.contents().notes,
                 testing::Contains(testing::AllOf(
                     HasSubstr("Every tape distance reads"),
-                    HasSubstr(zero_mm > 0.0 ? "is the hook or the bit's width in it?"
+                    HasSubstr(zero_mm > 0.0 ? "does it include the hook or the bit's width?"
                                             : "between the near edges of the holes"))));
   }
 }

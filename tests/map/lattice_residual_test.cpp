@@ -144,7 +144,7 @@ TEST(LatticeResidual, RefusesUnorderedNodes) {
     FAIL() << "nodes out of order were taken";
   } catch (const grid::files::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/on_machine/lattice/x_nodes_mm"));
-    EXPECT_THAT(error.what(), HasSubstr("numbers that rise"));
+    EXPECT_THAT(error.what(), HasSubstr("increasing numbers"));
   }
 }
 

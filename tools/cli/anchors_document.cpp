@@ -45,13 +45,13 @@ void put_the_verdict(const FittedBelts& fitted,
   if (!fit.places.empty()) {
     page.figures.push_back({fmt::format("{:.2f} mm", fit.residual_sigma_mm), "one belt is off by"});
     page.advice.push_back(
-        {"Find the cause of the remaining error: run chaintrue diagnose on the same belts.",
+        {"To find the cause of the remaining error, run chaintrue diagnose on the same belts.",
          Detail::page});
   }
   page.tone = fit.bad.empty() && fit.bad_points.empty() ? Tone::good : Tone::caution;
   page.lights = {{fit.scale ? Tone::good : Tone::caution,
                   "Scale known?",
-                  fit.scale ? "yes, by the tape" : "not without a tape"}};
+                  fit.scale ? "yes, from the tape" : "no, not taped"}};
   if (fit.scale) {
     page.figures.push_back({fmt::format("{:.5f} +- {:.5f}", fit.scale->factor, fit.scale->sigma),
                             "scale: true length over the belts' length"});

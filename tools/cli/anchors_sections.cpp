@@ -66,33 +66,32 @@ void list_causes(const BeltsFit& fit, Section& section) {
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
       say(section,
-          fmt::format("Anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; these anchors "
-                      "allow for it.",
+          fmt::format("The anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; the fit "
+                      "allows for this.",
                       cause.parameters.at("give_mm"),
                       cause.sigma));
     }
     if (cause.effect != model::belts::belt_stretch.id) continue;
     say(section,
         fmt::format(
-            "At the motors' pull belts are {} longer than they count; these anchors allow for it.",
+            "At the motors' pull the belts are {} longer than counted; the fit allows for this.",
             share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
   list_open_causes(fit, section);
   say(section,
-      "The sigmas of the anchors allow for other causes at their usual size, such as a belt with a "
-      "wrong zero.",
+      "The anchors' sigmas allow for other causes of usual size, such as a belt with a wrong zero.",
       Detail::verbose);
 }
 
 void list_left_out(const BeltsFit& fit, Section& section) {
   if (fit.one_left_out.readings == 0) return;
   std::string text = fmt::format(
-      "Lower belts predicted by the upper two, at places left out one by one: {:.2f} mm rms, "
+      "Lower belts predicted from the upper two, at places left out one by one: {:.2f} mm rms, "
       "{:.2f} mm at worst",
       fit.one_left_out.rms_mm,
       fit.one_left_out.largest_mm);
   if (fit.half_left_out) {
-    text += fmt::format("; each half of the places by the other: {:.2f} and {:.2f} mm",
+    text += fmt::format("; each half of the places from the other: {:.2f} and {:.2f} mm",
                         fit.half_left_out->rms_mm,
                         fit.half_left_out->largest_mm);
   }
@@ -125,8 +124,8 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
   }
   for (const std::size_t point : fit.bad_points) {
     say(section,
-        fmt::format("Point {} is bad as a whole: fewer than three of its readings agree. Measure "
-                    "it again or leave it out.",
+        fmt::format("Point {} is unusable: fewer than three of its readings agree. Measure it "
+                    "again or leave it out.",
                     number_of(fitted, point)));
   }
 }
@@ -148,18 +147,18 @@ std::string what_tells_the_scale(const FittedBelts& fitted) {
 void say_the_scale(const FittedBelts& fitted, Section& section) {
   const BeltsFit& fit = fitted.fit;
   if (!fit.scale) {
-    say(section, "Scale: not known, because belts do not show it. " + what_tells_the_scale(fitted));
+    say(section, "Scale: unknown, because belts do not show it. " + what_tells_the_scale(fitted));
     say(section,
         fmt::format(
-            "Until then anchors and parts are only as accurate as the assumption that a turn of "
-            "the encoder is {:g} mm of belt.",
+            "Until then anchors and parts are only as accurate as the assumption that an encoder "
+            "turn is {:g} mm of belt.",
             fit.machine.belt_turn_mm),
         Detail::verbose);
     return;
   }
   say(section,
-      fmt::format("Scale: by the tape everything is {:.5f} +- {:.5f} times the belts' lengths, "
-                  "{:.1f} mm in a metre.",
+      fmt::format("Scale: true lengths are {:.5f} +- {:.5f} times the belts' lengths according to "
+                  "the tape, {:.1f} mm per metre.",
                   fit.scale->factor,
                   fit.scale->sigma,
                   1000.0 * (fit.scale->factor - 1.0)));
@@ -182,8 +181,8 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
                   holes.distances.size(),
                   about_mm(holes.left_out_rms_mm)));
   say(section,
-      fmt::format("Each distance is predicted by all others to {:.2f} mm rms; tape and holes have "
-                  "{:.2g} times the error that you gave.",
+      fmt::format("Each distance is predicted from all others to {:.2f} mm rms; tape and holes "
+                  "have {:.2g} times the error that you entered.",
                   holes.left_out_rms_mm,
                   holes.noise_factor),
       Detail::verbose);
@@ -205,8 +204,9 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
     largest = std::max(largest, std::hypot(at[i], at[i + 1]));
   say(section,
       fmt::format(
-          "The tool is up to {:.1f} mm from where its upper two belts put it, changing over some "
-          "{:.0f} mm of the sheet. gcode compensate corrects that; no setting does.",
+          "The tool is up to {:.1f} mm from the position given by its upper two belts; this "
+          "changes over about {:.0f} mm of the sheet. gcode compensate corrects it, no setting "
+          "does.",
           largest,
           holes.displacement->reach_mm));
 }
@@ -227,8 +227,8 @@ std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& e
   const double left_mm = error ? error->expected.rms_mm : least_known_mm(fit);
   if (!(left_mm > kMostToCutWithMm)) return {};
   return fmt::format(
-      "Do not paste these anchors: {} {} mm, and {:g} mm are too much. Measure more places, "
-      "farther apart, and look at the readings that were left out.",
+      "Do not paste these anchors: {} {} mm, and {:g} mm is too much. Measure more places, farther "
+      "apart, and check the readings that were left out.",
       error ? "with them the tool is still off by" : "they are known to",
       about_mm(left_mm),
       kMostToCutWithMm);
@@ -241,7 +241,7 @@ std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& er
   return misses_sentence(error->today ? std::optional(error->today->rms_mm) : std::nullopt,
                          error->expected.rms_mm,
                          {"these anchors", "new anchors"}) +
-         (fit.scale ? "" : " The error of the scale, which only a tape shows, comes on top.");
+         (fit.scale ? "" : " The error of the scale, which only a tape shows, is additional.");
 }
 
 std::vector<Figure> figures_of(const BeltsError& error) {
@@ -272,15 +272,16 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsEr
                   fit.checks),
       Detail::verbose);
   say(section,
-      fmt::format("By the machine's formula (Find Anchors fit: rms) that is {:.2f} mm: it divides "
-                  "by all {} readings, although places and anchors use {} degrees of freedom.",
+      fmt::format("The machine's formula (Find Anchors fit: rms) gives {:.2f} mm, because it "
+                  "divides by all {} readings although places and anchors use {} degrees of "
+                  "freedom.",
                   fit.rms_mm,
                   readings,
                   readings - static_cast<std::size_t>(fit.checks)),
       Detail::verbose);
   if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
     say(section,
-        fmt::format("Its message gave rms {:.2f} mm and max {:.2f} mm.",
+        fmt::format("The machine printed rms {:.2f} mm and max {:.2f} mm.",
                     fitted.belts->firmware_fit->rms_mm,
                     fitted.belts->firmware_fit->max_mm),
         Detail::verbose);
@@ -313,7 +314,7 @@ Section fitted_anchors_section(const BeltsFit& fit) {
            variance_share("bl", "on bl", 5),
            variance_share("br", "on br", 5)},
       .caption = std::string(kAnchorsCaption) +
-                 " Rests on: the share of its variance that comes of each belt's readings.",
+                 " Rests on: share of its variance from each belt's readings.",
       .is_headed = true};
   for (const grid::AnchorCoordinate& c : fit.coordinates) {
     Row& row = table.rows.emplace_back();
@@ -342,7 +343,7 @@ Section places_section(const FittedBelts& fitted) {
       .columns = {{.heading = "Point", .is_number = true, .digits = 0, .width = 3},
                   {.heading = "x", .is_number = true, .digits = 1, .width = 10},
                   {.heading = "y", .is_number = true, .digits = 1, .width = 10},
-                  {.heading = "read less fitted, mm:    tl", .is_number = true, .width = 30},
+                  {.heading = "read minus fitted, mm:   tl", .is_number = true, .width = 30},
                   {.heading = "tr", .is_number = true, .width = 8},
                   {.heading = "bl", .is_number = true, .width = 8},
                   {.heading = "br", .is_number = true, .width = 8}},
@@ -369,7 +370,7 @@ Section taped_section(const grid::HolesWithBelts& holes) {
                           {.heading = "alone", .is_number = true, .has_sign = true, .width = 11},
                           {.heading = "sigma", .is_number = true, .width = 8},
                           {.gap = 1}},
-              .caption = "Alone: taped minus predicted by all others. * left out.",
+              .caption = "Alone: taped minus predicted from all others. * left out.",
               .is_headed = true,
               .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {

@@ -13,8 +13,8 @@
 namespace chaintrue::cli {
 
 inline constexpr const char* kFrameCaption =
-    "A stroke lies along its belt, in that anchor's colour: towards the anchor where the belt "
-    "reads long, away from it where it reads short. Circled: left out.";
+    "Each stroke follows its belt, in that anchor's colour: towards the anchor if the belt reads "
+    "long, away from it if it reads short. Circled: left out.";
 
 inline constexpr const char* kAnchorsCaption =
     "From the bottom left anchor, x to the bottom right one: tl is the top left anchor. Sigma: one "

@@ -86,19 +86,18 @@ std::string belts_wish_sentence(const MeasuredBelts& belts,
                                 const files::FittedAnchors& found,
                                 const std::optional<BeltsError>& error,
                                 double wish_mm) {
-  const std::string wish = fmt::format("You wish for {:g} mm: ", wish_mm);
-  if (!error) return wish + "these readings do not show whether that is reached.";
+  const std::string wish = fmt::format("Your target is {:g} mm: ", wish_mm);
+  if (!error) return wish + "these readings do not show whether it is reached.";
   if (error->expected.rms_mm <= wish_mm)
     return wish +
            (found.fit.scale ? "reached." : "reached. Only a taped distance shows the scale.");
   const auto compensated = expected_when_compensated(found);
   if (compensated && *compensated <= wish_mm)
     return wish +
-           "not reached by anchors alone. Programs that are compensated (gcode compensate) reach "
-           "it.";
+           "not reached with anchors alone. Compensated programs (gcode compensate) reach it.";
   const std::size_t places = belts.points.size();
   if (places == 0)
-    return wish + "not reached. More distances, or a better tape, would bring it down.";
+    return wish + "not reached. More distances or a better tape would reduce the error.";
   const double noise_mm = found.fit.residual_sigma_mm;
   const auto once = expected_of_places(measured_again(belts, found.fit, 1), cut, noise_mm);
   if (!once || 2 * places > kMostTried)
@@ -111,13 +110,14 @@ std::string belts_wish_sentence(const MeasuredBelts& belts,
     const auto then = expected_of_places(measured_again(belts, found.fit, times), cut, noise_mm);
     if (then && error->expected.rms_mm * *then <= wish_mm * *once) {
       return wish +
-             fmt::format("not reached. About {} places measured as well as these would reach it.",
+             fmt::format("not reached. About {} places measured as accurately as these would reach "
+                         "it.",
                          tried);
     }
   }
   return wish + fmt::format(
-                    "not reached, and not by {} places measured as well as these. Look for other "
-                    "causes: run chaintrue diagnose on the same belts.",
+                    "not reached, not even with {} places measured as accurately as these. To look "
+                    "for other causes, run chaintrue diagnose on the same belts.",
                     tried);
 }
 

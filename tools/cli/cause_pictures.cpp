@@ -89,8 +89,8 @@ Chart chart_of(const Diagnosis& found,
   chart.title = fmt::format(
       "{}: {}", cause_title(cause.cause), sizes_in_words(cause.cause, cause.parameters));
   chart.caption = fmt::format(
-      "Where this alone puts the tool, from where it was sent: {:.1f} mm at most. Computed for the "
-      "size found, without new settings.",
+      "Error of the tool from this cause alone: {:.1f} mm at most. Computed for the size found, "
+      "with unchanged settings.",
       largest_mm);
   return chart;
 }

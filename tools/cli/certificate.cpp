@@ -85,7 +85,7 @@ Section remaining_section(const MapContents& contents) {
                                                    contents.notes.size() - kMostNotes)});
   }
   section.blocks.push_back(
-      Paragraph{"After the chains were taken off, or after a month of work, measure three to five "
+      Paragraph{"After taking the chains off, or after a month of work, measure three to five "
                 "points and run chaintrue check."});
   return section;
 }
@@ -112,8 +112,8 @@ Document certificate(const CompensationMap& map, std::string_view source) {
                    contents.accuracy.expected_worst_at.x_mm,
                    contents.accuracy.expected_worst_at.y_mm)}};
   page.not_proved = {
-      "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
-      "is moved."};
+      "These figures hold for the machine as measured, until a motor, a chain or the sheet is "
+      "moved."};
   Chart chart = report::error_map_chart(map_pictures(map));
   chart.caption.clear();  // it is in the legend
   Section error_section{"Where to expect which error", {}};

@@ -79,8 +79,8 @@ void say_other_settings(const CompensationMap& map, const grid::Measured& measur
                                                  files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
     fmt::print(stderr,
-               "In {} the machine's settings differ from the map's ({}): these are used. State the "
-               "controller's settings with --settings.\n",
+               "The machine's settings in {} differ from the map's ({}); those in the file are "
+               "used. Give the controller's settings with --settings.\n",
                file.name.empty() ? "the new points" : file.name,
                files::in_words(changes));
   }
@@ -117,7 +117,7 @@ CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
   const files::FittedAnchors loaded = load_anchors(anchors);
   require_kind(belts,
                {FileKind::belts},
-               "anchors are checked by new belt lengths only; fit holes and belts together "
+               "anchors are checked only against new belt lengths; fit holes and belts together "
                "(chaintrue fit BELTS --with HOLES)");
   const files::ReadBelts read = load_belts(belts, "a check");
   return grid::check_anchors(loaded.fit, read.belts);
@@ -177,39 +177,35 @@ void add_check(Verb app) {
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   verb.option("--noise-dof")
-      .acts_on(facts::nothing, "to be left out: a check takes the noise as known");
+      .acts_on(facts::nothing, "to be left out, because a check assumes that the noise is known");
   add_input(verb,
             "--with",
             command->with,
             "More new points, or holes and distances, to compare with the map")
-      .acts_on(facts::map, "to be left out: anchors are checked by one file of new places");
+      .acts_on(facts::map, "to be left out, because anchors are checked against a single file of "
+                           "new places");
   add_input(verb,
             "--settings",
             command->settings,
             "The controller's settings when the new points were commanded, if they had changed "
             "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file")
       .acts_on(facts::map,
-               "to be left out: anchors are checked by what their own file says was commanded");
+               "to be left out, because the anchors' file already contains the settings");
   verb.add_flag("--json", command->json, "Print all numbers as JSON");
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
       .shows_default();
   add_output(verb, "--report", command->report, {Origin::page}, "The answer as a web page (HTML)");
   verb.footer(
-      "Three to five points far apart are enough, or holes and the distances between them;\n"
-      "chaintrue plan --check picks the most informative points.\n"
-      "\"Still valid (74 %)\" is the probability that nothing has changed, given the new points "
-      "and\n"
-      "what usually changes. From 80 % on it is the verdict. The exit code is 0 if the map is "
-      "valid as\n"
-      "it is; otherwise 1: valid after re-zeroing, to be measured again, made for settings other "
-      "than\n"
-      "the controller's, or more points are needed.\n"
-      "Anchors of four belts are checked by new places in a chaintrue_belts file.\n"
-      "\n"
-      "Example:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
+      "Three to five points far apart are enough, or holes and the distances between "
+      "them;\nchaintrue plan --check picks the most informative points.\n\"Still valid (74 %)\" is "
+      "the probability that nothing has changed, given the new points and\nwhat usually changes. "
+      "From 80 % on it is the verdict. The exit code is 0 if the map is valid\nunchanged; "
+      "otherwise 1: it is valid after re-zeroing, must be measured again, was made for\nother "
+      "settings than the controller's, or needs more points.\nAnchors of four belts are checked "
+      "against new places in a chaintrue_belts file.\n\nExample:\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue check map.json "
+      "fixtures/grids/five_new_points.json");
   verb.runs(command, run_check);
 }
 

@@ -10,7 +10,7 @@ namespace {
 Table table_of(std::string what, bool has_sign) {
   return {.columns = {{.heading = std::move(what), .width = 30},
                       {.heading = "mm", .is_number = true, .has_sign = has_sign, .width = 10},
-                      {.heading = "good to", .is_number = true, .width = 10}},
+                      {.heading = "sigma", .is_number = true, .width = 10}},
           .is_headed = true};
 }
 

@@ -55,7 +55,7 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
   const std::string verb_name = verb == &app ? "chaintrue" : "chaintrue " + verb->get_name();
   if (!verbs_of(*verb).empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
     const std::string near = files::nearest(words[at], verbs_of(*verb));
-    const std::string list = fmt::format("{} --help lists what there is.\n", verb_name);
+    const std::string list = fmt::format("{} --help lists them all.\n", verb_name);
     if (near.empty()) return fmt::format("There is no {} {}. {}", verb_name, words[at], list);
     return fmt::format(
         "There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name, near);
@@ -70,7 +70,7 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
     const std::string near = files::nearest(option, known);
     if (near.empty()) {
       return fmt::format(
-          "{} has no option {}. {} --help lists what there is.\n", verb_name, option, verb_name);
+          "{} has no option {}. {} --help lists them all.\n", verb_name, option, verb_name);
     }
     return fmt::format("{} has no option {}. Did you mean {}?\n", verb_name, option, near);
   }

@@ -143,15 +143,15 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              {Origin::machine},
              "The machine with calibrated settings and the causes that were named")
       .acts_on(facts::chains,
-               "to be left out: belts and drawings are diagnosed by themselves, on the machine in "
-               "their own file");
+               "to be left out, because belts and drawings are diagnosed with the machine in their "
+               "file");
   add_output(verb,
              "--corrected-grid",
              command.corrected_grid,
              {Origin::measured},
-             "The points on that machine, with marks and readings corrected where they were the "
-             "cause; the input for fit")
-      .acts_on(facts::one_grid, "to be left out: a corrected grid is of one grid alone");
+             "The points with that machine, with marks and readings corrected where they were the "
+             "cause; input for fit")
+      .acts_on(facts::one_grid, "to be left out, because only a single grid can be corrected");
   // A file of an effect is edited by hand, and replaced with --force alone.
   add_output(
       verb,
@@ -159,7 +159,7 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
       command.law,
       {Origin::list},
       "The most probable law of the unexplained pattern (90 % or more), as a file for --effects")
-      .acts_on(facts::chains, "to be left out: a cause of your own acts on chains");
+      .acts_on(facts::chains, "to be left out, because a declared cause acts on chains");
   verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
 
@@ -176,32 +176,34 @@ void add_diagnose(Verb app) {
   add_input(
       verb, "--with", command->with, "More grids and holes of the same machine, used together")
       .acts_on(facts::chains,
-               "to be left out: belts and drawings are diagnosed by themselves, on the machine in "
-               "their own file");
+               "to be left out, because belts and drawings are diagnosed with the machine in their "
+               "file");
   add_diagnose_outputs(verb, *command);
   add_input(verb,
             "--held-out",
             command->held_out,
             "Another grid of the same machine, to test how well the result predicts it")
-      .acts_on(facts::one_grid, "to be left out: it compares one grid with another");
+      .acts_on(facts::one_grid, "to be left out, because it compares two grids");
   verb.add_option(
           "--assume-order",
           command->assume_order,
-          "Assumed order of visits where the points state none, in lines from the top left. Drift, "
-          "skips and hysteresis need an order; the verdict says that it was assumed")
+          "Order of visits to assume if the points have none, in lines from the top left. Drift, "
+          "skips and hysteresis need an order; the report notes the assumption")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"})
-      .acts_on(facts::grid, "to be left out: it applies to the points of a grid, and none was given");
+      .acts_on(facts::grid, "to be left out, because it applies to the points of a grid only");
   add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot distinguish long links from a long tape, assume the links, "
                 "without measuring them")
-      .acts_on(facts::chains, "to be left out: it is of a chain or a tape that is long");
+      .acts_on(facts::chains, "to be left out, because it applies to chains and the tape for marks "
+                              "only");
   verb.add_flag("--no-gain",
                 command->without_gain,
                 "Do not compute how much naming the causes improves the map, which takes most of "
                 "the time")
-      .acts_on(facts::chains, "to be left out of belts and drawings: the gain applies to a map");
+      .acts_on(facts::chains, "to be left out for belts and drawings, because the gain applies to "
+                              "a map");
   add_number(verb,
              "--seed",
              command->seed,

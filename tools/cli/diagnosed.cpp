@@ -71,8 +71,8 @@ void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::stri
   throw Failed(
       files::name_in_messages(path),
       "too_many",
-      fmt::format("{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, "
-                  "and keep those that were measured twice; chaintrue fit takes them all",
+      fmt::format("{} are more than a diagnosis accepts ({}): leave some out, evenly over the bed, "
+                  "and keep those measured twice; chaintrue fit accepts them all",
                   counted(measured),
                   kMostDiagnosed));
 }
@@ -83,8 +83,8 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   for (const auto* own : measured.grids()) {
     if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
     found.notes.push_back(
-        fmt::format("Your error of the readings, {} mm, is below the accuracy of the simulation "
-                    "over a bed; {} mm was used instead.",
+        fmt::format("The reading error that you entered, {} mm, is below the numerical accuracy; "
+                    "{} mm was used instead.",
                     own->noise->length_mm,
                     kFinestMm));
   }
@@ -143,7 +143,7 @@ Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   if (!command.assume_order.empty()) {
     found.notes.insert(
         found.notes.begin(),
-        fmt::format("The visiting order was not measured but assumed: {}, lines from the top left.",
+        fmt::format("The order of visits was not recorded. Assumed: {}, lines from the top left.",
                     command.assume_order));
   }
   if (!command.held_out.empty())
@@ -159,8 +159,8 @@ Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file)
   if (read.belts.points.size() > kMostPlaces) {
     throw Failed(file.name,
                  "too_many",
-                 fmt::format("{} places are more than a diagnosis takes ({}): leave some out, "
-                             "evenly over the sheet; chaintrue fit takes them all",
+                 fmt::format("{} places are more than a diagnosis accepts ({}): leave some out, "
+                             "evenly over the sheet; chaintrue fit accepts them all",
                              read.belts.points.size(),
                              kMostPlaces));
   }

@@ -30,21 +30,21 @@ std::string noise_in_words(const Diagnosis& found) {
   std::vector<std::string> stated;
   if (found.stated_noise) {
     stated.push_back(
-        fmt::format("{:g} mm a chain and {:g} mm a mark (one sigma, {:g} degrees of freedom); ",
+        fmt::format("{:g} mm per chain and {:g} mm per mark (one sigma, {:g} degrees of freedom); ",
                     found.stated_noise->length_mm,
                     found.stated_noise->position_mm,
                     found.stated_noise->dof));
   }
   if (found.stated_tape) {
     stated.push_back(
-        fmt::format("{:g} mm a reading of the tape and {:g} mm a hole on either axis (one sigma, "
-                    "{:g} degrees of freedom); ",
+        fmt::format("{:g} mm per tape reading and {:g} mm per hole on each axis (one sigma, {:g} "
+                    "degrees of freedom); ",
                     found.stated_tape->tape_sigma_mm,
                     found.stated_tape->hole_sigma_mm,
                     found.stated_tape->dof));
   }
-  if (stated.empty()) return "The error of the readings is not given; ";
-  return fmt::format("Error of the readings, as you gave it: {}", fmt::join(stated, ""));
+  if (stated.empty()) return "The error of the readings is unknown; ";
+  return fmt::format("Error of the readings, as entered: {}", fmt::join(stated, ""));
 }
 
 std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& bad) {
@@ -58,7 +58,7 @@ std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& b
         bad.distance);
   }
   return fmt::format(
-      "{}: fits only with the tool {} mm right and {} mm up of its mark ({:.1f} sigmas)",
+      "{}: fits only if the tool was {} mm right and {} mm up of its mark ({:.1f} sigmas)",
       point_name(bad.index),
       fixed(bad.shift_mm.x(), 2),
       fixed(bad.shift_mm.y(), 2),
@@ -76,7 +76,7 @@ Section next_section(const Diagnosis& found) {
                               files_in_words(found)),
                   {std::move(list)}};
   section.blocks.emplace_back(
-      Paragraph{fmt::format("Measure in this order; the probability counts all up to that line. "
+      Paragraph{fmt::format("Measure in this order; each probability includes all lines above it. "
                             "{}; the command prints the lines.",
                             where_it_goes(found)),
                 Detail::page});
@@ -112,20 +112,20 @@ Section bounds_section(const Diagnosis& found) {
 }
 
 Section not_testable_section(const Diagnosis& found) {
-  Table table{{{.width = 34}, {}}, {}, "They may be there or not."};
+  Table table{{{.width = 34}, {}}, {}, "They may be present or not."};
   for (const auto& missing : found.not_testable)
     table.rows.push_back({{cause_title(missing.cause), missing.reason}});
   return {"What these data cannot test", {std::move(table)}};
 }
 
 Section remarks_section(const Diagnosis& found) {
-  Section section{"What this rests on", {}};
+  Section section{"Basis of this answer", {}};
   for (const std::string& note : found.notes)
     section.blocks.emplace_back(Paragraph{note, Detail::always, true});
   if (found.belts) return section;
   section.blocks.emplace_back(
       Paragraph{noise_in_words(found) +
-                    fmt::format("the noise found is {:.2f} times that.", found.noise_factor),
+                    fmt::format("the estimated noise is {:.2f} times that.", found.noise_factor),
                 Detail::page});
   for (const auto& correction : found.data_corrections) {
     section.blocks.emplace_back(Paragraph{

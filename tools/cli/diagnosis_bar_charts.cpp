@@ -34,8 +34,8 @@ Chart probability_chart(const Diagnosis& found) {
   Chart chart{.specification = "probability_bars",
               .title = "How probable each explanation is",
               .caption =
-                  "Each probability stands alone: causes can act together, so these need not add "
-                  "up to 100 %. Below 0.2 % is left out. Blue: what the verdict names."};
+                  "Causes can act together, so the probabilities need not add up to 100 %. Those "
+                  "below 0.2 % are omitted. Blue: named by the verdict."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
   for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);

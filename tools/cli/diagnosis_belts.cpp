@@ -34,7 +34,7 @@ Section anchors_section(const Diagnosis& found) {
                           {.heading = "alone", .is_number = true, .width = 12},
                           {.heading = "with the causes", .is_number = true, .width = 17},
                           {.heading = "sigma", .is_number = true, .width = 8},
-                          {.heading = "until now", .is_number = true, .digits = 1, .width = 10}},
+                          {.heading = "in force", .is_number = true, .digits = 1, .width = 10}},
               .caption = kAnchorsCaption,
               .is_headed = true};
   for (const auto& c : found.belts->coordinates) {
@@ -62,20 +62,20 @@ Section belts_improvement_section(const Diagnosis& found) {
   }
   row("the tool, over the measured places", belts.tool.before_mm, belts.tool.after_mm);
   std::string text =
-      "The tool's error is against the causes named, the frame's place and turn left free. What "
-      "the readings leave uncertain counts in both columns";
+      "The tool's error is relative to the model with the named causes, with free position and "
+      "rotation of the frame. Both columns include the uncertainty of the readings";
   text += belts.tool.scale_mm_per_m
               ? fmt::format("; with the tape the scale is uncertain by {:.2f} mm per metre.",
                             *belts.tool.scale_mm_per_m)
-              : ". It is in the belts' own millimetres, whose true length belts do not show.";
-  return {"What naming it gains", {std::move(table), Paragraph{std::move(text)}}};
+              : ". It is in millimetres of belt, whose true length belts do not show.";
+  return {"Improvement with the named cause", {std::move(table), Paragraph{std::move(text)}}};
 }
 
 Light scale_light(const Diagnosis& found) {
   const bool known = found.belts->scale.has_value();
   return {known ? Tone::good : Tone::caution,
           "Scale known?",
-          known ? "yes, by the tape" : "not without a tape"};
+          known ? "yes, from the tape" : "no, not taped"};
 }
 
 std::vector<Figure> figures_of_belts(const Diagnosis& found) {

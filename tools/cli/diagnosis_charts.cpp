@@ -82,7 +82,7 @@ std::string clipped_in_words(const Diagnosis& found, double full_mm) {
   const double rival_mm =
       found.causes.front().rival ? largest(found, &PointPicture::rival_mm) : 0.0;
   if (rival_mm <= kLargestDrawn * full_mm) return {};
-  return fmt::format(" The rival's go up to {:.2f} mm and are drawn no larger than {:.2f} mm.",
+  return fmt::format(" The rival's reach {:.2f} mm and are drawn no larger than {:.2f} mm.",
                      rival_mm,
                      kLargestDrawn * full_mm);
 }
@@ -95,7 +95,7 @@ Chart strip_chart(const Diagnosis& found,
       .specification = "residual_strip",
       .title = fmt::format("The {} chain", kChains[chain]),
       .caption = fmt::format("Vermilion: more chain was read than expected; blue: less. All panels "
-                             "have one scale: the largest measured circle is {:.2f} mm.{}",
+                             "have the same scale: the largest measured circle is {:.2f} mm.{}",
                              full_mm,
                              clipped_in_words(found, full_mm))};
   DataTable heads{"heads", {"panel", "title", "note"}, {}};
@@ -160,11 +160,11 @@ std::vector<ChartRow> arrow_charts(const Diagnosis& found) {
       arrows_of(found, &PointPicture::before_mm),
       found.causes.empty() ? std::vector<Arrow>{} : arrows_of(found, &PointPicture::after_mm),
       {"Before: the machine calibrated",
-       "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
-       "Ringed: bad points.",
+       "Arrows from the intended to the actual position of the tool. Grey: one sigma of the noise "
+       "at that mark. Ringed: bad points.",
        "After: with what was named, same scale",
-       "Arrows within their grey ellipse, in random directions, are noise; neighbours that point "
-       "the same way are an unexplained error."});
+       "Arrows within their grey ellipse, in random directions, are noise; neighbours pointing the "
+       "same way show an unexplained error."});
 }
 
 std::vector<Chart> strip_charts(const Diagnosis& found) {
@@ -181,7 +181,7 @@ std::vector<Chart> strip_charts(const Diagnosis& found) {
 Chart next_points_chart(const Diagnosis& found) {
   Chart chart{.specification = "next_points",
               .title = "On the bed",
-              .caption = "Crosses: to be measured, in this order. Grey: measured already."};
+              .caption = "Crosses: to be measured, in this order. Grey: already measured."};
   DataTable measured{"measured", {"name", "x_mm", "y_mm"}, {}};
   for (const PointPicture& point : found.points)
     measured.rows.push_back({point_name(point.index), point.mark.x_mm, point.mark.y_mm});

@@ -53,11 +53,11 @@ Table removals_table(const Diagnosis& found) {
   Table table{{{"left out"},
                {std::string(name(found.observations)), true},
                {"probability then", true},
-               {"its odds fall by a factor of", true},
+               {"odds reduced by a factor of", true},
                {"named then"}},
               {},
-              fmt::format("With all {} it has {}. Shown: those that change the verdict, and the {} "
-                          "others that count most.",
+              fmt::format("With all {} its probability is {}. Shown: those that change the "
+                          "verdict, and the {} other most influential ones.",
                           name(found.observations),
                           percent(found.stability->probability),
                           kShown)};

@@ -42,7 +42,7 @@ constexpr VerdictLights kVerdicts[] = {
     {Verdict::noise_larger_than_stated,
      Tone::caution,
      Tone::caution,
-     "readings, worse than you gave",
+     "readings, worse than entered",
      Tone::caution,
      "no cause"},
     {Verdict::outliers, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},

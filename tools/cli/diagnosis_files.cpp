@@ -33,14 +33,14 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
     if (effect.probability) in_here.push_back(cause_title(effect));
   }
   std::vector<std::string> comments = {
-      fmt::format("Made by chaintrue diagnose from {}: settings calibrated, causes put in: {}.",
+      fmt::format("Made by chaintrue diagnose from {}: calibrated settings, with the causes {}.",
                   source,
                   in_here.empty() ? "none" : fmt::format("{}", fmt::join(in_here, "; ")))};
   for (const auto& cause : causes_left_out(found))
-    comments.push_back(fmt::format("Named, and not in here: {}.", cause_title(cause.cause)));
+    comments.push_back(fmt::format("Named but not included here: {}.", cause_title(cause.cause)));
   for (const auto& correction : found.data_corrections) {
     comments.push_back(
-        fmt::format("Not in here, because it belongs to the data: {}.", cause_title(correction)));
+        fmt::format("Not included here, because it belongs to the data: {}.", cause_title(correction)));
   }
   return files::write_machine(found.extended_machine, comments);
 }

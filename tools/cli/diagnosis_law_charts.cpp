@@ -78,12 +78,12 @@ std::vector<std::pair<double, double>> curve_of(const Law& law) {
 
 Chart law_chart(const Law& law, bool is_likeliest) {
   ResidualScatter chart{
-      .title = is_likeliest ? "The likeliest" : "Its best rival",
+      .title = is_likeliest ? "The most probable" : "Its best rival",
       .caption = fmt::format("{}: {}. {}",
                              capitalised(in_words(law)),
                              diagnosis::percent(law.probability),
-                             is_likeliest ? "The dots are the readings minus everything else that "
-                                            "is known; the right curve goes through them."
+                             is_likeliest ? "Dots are the readings minus all other known effects; "
+                                            "the right curve passes through them."
                                           : "The same readings, under this law."),
       .x_title = axis_title(law),
       .first_label = "readings and curve",
@@ -122,9 +122,11 @@ std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
       after,
       {found.causes.empty() ? "Without it: the machine calibrated"
                             : "Without it: the residual with the causes",
-       "From where the tool should be to where it was. Grey: one sigma of the noise at that mark.",
+       "Arrows from the intended to the actual position of the tool. Grey: one sigma of the noise "
+       "at that mark.",
        "With it, same scale",
-       "Neighbours that still point the same way show an error that it does not explain either."});
+       "Neighbours that still point the same way show an error that the law does not explain "
+       "either."});
 }
 
 }  // namespace chaintrue::cli

@@ -26,7 +26,7 @@ std::vector<Item> details_of(const Law& law, const Diagnosis& found) {
   if (law.held_out) {
     const auto& [inside, outside] = *law.held_out;
     details.push_back(
-        {fmt::format("every fourth place left out: predicted within {:.2f} mm with it, {:.2f} "
+        {fmt::format("every fourth place left out: predicted to {:.2f} mm with the law, {:.2f} "
                      "without; a quarter of the bed left out: {:.2f} with it, {:.2f} without",
                      inside.with_mm,
                      inside.without_mm,
@@ -54,7 +54,7 @@ Section laws_section(const Diagnosis& found) {
         fmt::format("{}: {}", capitalised(in_words(law)), diagnosis::percent(law.probability))});
     item.items = details_of(law, found);
   }
-  Section section{"What the rest may depend on", {std::move(list)}};
+  Section section{"What the remaining error may depend on", {std::move(list)}};
   if (!laws.front().points.empty()) {
     section.blocks.emplace_back(law_charts(found));
     if (!found.points.empty())
@@ -63,8 +63,8 @@ Section laws_section(const Diagnosis& found) {
   const bool is_claimed = laws.front().probability >= diagnosis::kLawClaimed;
   section.blocks.emplace_back(
       Paragraph{is_claimed && found.belts ? "No listed cause explains this."
-                : is_claimed ? "No listed cause explains this. --law writes it as a cause of your "
-                               "own, to be named, edited and given back with --effects."
+                : is_claimed ? "No listed cause explains this. --law writes it as a declared "
+                               "cause, to be named, edited and used with --effects."
                              : fmt::format("These {} do not show which of these acts, if any.",
                                            name(found.observations))});
   return section;
@@ -84,7 +84,7 @@ Section declared_section(const Diagnosis& found) {
           words,
           says == Says::not_testable ? Cell{} : Cell(diagnosis::percent(probability))}});
   }
-  return {"Effects of your own", {std::move(table)}};
+  return {"Declared effects", {std::move(table)}};
 }
 
 }  // namespace chaintrue::cli

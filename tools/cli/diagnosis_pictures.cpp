@@ -17,7 +17,7 @@ Section arrows_section(const Diagnosis& found) {
 Section signature_section(const Diagnosis& found) {
   Section section{"Why this cause", {}};
   section.blocks.emplace_back(
-      Paragraph{"What was measured, next to the effect of the cause, both after refitting the "
+      Paragraph{"Measured errors next to the effect of the cause, both after refitting the "
                 "settings. The cause is right if both pictures agree and only noise remains."});
   for (Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
@@ -30,7 +30,7 @@ Section residuals_section(const Diagnosis& found) {
     section.blocks.emplace_back(distance_scatter_charts(found));
     section.blocks.emplace_back(
         Paragraph{"Distances do not show the chain's length at a hole or the order of the holes, "
-                  "so drift, skipped links and friction cannot be looked for."});
+                  "so drift, skipped links and friction cannot be detected."});
     return section;
   }
   for (ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));
@@ -39,8 +39,8 @@ Section residuals_section(const Diagnosis& found) {
     section.blocks.emplace_back(order_charts(found));
   } else {
     section.blocks.emplace_back(
-        Paragraph{"The points do not say in which order they were visited, so drift, skipped links "
-                  "and friction cannot be looked for."});
+        Paragraph{"The order in which the points were visited is not recorded, so drift, skipped "
+                  "links and friction cannot be detected."});
   }
   if (!found.distances.empty()) section.blocks.emplace_back(distance_scatter_charts(found));
   return section;

@@ -124,9 +124,9 @@ std::vector<ChartRow> length_charts(const Diagnosis& found) {
                    .chain = chain};
     if (chain == Side::right) {
       plain.caption =
-          "A slope is a chain too long or short; a step is a skipped link. The line joins the "
-          "means of the calibrated dots.";
-      folded.caption = "A wave is a sprocket that runs out of true.";
+          "A slope means a chain that is too long or short, a step a skipped link. The line joins "
+          "the means of the calibrated dots.";
+      folded.caption = "A wave means an eccentric sprocket.";
     }
     rows.push_back({{scatter_chart(found, plain), scatter_chart(found, folded)}});
   }
@@ -140,7 +140,8 @@ ChartRow angle_charts(const Diagnosis& found) {
         found,
         {.title = fmt::format("Against the {} chain's angle", chain_name(chain)),
          .caption = chain == Side::left
-                        ? "A bend at some angle is a chain that touches something below that angle."
+                        ? "A bend at some angle means that the chain touches something below that "
+                          "angle."
                         : "",
          .x_title = "degrees below the horizontal at the sprocket",
          .x =
@@ -173,8 +174,8 @@ ChartRow order_charts(const Diagnosis& found) {
         {.title = fmt::format("The {} chain, visit by visit{}",
                               chain_name(chain),
                               shows_rest ? ": what is left" : ""),
-         .caption = chain == Side::left ? "Two layers of colour are friction or play; a slope is "
-                                          "drift; a step is a skipped link."
+         .caption = chain == Side::left ? "Two layers of colour mean friction or play, a slope "
+                                          "drift, a step a skipped link."
                                         : "",
          .x_title = "number of the visit",
          .x = [](const PointPicture& point, Side) { return static_cast<double>(*point.order); },

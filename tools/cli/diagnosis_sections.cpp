@@ -24,13 +24,13 @@ constexpr double kWorthALine = 0.001;
 std::string what_words(const BudgetLine& line) {
   switch (line.what) {
     case BudgetLine::What::settings:
-      return "settings, and where the sheet lay";
+      return "settings, and position of the sheet";
     case BudgetLine::What::cause:
       return cause_title(*line.cause);
     case BudgetLine::What::unexplained:
       return "a pattern that no listed cause explains";
     case BudgetLine::What::noise:
-      return "left over in these readings";
+      return "remaining in these readings";
     case BudgetLine::What::inseparable:
       break;
   }
@@ -54,12 +54,12 @@ std::string changes_words(const BudgetLine& line) {
 std::string budget_words(const Diagnosis& found) {
   const bool of_distances = is_of_distances(found);
   const std::string today = found.tool_today
-                                ? fmt::format("Over the measured part the error is {} mm. ",
+                                ? fmt::format("The error over the measured part is {} mm. ",
                                               about_mm(found.tool_today->rms_mm))
                                 : "";
   return fmt::format(
-      "{}The parts are counted at these {} alone: there the {} {:.2f} mm rms, uncorrected. The "
-      "second number is what would be left with this part alone taken away.{}",
+      "{}The parts are computed at these {} only: there the {} {:.2f} mm rms, uncorrected. The "
+      "second number is the error without this part.{}",
       today,
       name(found.observations),
       of_distances ? "distances erred by" : "tool erred by",
@@ -74,7 +74,7 @@ Section budget_section(const Diagnosis& found) {
                           {.heading = "rms, mm", .is_number = true, .width = 8},
                           {.heading = "without it",
                            .is_number = true,
-                           .page_heading = "left without it, mm",
+                           .page_heading = "rms without it, mm",
                            .width = 12},
                           {.heading = "part of 100 mm",
                            .is_number = true,
@@ -105,7 +105,7 @@ Section causes_section(const Diagnosis& found) {
     item.items = {{std::string(cause.cause.effect->cause)},
                   {fmt::format("remedy: {}", cause.cause.effect->remedy)}};
     for (const auto& same : cause.same_as) {
-      item.items.push_back({fmt::format("no {} can tell it from {}: {}",
+      item.items.push_back({fmt::format("no {} can distinguish it from {}: {}",
                                         name(found.observations),
                                         cause_title(same.cause),
                                         sizes_in_words(same.cause, same.parameters)),
@@ -129,7 +129,7 @@ Section probabilities_section(const Diagnosis& found) {
   }
   Chart chart = probability_chart(found);
   chart.alternative = std::move(table);
-  Section section{"Probabilities, each for itself: causes can act together", {std::move(chart)}};
+  Section section{"Separate probabilities: causes can act together", {std::move(chart)}};
   if (!found.belts && !found.drawing)
     section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
   return section;

@@ -25,7 +25,7 @@ struct Words {
 constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
                                  {"unknown", "an unknown pattern"},
                                  {"law", "a law that no listed cause has"},
-                                 {"noise", "readings worse than you gave"},
+                                 {"noise", "readings worse than entered"},
                                  {"bad_points", "bad points alone"}};
 
 /// A reading covers this many of the file's quantity, in this unit.
@@ -40,7 +40,7 @@ constexpr ReadingUnit kReadings[] = {{grid::ReadingOf::motor_spacing, 1.0, "mm"}
                                      {grid::ReadingOf::sled_mass, 1.0, "kg"},
                                      {grid::ReadingOf::link_pitch, 100.0, "mm"},
                                      {grid::ReadingOf::chain_mass, 1.0, "kg"},
-                                     {grid::ReadingOf::tape_error, 1.0, "mm a metre"}};
+                                     {grid::ReadingOf::tape_error, 1.0, "mm per metre"}};
 
 std::string spaced(std::string_view id) {
   std::string text(id);
@@ -82,7 +82,7 @@ std::string reading_in_words(const NextMeasurement& next) {
 std::string follow_up_in_words(const NextMeasurement& next, bool again, bool by_belts) {
   if (next.kind == MeasurementKind::reading) return reading_in_words(next);
   if (next.kind == MeasurementKind::distance) return capitalised(next.words) + ".";
-  std::string text = again && !by_belts ? "the same place, the sled lifted first" : next.words;
+  std::string text = again && !by_belts ? "the same place, lifting the sled first" : next.words;
   if (text.empty() || text.back() != '.') text += '.';
   if (!next.mark) return text;
   const std::string place =
@@ -182,7 +182,7 @@ std::string left_over_sentence(const diagnosis::LeftOver& left_over) {
       left_over.signal_to_noise,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
-    text += fmt::format(" It follows {} best ({} of its square): look there.",
+    text += fmt::format(" It follows {} best ({} of its mean square): look there.",
                         diagnosis::coordinate_words(left_over.follows),
                         share_percent(left_over.share));
   }
@@ -231,7 +231,7 @@ std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis) {
 
 std::string bad_belt_in_words(const diagnosis::Outlier& bad) {
   if (!bad.belt)
-    return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index + 1);
+    return fmt::format("point {}: more than one of its belts disagrees", bad.index + 1);
   std::string text = fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)",
                                  model::words(*bad.belt),
                                  bad.index + 1,

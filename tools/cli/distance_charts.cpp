@@ -208,7 +208,8 @@ Chart distance_strip_chart(const Diagnosis& found) {
 ChartRow distance_scatter_charts(const Diagnosis& found) {
   return {{scatter_chart(found,
                          {"Against the distance's length",
-                          "A slope is a scale: a tape, or both chains, long or short.",
+                          "A slope means a scale error: the tape, or both chains, are too long or "
+                          "short.",
                           "distance, mm",
                           [](const DistancePicture& d, const Ends&) { return d.read_mm; }}),
            scatter_chart(found,
@@ -246,8 +247,8 @@ Chart next_distances_chart(const Diagnosis& found) {
                  false);
   }
   return drawn.finish({.title = "What to measure",
-                       .caption = "Blue: to be measured, holes to be cut by their number in the "
-                                  "table. Grey: measured already."});
+                       .caption = "Blue: to be measured; holes to be cut, numbered as in the "
+                                  "table. Grey: already measured."});
 }
 
 }  // namespace chaintrue::cli

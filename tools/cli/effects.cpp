@@ -165,7 +165,7 @@ std::string rival_words(const synthetic::Rival& rival) {
 void print_strengths(const Effect& effect, const synthetic::EffectPicture& picture) {
   const EffectParameter& size = effect.parameters.front();
   fmt::print(
-      "\nHow large {} must be (noise {} mm of length, {} mm of position; motors and zeros "
+      "\nRequired size of {} (noise {} mm in length, {} mm in position; motors and zeros "
       "calibrated):\n",
       size.name,
       short_number(picture.noise.length_mm),
@@ -178,7 +178,7 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
                         "{} (the same to {:.4f})", rival_words(*s.nearest), s.nearest->collinearity)
                   : "none";
     for (const synthetic::Rival& same : s.inseparable) {
-      nearest += fmt::format("; never apart from {}", rival_words(same));
+      nearest += fmt::format("; indistinguishable from {}", rival_words(same));
     }
     fmt::print("  {:>6}  {:>10}  {:>14}  {}\n",
                at.columns * at.rows,
@@ -187,7 +187,7 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
                nearest);
   }
   fmt::print(
-      "  usually it is {}; {:.0f} % of its effect remains after calibration with {} points\n",
+      "  usual size {}; {:.0f} % of its effect remains after calibration with {} points\n",
       short_number(size.nominal),
       100.0 * picture.strengths.front().strength.share_left,
       picture.strengths.front().columns * picture.strengths.front().rows);
@@ -269,9 +269,8 @@ std::optional<std::string> unreachable(const Machine& machine, const AppliedEffe
         const auto reading = model.at(visit.position);
         if (reading && reading->position_jacobian.allFinite()) continue;
         return fmt::format(
-            "the sled cannot be held at ({:.0f}, {:.0f}) mm of this bed: {}. Look at the left "
-            "motor, which the file puts at ({:.0f}, {:.0f}) mm, and the right one at ({:.0f}, "
-            "{:.0f}) mm",
+            "the sled cannot be held at ({:.0f}, {:.0f}) mm of this bed: {}. Check the motors, "
+            "which the file puts at ({:.0f}, {:.0f}) mm (left) and ({:.0f}, {:.0f}) mm (right)",
             visit.position.x_mm,
             visit.position.y_mm,
             reading ? "the chains do not determine its place" : reading.error().sentence(),
@@ -380,14 +379,14 @@ void add_effects(Verb app) {
   add_input(verb,
             "--effects",
             options->declared,
-            "chaintrue_effect files: effects of your own, in addition to the catalogue's")
+            "chaintrue_effect files: declared effects, in addition to the catalogue's")
       .excludes(markdown);
   auto atlas =
       add_input(verb,
                 "--atlas",
                 options->atlas,
                 "Write a page with a picture of each cause for a machine with two chains, four "
-                "belts or a pen; with an effect's or a setting's name, of that one only")
+                "belts or a pen; with the name of an effect or a setting, only that one")
           .excludes(machine)
           .excludes(json)
           .excludes(markdown);

@@ -36,7 +36,8 @@ void refuse_declared(const InputFile& file, const std::vector<std::string>& decl
   problems.add(
       "--effects",
       declared.front(),
-      fmt::format("to be left out: declared effects are of two chains, and {} is not", file.name),
+      fmt::format("to be left out, because declared effects act on two chains, which {} does not "
+                  "have", file.name),
       ProblemKind::contradiction);
   problems.throw_if_any();
 }
@@ -93,7 +94,7 @@ int write_atlas(const std::string& machine,
                  : fmt::format("{} pictures", named.atlas.pictures.size()));
   for (const std::string& missing : named.atlas.not_drawn)
     fmt::print(
-        stderr, "No picture of {}: at its usual size this machine cannot work with it.\n", missing);
+        stderr, "No picture of {}: this machine cannot work with it at its usual size.\n", missing);
   return kDone;
 }
 

@@ -77,14 +77,14 @@ std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typ
 std::string words_of(const grid::Lacking& lacking, const Machine& machine) {
   if (lacking.what == "top_beam_tilt") {
     return fmt::format(
-        "The tilt of the beam has no number in GroundControl's own firmware, which costs {:.2f} mm "
-        "of that: level the beam. The holey firmware has topbeamtilt; where yours is that, say "
-        "\"kind\": \"holey\" of the machine's /controller.\n",
+        "GroundControl's own firmware has no setting for the tilt of the beam, which causes {:.2f} "
+        "mm of that: level the beam. The holey firmware has topbeamtilt; if you use it, set "
+        "\"kind\": \"holey\" in the machine's /controller.\n",
         lacking.costs_mm);
   }
   if (lacking.what == "chain_stretch") {
     return fmt::format(
-        "The stretch of the chains has no number in GroundControl's own firmware, which costs "
+        "GroundControl's own firmware has no setting for the stretch of the chains, which causes "
         "{:.2f} mm of that.\n",
         lacking.costs_mm);
   }
@@ -106,7 +106,7 @@ std::string words_of(const std::string& today,
                         today,
                         typed.typed.rms_mm,
                         typed.typed.maximum_mm)
-          : fmt::format("{} other numbers would gain less than a tenth, so keep yours.\n", today);
+          : fmt::format("{} Other numbers would gain less than a tenth, so keep yours.\n", today);
   for (const grid::Lacking& one : typed.lacking) words += words_of(one, machine);
   return words;
 }
@@ -121,7 +121,7 @@ std::string today_in_words(const CompensationMap& map, const grid::SettingsToTyp
       today.rms_mm,
       today.maximum_mm,
       has_placed_sheet(map.contents())
-          ? fmt::format(" ({:.2f} and {:.2f} mm with the sheet in its right place)",
+          ? fmt::format(" ({:.2f} and {:.2f} mm with the sheet correctly placed)",
                         typed.as_it_is.rms_mm,
                         typed.as_it_is.maximum_mm)
           : "");
@@ -165,7 +165,7 @@ CompensationMap map_after_of(const CompensationMap& map,
   return grid::map_for_settings(
       map,
       now,
-      fmt::format("For a controller that holds the numbers of export groundcontrol{}.", numbers));
+      fmt::format("For a controller that holds the numbers from export groundcontrol{}.", numbers));
 }
 
 /// The best fit of the controller's formulas to the map.
@@ -226,7 +226,7 @@ Exported of_machine(const Machine& stated,
       "mm at worst;",
       file,
       typed->as_it_is.rms_mm,
-      holds_numbers ? "today's settings" : "its own measures for settings",
+      holds_numbers ? "today's settings" : "its own dimensions as settings",
       typed->as_it_is.maximum_mm);
   return {text_of(machine, *typed, file, holds_numbers),
           words_of(today, machine, *typed, holds_numbers),
@@ -249,8 +249,8 @@ bool refuses_weak_causes(const std::vector<AppliedEffect>& effects, const std::s
   if (weak.empty()) return false;
   fmt::print(
       stderr,
-      "{}: this machine rests on {}; to type numbers in, a cause must be at least {} certain. "
-      "Measure what the diagnosis proposes next and diagnose again; --force continues anyway.\n",
+      "{}: this machine depends on {}, and numbers to type in require at least {}. Measure what "
+      "the diagnosis proposes next and diagnose again; --force continues anyway.\n",
       name,
       diagnosis::joined(weak, "and"),
       diagnosis::percent(diagnosis::kSureOfCause));
@@ -266,8 +266,8 @@ std::string left_out_in_words(const Diagnosis& found) {
   for (const diagnosis::Cause& cause : causes_left_out(found)) {
     if (grid::none_of(cause.same_as, is_of_paper)) continue;
     words += fmt::format(
-        "These numbers leave out what may be {}{} or the tape that the marks were measured with. A "
-        "map corrects it either way: export its numbers instead.\n",
+        "These numbers leave out an error that may be {}{} or the tape used for the marks. A map "
+        "corrects it either way: export its numbers instead.\n",
         cause.cause.effect->cause,
         diagnosis::side_words(cause.cause));
   }
@@ -307,8 +307,8 @@ bool is_untyped_json(const InputFile& file) {
   throw InputError({{file.name,
                      "/observations",
                      "a diagnosis of a test drawing",
-                     "one of another machine; of a V-plotter export plotter has the lines, from "
-                     "what fit makes of the drawing"}});
+                     "one of another machine; for a V-plotter, export plotter prints the lines "
+                     "from the result of fit"}});
 }
 
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
@@ -316,7 +316,7 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
   require_kind(
       file,
       {FileKind::machine, FileKind::map, FileKind::diagnosis},
-      file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4" : "");
+      file.kind == FileKind::anchors ? "anchors of four belts are read by export maslow4" : "");
   if (file.kind == FileKind::map) {
     const CompensationMap map = load_map(file);
     if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, std::nullopt, true};
@@ -351,7 +351,7 @@ std::string written_map_after(Verb verb, const Exported& exported, const ExportC
   if (exported.map_after) return files::write_map(*exported.map_after, made_by(verb));
   throw InputError({{command.input,
                      "",
-                     "a map of a controller that takes none of GroundControl's numbers",
+                     "a map for a controller without GroundControl's settings",
                      "--map-after to be left out: put the machine's anchors into FluidNC's "
                      "config.yaml, and compensate with this map and --settings config.yaml"}});
 }
@@ -399,8 +399,8 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   write_output(command.output, settings->text);
   for (const std::string& remark : settings->remarks) fmt::print(stderr, "{}\n", remark);
   fmt::print(stderr,
-             "The machine forgets these lines when it is switched off, until $CD=/maslow.yaml has "
-             "saved them.\n");
+             "These lines are lost when the machine is switched off, unless $CD=/maslow.yaml saves "
+             "them.\n");
   return kDone;
 }
 
@@ -410,17 +410,15 @@ void add_maslow4(Verb verb) {
   add_input(maslow4,
             "file",
             command->input,
-            "A chaintrue_anchors file, as fit makes it, or a diagnosis of belts")
+            "A chaintrue_anchors file from fit, or a diagnosis of belts")
       .required();
   add_output(
       maslow4, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
       .shows_default();
   maslow4.footer(
-      "The anchors as fitted, in the belts' own millimetres; with a taped distance the scales, "
-      "where they change.\n\n"
-      "Example:\n"
-      "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
-      "  build/chaintrue export maslow4 anchors.json");
+      "The fitted anchors, in millimetres of belt; with a taped distance also the scales, if they "
+      "change.\n\nExample:\n  build/chaintrue fit fixtures/belts/thirty_one_places.json -o "
+      "anchors.json\n  build/chaintrue export maslow4 anchors.json");
   maslow4.runs(command, export_maslow4);
 }
 
@@ -451,21 +449,19 @@ void add_export(Verb app) {
              "--map-after",
              command->map_after,
              {Origin::map},
-             "With a map: also write the map that holds once these numbers are typed in")
+             "With a map: also write the map to use once these numbers are typed in")
       .acts_on(facts::map,
-               "to be left out: only of a map follows the one that is right once the numbers are "
-               "typed in");
+               "to be left out, because only a map has a successor for the new numbers");
   groundcontrol.footer(fmt::format(
-      "The numbers that bring the controller nearest to the map, to the machine, or to the one "
-      "that a diagnosis found, and how near; what the firmware has no number for, and what that "
-      "costs. All others stay as they were, and all where the machine says no more than its "
-      "settings. No number rests on a cause that is less than 90 % sure: the exit code is 1 then, "
-      "and nothing is written.\n\nOnce the numbers are typed in, stop using the old map: it "
-      "corrects again what the numbers have mended, and parts come out wrong. Use the map of "
-      "--map-after: it is for the same machine with these numbers, and corrects what is "
-      "left.\n\n{}\n  build/chaintrue fit fixtures/start/marks.csv --machine "
-      "fixtures/machines/groundcontrol.json -o map.json\n  build/chaintrue export groundcontrol "
-      "map.json -o settings.ini --map-after map.after.json",
+      "Prints the settings that bring the controller closest to the map, to the machine, or to the "
+      "machine that a\ndiagnosis found, the error before and after, and the error from causes "
+      "without a setting. Other settings\nare unchanged. No number is based on a cause below 90 %: "
+      "then the exit code is 1 and nothing is written.\n\nOnce the numbers are typed in, do not "
+      "use the old map: it would correct the same error again. Use the map\nfrom --map-after, "
+      "which is for the same machine with these numbers and corrects the remaining error.\n\n{}\n  "
+      "build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
+      "-o map.json\n  build/chaintrue export groundcontrol map.json -o settings.ini --map-after "
+      "map.after.json",
       kExample));
   groundcontrol.runs(command, export_groundcontrol);
   add_maslow4(verb);

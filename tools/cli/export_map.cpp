@@ -43,7 +43,7 @@ using WrittenOrWhy = tl::expected<Written, std::string>;
 
 std::string without_table(const grid::MapFailure& failure) {
   return failure.sentence() +
-         ". A table needs lengths all over the map; fit it with --outside continued";
+         ". A table needs lengths all over the map; fit the map with --outside continued";
 }
 
 WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
@@ -56,9 +56,9 @@ WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
       std::move(module->source),
       fmt::format(
           "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
-          "{:.4f} mm of the map, and moves go in pieces of at most {:g} mm.\nCopy it as "
-          "chaintrue.py into klippy/kinematics, and say kinematics: chaintrue in printer.cfg, with "
-          "a [stepper_left] and a [stepper_right]. The file's first lines say the rest.",
+          "{:.4f} mm of the map, and moves are split into pieces of at most {:g} mm.\nCopy it as "
+          "chaintrue.py into klippy/kinematics, and set kinematics: chaintrue in printer.cfg, with "
+          "a [stepper_left] and a [stepper_right]. The file's first lines explain the rest.",
           module->columns,
           module->rows,
           module->spacing_mm,
@@ -103,7 +103,7 @@ WrittenOrWhy linuxcnc_module(const NamedMap& named, const std::string& output) {
                   module->spacing_mm,
                   module->largest_error_mm,
                   module->largest_error_mm > files::kTableErrorMm
-                      ? ", more than it should be: this map bends within millimetres"
+                      ? ", more than intended, because this map bends within millimetres"
                       : "",
                   name,
                   name)};
@@ -150,13 +150,14 @@ WrittenOrWhy straight_lines(const NamedMap& named, const std::string&) {
   if (!nearest) return tl::unexpected(nearest.error().sentence());
   return Written{kLines(*nearest),
                  fmt::format("With these numbers the tool is still off by {:.2f} mm rms over the "
-                             "measured part, {:.2f} mm at worst: straight lines do not sag. {}",
+                             "measured part, {:.2f} mm at worst, because this controller's "
+                             "straight lines do not sag. {}",
                              nearest->left_over.rms_mm,
                              nearest->left_over.maximum_mm,
                              kAnchors == grid::Anchors::free
                                  ? "Switch it on with the tool at 0, 0 of the sheet."
-                                 : "It draws Y downwards: mirror a program, and move it by the "
-                                   "place in the last line.")};
+                                 : "Its Y points down: mirror the program, and shift it by the "
+                                   "offset in the last line.")};
 }
 
 struct Controller {
@@ -226,7 +227,8 @@ void add_export_map(Verb export_verb) {
         "  build/chaintrue fit fixtures/start/marks.csv --machine "
         "fixtures/machines/groundcontrol.json -o map.json\n"
         "  build/chaintrue export {} map.json{}{}",
-        is_module ? "" : "For what they leave, compensate each program (gcode compensate).\n\n",
+        is_module ? "" : "To correct the remaining error, compensate each program (gcode "
+                         "compensate).\n\n",
         controller.name,
         is_module ? " -o " : "",
         is_module ? controller.output : ""));

@@ -25,8 +25,8 @@ int export_plotter(const ExportPlotterCommand& command) {
     throw InputError({{file.name,
                        "/found",
                        "",
-                       "what a test drawing found; chaintrue fit drawing.json -o found.json writes "
-                       "a plotter with it"}});
+                       "results of a test drawing; chaintrue fit drawing.json -o found.json writes "
+                       "a plotter with them"}});
   }
   std::string text;
   for (const std::string& line :
@@ -43,7 +43,7 @@ void add_export_plotter(Verb export_verb) {
   auto command = std::make_shared<ExportPlotterCommand>();
   Verb verb = export_verb.add_verb(
       "plotter", "Print the numbers to type into a V-plotter's controller after a test drawing");
-  add_input(verb, "file", command->input, "A chaintrue_plotter file as fit makes it of a drawing")
+  add_input(verb, "file", command->input, "A chaintrue_plotter file that fit wrote from a drawing")
       .required();
   add_output(
       verb, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")

@@ -71,7 +71,7 @@ constexpr std::size_t kMostDistances = 5000;
 constexpr std::size_t kMostHoles = 150;
 
 constexpr const char* kNoMachine =
-    "to be left out of a direct surface, which has no machine that could err";
+    "to be left out for a direct surface, which has no machine";
 
 constexpr files::Range kWishMm{"mm", 0.001, 50.0};
 
@@ -94,7 +94,7 @@ void refuse_too_many(const grid::Measured& measured) {
     throw Failed(
         measured.files().front().name,
         "too_many",
-        fmt::format("{} {} are more than a fit takes ({}): leave some out, evenly over the bed",
+        fmt::format("{} {} are more than a fit accepts ({}): leave some out, evenly over the bed",
                     found,
                     what,
                     most));
@@ -111,7 +111,7 @@ void check_as_read(const std::string& text, const std::string& measured) {
   } catch (const InputError& error) {
     throw Failed(measured,
                  name_of(grid::FitReason::impossible_readings),
-                 "no machine can be as these points say, so no map is written: " +
+                 "no machine is consistent with these points, so no map is written: " +
                      error.problems().front().message());
   }
 }
@@ -243,27 +243,27 @@ int run_fit(Verb verb, const FitCommand& command) {
 void add_fit(Verb app) {
   auto command = std::make_shared<FitCommand>();
   Verb verb = app.add_verb("fit",
-                           "Compute a map from measured points, anchors from belt lengths, "
+                           "Compute a map from measured points, anchors from belt lengths, or "
                            "settings from a test drawing");
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
   verb.option("--noise-dof")
       .acts_on(facts::residual,
-               "to be left out of a direct surface, which goes through the readings");
+               "to be left out for a direct surface, which passes through the readings");
   verb.option("--effects")
       .acts_on(facts::residual, kNoMachine)
       .acts_on(facts::causes,
-               "to be left out with --plain: a map is on the machine file as it is, or on the "
-               "causes that are found");
+               "to be left out with --plain: a map uses either the machine file alone or the "
+               "causes found");
   add_input(verb,
             "--with",
             command->with,
             "More files of the same machine: grids or chaintrue_holes; with belts, "
             "chaintrue_holes. All are fitted together, in the coordinates of the first")
       .acts_on(facts::no_drawing,
-               "to be left out of a test drawing: all that is known of the plotter is in its file")
-      .acts_on(facts::residual, "to be left out: a direct surface is of one grid alone");
+               "to be left out for a test drawing, whose file describes the plotter")
+      .acts_on(facts::residual, "to be left out, because a direct surface needs a single grid");
   add_output(verb,
              "-o,--output",
              command->output,
@@ -278,47 +278,49 @@ void add_fit(Verb app) {
       .one_of({"residual", "direct"})
       .shows_default()
       .acts_on(facts::chains,
-               "to be left out: belts and drawings have settings for an answer, and no surface",
+               "to be left out, because belts and drawings have no surface",
                "residual")
       .acts_on(
           facts::one_grid,
-          "\"residual\": a direct surface needs chain lengths at known places, of one grid alone",
+          "\"residual\", because a direct surface needs chain lengths at known places, from a "
+          "single grid",
           "residual");
   verb.add_option("--ends", command->ends, "End condition of direct splines")
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
       .shows_default()
-      .acts_on(facts::direct, "to be left out without --surface direct, whose splines it ends");
+      .acts_on(facts::direct, "to be left out without --surface direct");
   add_outside_options(verb, command->outside, "continued by default");
   verb.option("--outside")
-      .acts_on(facts::chains, "to be left out: belts and drawings have no surface that could end")
+      .acts_on(facts::chains, "to be left out, because belts and drawings have no surface")
       .acts_on(facts::residual,
-               "to be left out of a direct surface, which ends where its points do");
+               "to be left out for a direct surface, which ends at its points");
   verb.add_flag("--plain",
                 command->plain,
                 "Do not look for causes. By default, fit looks for causes as diagnose does and "
                 "uses those that improve the map at points left out")
       .acts_on(facts::chains,
-               "to be left out: only maps rest on causes; chaintrue diagnose weighs those of belts "
-               "and drawings")
+               "to be left out, because only maps use causes; for belts and drawings run chaintrue "
+               "diagnose")
       .acts_on(facts::residual, kNoMachine);
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "If the points cannot tell long links from a long tape, assume the links")
-      .acts_on(facts::chains, "to be left out: it is of a chain or a tape that is long")
+                "If the points cannot distinguish long links from a long tape, assume the links")
+      .acts_on(facts::chains, "to be left out, because it applies to chains and the tape for marks "
+                              "only")
       .acts_on(facts::residual, kNoMachine)
-      .acts_on(facts::causes, "to be left out with --plain: it says which of two causes acts");
+      .acts_on(facts::causes, "to be left out with --plain, which looks for no causes");
   add_number(verb,
              "--wish-mm",
              command->wish_mm,
              kWishMm,
-             "The accuracy you want: fit says whether the map reaches it, and what would")
+             "The accuracy you want: fit reports whether the map reaches it, and how to reach it")
       .acts_on(facts::no_drawing,
-               "to be left out of a test drawing: all that is known of the plotter is in its file")
+               "to be left out for a test drawing, whose file describes the plotter")
       .acts_on(facts::residual,
-               "to be left out of a direct surface: nobody knows how far the tool is off it");
+               "to be left out for a direct surface, whose tool error is unknown");
   verb.add_flag("-v,--verbose",
                 command->verbose,
-                "Also print the tables: settings, errors at points left out, each distance, left "
+                "Also print the tables: settings, errors at left-out points, each distance, left "
                 "against right");
   add_without_option(verb, command->without);
   verb.add_flag("--json", command->json, "Print the results as JSON");

@@ -41,8 +41,8 @@ void read_belts_file(const InputFile& file,
     throw InputError({{file.name,
                        "",
                        "a second file of belts",
-                       "one file of belts and any number of chaintrue_holes: anchors of two "
-                       "sessions are two fits"}});
+                       "one file of belts and any number of chaintrue_holes; each session has its "
+                       "own fit"}});
   }
   all.belts = load_belts(file, "a fit", without).belts;
   all.indices = files::indices_without(all.belts->points.size(), without);
@@ -51,7 +51,7 @@ void read_belts_file(const InputFile& file,
 void read_holes_file(const InputFile& file, const files::TapeOptions& tape, BeltFiles& all) {
   require_kind(file,
                {FileKind::belts, FileKind::holes, FileKind::belt_holes},
-               "only one file of belts is measured on one machine");
+               "a single file of belts is fitted");
   files::ReadHoles read = files::parse_holes(file.text, file.name, {.tape = tape});
   print_warnings(read.warnings);
   if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)
@@ -61,7 +61,7 @@ void read_holes_file(const InputFile& file, const files::TapeOptions& tape, Belt
                        "/machine",
                        read.holes.machine ? "a machine on two chains" : "",
                        "the machine on four belts that cut the holes, with x_mm and y_mm of the "
-                       "anchors in force at the time"}});
+                       "anchors then in force"}});
   }
   all.holes.push_back({*std::move(read.belt_machine), std::move(read.holes)});
 }

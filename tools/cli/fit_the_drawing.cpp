@@ -37,8 +37,8 @@ PlotterSettingWords plotter_setting_words(std::size_t parameter) {
       {"height of the right pin over the left", "mm"},
       {"zero of the left cord", "mm"},
       {"zero of the right cord", "mm"},
-      {"left cord, counted too long", "mm per metre"},
-      {"right cord, counted too long", "mm per metre"},
+      {"excess of the left cord", "mm per metre"},
+      {"excess of the right cord", "mm per metre"},
   };
   return kWords[parameter];
 }
@@ -67,8 +67,8 @@ std::string sentence_of_settings(const DrawingFit& fit) {
                          own.sigma,
                          plotter_setting_words(k).unit);
   }
-  if (named.empty()) return "No setting is off by more than chance.";
-  return fmt::format("Off by more than chance: {}.", named);
+  if (named.empty()) return "No setting is off significantly.";
+  return fmt::format("Significantly off: {}.", named);
 }
 
 Table table_of_settings(const DrawingFit& fit) {
@@ -108,8 +108,8 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
   Document document;
   document.title = fmt::format("Test drawing: {}", drawing.name);
   document.verdict = {
-      fmt::format("The lines bow by up to {:.1f} mm. With the numbers found typed in, those of the "
-                  "next page bow by up to {:.1f} mm.",
+      fmt::format("The lines bow by up to {:.1f} mm. After typing in the new numbers, the lines of "
+                  "the next page will bow by up to {:.1f} mm.",
                   largest_bow(drawing, fit, &FittedMeasure::measured_mm),
                   largest_bow(drawing, fit, &FittedMeasure::after_mm))};
   document.remarks.blocks.emplace_back(Paragraph{sentence_of_settings(fit)});
@@ -117,7 +117,8 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
     if (!fit.measures[i].rejected) continue;
     document.remarks.blocks.emplace_back(Paragraph{
         fmt::format(
-            "{} was left out: {:.1f} mm was read, but the rest gives {:.1f} mm. Measure it again.",
+            "{} was left out: {:.1f} mm was read, but the others predict {:.1f} mm. Measure it "
+            "again.",
             grid::words_of(drawing, i),
             fit.measures[i].measured_mm,
             fit.measures[i].found_mm),

@@ -68,7 +68,7 @@ std::string points_json(const Diagnosis& found, const MeasuredGrid& measured) {
                    values,
                    visit ? fmt::format(", \"order\": {}", (*visit)++) : "");
   }
-  return points.empty() ? points : "\"points\": add, each null filled in\n" + points;
+  return points.empty() ? points : "add to \"points\", replacing each null\n" + points;
 }
 
 std::string points_csv(const Diagnosis& found, const MeasuredGrid& measured) {
@@ -98,7 +98,7 @@ std::string readings_json(const Diagnosis& found) {
                    next.side.empty() ? "" : fmt::format(", \"side\": \"{}\"", next.side),
                    next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : "null");
   }
-  return readings.empty() ? readings : "\"readings\": add, each null filled in\n" + readings;
+  return readings.empty() ? readings : "add to \"readings\", replacing each null\n" + readings;
 }
 
 }  // namespace chaintrue::cli

@@ -102,7 +102,7 @@ std::string distances_json(const Diagnosis& found,
                            std::size_t position) {
   const Lines lines = lines_of(found, sets, position);
   std::string text;
-  if (!lines.holes.empty()) text += "\"holes\": cut and add\n";
+  if (!lines.holes.empty()) text += "cut, and add to \"holes\"\n";
   for (const grid::Hole& hole : lines.holes) {
     fmt::format_to(std::back_inserter(text),
                    "  {{\"name\": \"{}\", \"x_mm\": {:.0f}, \"y_mm\": {:.0f}}},\n",
@@ -110,7 +110,7 @@ std::string distances_json(const Diagnosis& found,
                    hole.commanded.x_mm + 0.0,
                    hole.commanded.y_mm + 0.0);
   }
-  if (!lines.distances.empty()) text += "\"distances\": add, each null filled in\n";
+  if (!lines.distances.empty()) text += "add to \"distances\", replacing each null\n";
   for (const auto& [from, to] : lines.distances) {
     fmt::format_to(std::back_inserter(text),
                    "  {{\"from\": \"{}\", \"to\": \"{}\", \"distance_mm\": null}},\n",

@@ -16,7 +16,7 @@ namespace {
 using Action = int (*)(const GcodeOptions&);
 
 constexpr const char* kNothingIsWritten =
-    "to be left out without --map: it is of what compensating would write";
+    "to be left out without --map, because it applies to compensated output";
 
 constexpr files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
@@ -33,8 +33,8 @@ void require_gcode(const InputFile& file) {
       {{file.name,
         "/set/firmware",
         std::string(model::name(plotter)),
-        "a plotter that takes G-code, \"fluidnc\" or \"marlin\": this one is sent pictures, and "
-        "draws them true once the lines of chaintrue export plotter are typed in"}});
+        "a plotter that accepts G-code, \"fluidnc\" or \"marlin\"; this one draws pictures, "
+        "accurately once the lines from chaintrue export plotter are typed in"}});
 }
 
 void open_map(Verb verb, GcodeOptions& options) {
@@ -70,7 +70,7 @@ Verb add(Verb parent,
              "--step-budget",
              options->step_budget,
              {"", 1.0, 1e12},
-             "Steps in loops and subroutines after which a program counts as endless");
+             "Number of steps in loops and subroutines after which a program counts as endless");
   add_option_check(verb, [options](OptionProblems& problems) {
     problems.take_from([&options] { (void)options->home_mm(); });
   });
@@ -88,13 +88,12 @@ void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
   verb.add_option("--frame", options.frame, "Zero of the program: the marks' or the bed's")
       .one_of({"marks", "bed"})
       .shows_default()
-      .acts_on(facts::target, "to be left out without --map, whose frames they are", "marks")
+      .acts_on(facts::target, "to be left out without --map", "marks")
       .acts_on(facts::map | facts::anchors,
-               "\"marks\": a plotter counts as its controller does, and knows no other frame",
+               "\"marks\", because a plotter has only its controller's frame",
                "marks")
       .acts_on(facts::map,
-               "\"marks\": belts count from where their frame's diagonals cross, and know no other "
-               "frame",
+               "\"marks\", because belts have only one frame, from the crossing of its diagonals",
                "marks");
 }
 
@@ -111,13 +110,13 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
             "The controller's settings now, if they have changed since the map was measured: "
             "groundcontrol.ini, webcontrol.json, FluidNC's config.yaml, or a machine file")
       .excludes(machine)
-      .acts_on(facts::target, "to be left out without --map, whose machine holds these settings")
+      .acts_on(facts::target, "to be left out without --map")
       .acts_on(facts::map | facts::anchors,
-               "to be left out: what the controller of a plotter holds is given with --machine, as "
-               "a chaintrue_plotter file")
+               "to be left out; give a plotter's controller settings with --machine, as a "
+               "chaintrue_plotter file")
       .acts_on(facts::map,
-               "to be left out: what the controller of four belts holds is given with --machine, "
-               "as a belts or anchors file");
+               "to be left out; give the controller settings of four belts with --machine, as a "
+               "belts or anchors file");
   verb.add_option("--controller", options.controller, "Replaces the machine file's")
       .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
 }
@@ -139,7 +138,7 @@ void add_limits(Verb verb, GcodeOptions& options) {
              "Refuse corrections that change faster than this [mm/mm]")
       .acts_on(facts::target, kNothingIsWritten);
   verb.add_flag(
-          "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids at their ends only")
+          "--keep-rapids-whole", options.keep_rapids_whole, "Correct only the ends of rapids")
       .acts_on(facts::target, kNothingIsWritten);
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
@@ -189,7 +188,7 @@ void add_gcode(Verb app) {
              options->every_mm,
              {"mm", 1e-9, 1e5},
              "Largest distance between places along a move");
-  lengths.add_flag("--json", options->json, "Print one JSON object a line instead of CSV");
+  lengths.add_flag("--json", options->json, "Print one JSON object per line instead of CSV");
   lengths.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
@@ -221,7 +220,7 @@ void add_gcode(Verb app) {
   compensate.add_flag("--json",
                       options->json,
                       "Print the result as JSON, with each piece of the path: line, 1 for a rapid, "
-                      "start and end, correction at either (x, y, mm)");
+                      "start and end, correction at both (x, y, mm)");
   compensate.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
@@ -235,7 +234,7 @@ void add_gcode(Verb app) {
       "Run a program on a simulated controller and machine; exit code 1 if the tool strays too far",
       run_gcode_verify);
   add_input(
-      verify, "original", options->program, "The program that states where the tool should go")
+      verify, "original", options->program, "The program with the intended path")
       .required();
   add_input(verify, "run", options->other, "The program that the controller runs").required();
   add_machine_options(verify, *options, true);
@@ -258,7 +257,7 @@ void add_gcode(Verb app) {
   for (const char* name : {"--machine", "--controller"})
     explain.option(name).acts_on(
         facts::target,
-        "to be left out without --map: without it a line is explained as it is written");
+        "to be left out without --map");
   explain.footer(
       "Example:\n"
       "  build/chaintrue gcode explain fixtures/gcode/bracket.nc:12");

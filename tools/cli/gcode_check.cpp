@@ -56,7 +56,7 @@ void print_survey(const gcode::Survey& survey, bool json) {
              survey.arcs,
              survey.path_mm / 1000.0);
   if (!survey.box) {
-    fmt::print("the program goes nowhere in X and Y\n");
+    fmt::print("the program does not move in X or Y\n");
     return;
   }
   fmt::print("X {:.3f} to {:.3f} mm, Y {:.3f} to {:.3f} mm, Z {:.3f} to {:.3f} mm\n",
@@ -120,7 +120,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   }
   if (firmware != nullptr) {
     gcode::ControllerCheck check(*firmware, findings);
-    auto once_more = text.open({"what the controller makes of it", 2, steps});
+    auto once_more = text.open({"the controller's interpretation", 2, steps});
     const auto outcome = gcode::run_program(once_more, options.dialect(), check);
     if (!outcome) return report(options.program, outcome.error());
   }

@@ -54,8 +54,8 @@ bool is_usual(const GcodeOptions& options) {
 std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, const Proof& proof) {
   const char* controller = machine.corrector().firmware().name;
   if (options.no_verify) {
-    return "It is not known whether the file is safe to run: it was not tried on the simulated "
-           "machine (--no-verify). Run gcode verify before cutting.";
+    return "The file was not run on the simulated machine (--no-verify), so it may not be safe. "
+           "Run gcode verify before cutting.";
   }
   if (!proof.fault.empty()) {
     return fmt::format("Not safe to run, and not written: on a simulated {} controller, {}.",
@@ -101,8 +101,8 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   if (options.settings.empty() && options.machine.empty()) {
     if (const std::string after = map_after(options.map); !after.empty()) {
       fmt::print(stderr,
-                 "Have you typed in the numbers that {0} is for? {1} is for the controller as it "
-                 "was before: with the numbers in it, compensate with {0}.\n",
+                 "Have you typed in the numbers for {0}? {1} is for the controller without them; "
+                 "with them, compensate with {0}.\n",
                  after,
                  options.map);
     }
@@ -114,11 +114,12 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   const BedPoint home = options.home_mm();
   if (home.x_mm == 0.0 && home.y_mm == 0.0) {
     fmt::print(stderr,
-               "It is for home at 0, 0. If you have moved home (Define Home), give its place with "
-               "--home X,Y.\n");
+               "It assumes home at 0, 0. If you have moved home (Define Home), give its position "
+               "with --home X,Y.\n");
   } else {
     fmt::print(stderr,
-               "Home at {:g}, {:g} is in its numbers: move home back to 0, 0 before you run it.\n",
+               "Its coordinates include home at {:g}, {:g}: move home back to 0, 0 before you run "
+               "it.\n",
                home.x_mm,
                home.y_mm);
   }

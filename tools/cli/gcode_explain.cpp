@@ -83,7 +83,7 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   const auto before = gcode::attempt([&] {
     while (program.next_line() != line) {
       if (!program.step())
-        refuse(gcode::ProblemName::bad_flow, {line, 0}, "the program never comes to this line");
+        refuse(gcode::ProblemName::bad_flow, {line, 0}, "the program never reaches this line");
     }
     return line;
   });

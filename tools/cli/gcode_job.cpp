@@ -44,7 +44,7 @@ void check_limits(const GcodeOptions& options, OptionProblems& problems) {
   problems.add(
       "--tolerance-mm",
       fmt::format("{}", options.tolerance_mm),
-      fmt::format("more than {:.2g} mm, which rounding to {} decimals uses up; or more --decimals",
+      fmt::format("more than {:.2g} mm, the rounding to {} decimals; or more --decimals",
                   least_mm,
                   options.decimals),
       ProblemKind::out_of_range);

@@ -118,7 +118,8 @@ GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarg
     throw InputError({{"--controller",
                        "",
                        options.controller,
-                       "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
+                       "\"maslow4\", or to be left out, because anchors of four belts belong to a "
+                       "Maslow 4"}});
   }
   const BeltMachine believed =
       options.machine.empty() ? *target.belts_in_force : read_belt_machine_input(options.machine);
@@ -170,7 +171,7 @@ GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTa
         {{"--controller",
           "",
           options.controller,
-          fmt::format("\"{}\", or to be left out: the plotter's file names its controller",
+          fmt::format("\"{}\", or to be left out, because the plotter's file names its controller",
                       firmware->name)}});
   }
   return {
@@ -217,8 +218,8 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
     throw InputError({{"--controller",
                        "",
                        options.controller,
-                       "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit "
-                       "takes the map's place"}});
+                       "a router's controller; Marlin is for V-plotters, which use the fit of a "
+                       "drawing instead of a map"}});
   }
   Machine machine = believed_machine(options, *target.map);
   if (const auto kind = controller_kind(options.controller)) {
@@ -246,8 +247,8 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
     OptionProblems problems;
     problems.add("--map",
                  options.map,
-                 "anchors fitted to a file that states those in force: where commands count from "
-                 "follows from them (import maslow4 --settings maslow.yaml)",
+                 "anchors fitted to a file with the anchors in force, which define the origin of "
+                 "commands (import maslow4 --settings maslow.yaml)",
                  ProblemKind::missing);
     problems.throw_if_any();
   }
@@ -259,8 +260,8 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
     target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
     fmt::print(
         stderr,
-        "The scale is not known: a turn of the encoder is assumed to be {:g} mm of belt, so parts "
-        "can be no more accurate than that. One long taped distance, or holes, determines it.\n",
+        "The scale is unknown. An encoder turn is assumed to be {:g} mm of belt, and parts can be "
+        "no more accurate than that. One long taped distance, or holes, determine the scale.\n",
         found.fit.machine.belt_turn_mm);
   }
   target.lengths = std::move(map);
@@ -272,8 +273,8 @@ GcodeTarget target_of_map(const GcodeOptions& options) {
     throw InputError({{options.map,
                        "/file_type",
                        "",
-                       "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
-                       "these in place of a map"}});
+                       "\"chaintrue_anchors\", which chaintrue fit writes for belts; a Maslow 4 "
+                       "uses these instead of a map"}});
   }
   GcodeTarget target{std::make_unique<const CompensationMap>(load_map(*options.map_file))};
   target.lengths = std::make_unique<const grid::MapInFrame>(

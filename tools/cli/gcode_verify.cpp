@@ -75,7 +75,7 @@ void print_words(const gcode::VerifySummary& summary,
   if (control) fmt::print("without compensation: {}\n", in_words(*control));
   if (summary.tick_overshoot_mm > 0.0) {
     fmt::print(
-        "Moves overshoot by up to {:.2f} mm and come back, as they always do on this controller.\n",
+        "Moves overshoot by up to {:.2f} mm and return, as always on this controller.\n",
         summary.tick_overshoot_mm);
   }
   if (!summary.words_differ.empty())

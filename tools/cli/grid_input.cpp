@@ -31,42 +31,43 @@ void add_grid_options(Verb verb, GridInput& input) {
             input.machine,
             "A chaintrue_machine file that replaces the grid's own machine")
       .acts_on(facts::chains | facts::map,
-               "to be left out: belts and drawings bring their own machine");
+               "to be left out, because the files of belts and drawings contain their machine");
   add_number(verb,
              "--noise-length-mm",
              input.length_noise_mm,
              files::kNoiseMm,
-             "Standard deviation (1 sigma) of a measured chain length, replaces the grid's own")
+             "Standard deviation (1 sigma) of a measured chain length; replaces the grid's")
       .acts_on(facts::grid,
-               "to be left out: it is of the chain lengths of a grid, which was not given");
+               "to be left out, because it applies to chain lengths in a grid only");
   add_number(
       verb,
       "--noise-position-mm",
       input.position_noise_mm,
       files::kNoiseMm,
-      "Standard deviation (1 sigma) of a measured position on each axis, replaces the grid's own")
-      .acts_on(facts::grid, "to be left out: it is of the places of a grid, which was not given");
+      "Standard deviation (1 sigma) of a measured position on each axis; replaces the grid's")
+      .acts_on(facts::grid, "to be left out, because it applies to positions in a grid only");
   add_number(verb,
              "--noise-dof",
              input.noise_dof,
              files::kNoiseDof,
-             "Degrees of freedom of the noise: the higher, the more it is trusted (15 by default)")
-      .acts_on(facts::grid, "to be left out: it is of the noise of a grid, which was not given");
+             "Degrees of freedom of the noise; a higher number means that it is better known (15 "
+             "by default)")
+      .acts_on(facts::grid, "to be left out, because it applies to the noise of a grid only");
   verb.add_flag("--inches",
                 input.inches,
                 "In CSV tables, measured positions, lengths and distances are in inches, as "
                 "43.8125 or 43 13/16; commands stay in mm")
       .acts_on(facts::table,
-               "to be left out: it is of tables (CSV), and the keys of a JSON file say that its "
-               "numbers are mm");
+               "to be left out, because it applies to CSV tables only; the numbers of a JSON file "
+               "are in mm");
 }
 
 void add_effects_option(Verb verb, GridInput& input) {
   add_input(verb,
             "--effects",
             input.effects,
-            "chaintrue_effect files: causes of your own, tested along with the catalogue's")
-      .acts_on(facts::chains, "to be left out: declared effects are of two chains");
+            "chaintrue_effect files: declared causes, tested along with the catalogue's")
+      .acts_on(facts::chains, "to be left out, because declared effects act on two chains");
 }
 
 namespace {
@@ -77,7 +78,7 @@ void declare(const GridInput& input, const std::string& file, std::optional<Mach
   OptionProblems problems;
   problems.add("--effects",
                input.effects.front(),
-               fmt::format("to be left out, or --machine: {} names no machine to act on", file),
+               fmt::format("to be left out, or --machine, because {} has no machine", file),
                ProblemKind::contradiction);
   problems.throw_if_any();
 }
@@ -120,27 +121,27 @@ void add_tape_options(Verb verb, files::TapeOptions& input) {
              input.sigma_mm,
              files::kTapeSigmaMm,
              "Holes: standard deviation (1 sigma) of a tape reading")
-      .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::taped, "to be left out, because it applies to the tape for holes only");
   add_number(verb,
              "--hook-offset-mm",
              input.zero_offset_mm,
              files::kTapeZeroOffsetMm,
              "Holes: the tape's zero error; every reading is longer than the distance by this much")
-      .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::taped, "to be left out, because it applies to the tape for holes only");
   add_number(verb,
              "--hook-sigma-mm",
              input.zero_offset_sigma_mm,
              files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
              "known exactly")
-      .acts_on(facts::taped, "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::taped, "to be left out, because it applies to the tape for holes only");
   add_number(
       verb,
       "--hole-sigma-mm",
       input.hole_sigma_mm,
       files::kHoleSigmaMm,
       "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill wanders")
-      .acts_on(facts::taped, "to be left out: it is of holes, which were not given");
+      .acts_on(facts::taped, "to be left out, because it applies to holes only");
 }
 
 MeasuredGrid read_grid_input(const GridInput& input) {
@@ -216,8 +217,8 @@ void add_without_option(Verb verb, std::string& without) {
                   "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
                   "such as 7,12")
       .acts_on(facts::belts,
-               "to be left out: it is of points of a chaintrue_belts file; leave those of other "
-               "files out of the file");
+               "to be left out, because it applies to chaintrue_belts files only; remove points of "
+               "other files from the file");
 }
 
 std::vector<std::size_t> points_left_out(const std::string& without) {

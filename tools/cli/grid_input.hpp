@@ -48,7 +48,8 @@ void add_without_option(Verb verb, std::string& without);
 
 /// For a verb that takes only holes of two chains but gets those of four belts.
 inline constexpr const char* kBeltHolesAreFitted =
-    "those of four belts go into one fit with its lengths: chaintrue fit belts.json --with FILE";
+    "holes cut by four belts are fitted together with belt lengths: chaintrue fit belts.json "
+    "--with FILE";
 
 /// Enough data for a fit, or only for a check of a map.
 enum class MeasuredUse { fit, check };

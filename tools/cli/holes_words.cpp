@@ -57,13 +57,13 @@ Section distances_section(const MeasuredHoles& set,
 void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& distances) {
   distances.blocks.emplace_back(
       Paragraph{fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
-                            "(readings over the model's lengths).",
+                            "(readings relative to the model's lengths).",
                             100.0 * knowledge.mean[6],
                             100.0 * std::sqrt(knowledge.covariance(6, 6)),
                             100.0 * knowledge.mean[7],
                             100.0 * std::sqrt(knowledge.covariance(7, 7)))});
   distances.blocks.emplace_back(
-      Paragraph{"Left out: measured minus what the other readings predict, mm."});
+      Paragraph{"Left out: measured minus predicted by the other readings, mm."});
 }
 
 std::string distances_in_number(const MeasuredHoles& set) {
@@ -85,8 +85,8 @@ std::string workshop_list(const grid::HolesPlan& plan) {
                    hole.commanded.y_mm + 0.0);
   }
   text +=
-      "# Write the tape's reading into distance_mm, nothing if you did not measure; the expected "
-      "value is next to it.\n";
+      "# Write the tape's reading into distance_mm, and leave it empty if you did not measure; the "
+      "expected value is next to it.\n";
   text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
     fmt::format_to(std::back_inserter(text),
@@ -125,7 +125,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
   fmt::format_to(std::back_inserter(text),
                  "It does not determine: {}.{}\n",
                  listed(unreported),
-                 request.edges ? "" : " For the sheet's place measure to its edges: --edges.");
+                 request.edges ? "" : " To locate the sheet, measure to its edges: --edges.");
   std::vector<std::string> clear;
   std::vector<std::string> doubtful;
   std::vector<std::string> unseen;
@@ -143,8 +143,8 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
     }
   }
   fmt::format_to(std::back_inserter(text),
-                 "Causes of usual size that it shows and no setting can imitate: {}.\nDoubtful: "
-                 "{}.\nNot shown: {}.\nLook the same: {}.\n",
+                 "Detectable causes of usual size that no setting can imitate: {}.\nDoubtful: "
+                 "{}.\nNot detectable: {}.\nIndistinguishable: {}.\n",
                  listed(clear),
                  listed(doubtful),
                  listed(unseen),

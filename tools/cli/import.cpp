@@ -47,8 +47,8 @@ int import_optical(const OpticalCommand& command) {
   const files::ReadOptical read = files::read_optical(command.input, options);
   write_output(command.output, files::write_grid(read.grid));
   fmt::print(stderr,
-             "{} of {} squares were visited; the sheet is taken as placed by hand, to {} mm and {} "
-             "mrad{}\n",
+             "{} of {} squares were visited; the sheet is assumed to be placed by hand, within {} "
+             "mm and {} mrad{}\n",
              read.grid.points.size(),
              read.squares,
              read.grid.sheet->shift_mm,
@@ -85,9 +85,10 @@ void add_optical(Verb import) {
              "The grid file; - is standard output")
       .shows_default();
   verb.footer(
-      "A scan made with compensation switched on shows only what was left, and cannot be imported "
-      "this way.\n\nExample:\n  build/chaintrue import optical fixtures/good/optical_scan.csv \\\n "
-      "   --machine fixtures/machines/groundcontrol.json -o grid.json");
+      "A scan made with compensation switched on shows only the remaining error and cannot be "
+      "imported this way.\n\nExample:\n  build/chaintrue import optical "
+      "fixtures/good/optical_scan.csv \\\n    --machine fixtures/machines/groundcontrol.json -o "
+      "grid.json");
   verb.runs(command, import_optical);
 }
 
@@ -122,8 +123,8 @@ void add_groundcontrol(Verb import) {
       .shows_default();
   verb.add_flag("--nominal-pitch",
                 command->nominal_pitch,
-                "Ignore the chain tolerances as measurements of the pitch: their origin is "
-                "unknown, or they were tuned to hide another error");
+                "Do not use the chain tolerances as measurements of the pitch, because their "
+                "origin is unknown or they were tuned to hide another error");
   verb.footer(
       "Missing values are assumed, and listed here and in the file.\n\n"
       "Example:\n"

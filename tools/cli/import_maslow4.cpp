@@ -50,7 +50,7 @@ std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
     throw InputError({{"the command line",
                        "--runs",
                        fmt::format("together with {} logs", command.inputs.size()),
-                       "one log: of several the last run of each is taken"}});
+                       "one log; the last run of each of several logs is used"}});
   }
   std::vector<files::Maslow4Import> runs;
   for (const std::string& input : command.inputs) {
@@ -91,7 +91,7 @@ void tell_pulls(const MeasuredBelts& belts) {
   const std::vector<double> different = grid::different_pulls(belts);
   if (different.size() < 2) return;
   fmt::print(stderr,
-             "One session of {} pulls, the least {}, the others {:.3g} times as hard.\n",
+             "One session with {} pulls: the lowest {}, the others {:.3g} times as strong.\n",
              different.size(),
              grid::words_of(*grid::reference_pull(belts)),
              fmt::join(different.begin() + 1, different.end(), ", "));
@@ -113,7 +113,7 @@ int import_maslow4(const Maslow4Command& command) {
   for (const std::string& sentence : read.assumed) fmt::print(stderr, "Assumed: {}.\n", sentence);
   if (!read.belts.machine.anchors_known) {
     fmt::print(stderr,
-               "The anchors in force are not known; --settings maslow.yaml gives them, with the "
+               "The anchors in force are unknown; --settings maslow.yaml supplies them, with the "
                "arm and the heights.\n");
   }
   if (read.stopped) fmt::print(stderr, "{}\n", *read.stopped);
@@ -131,7 +131,7 @@ void add_import_maslow4(Verb import) {
             "file",
             command->inputs,
             "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. "
-            "Several logs are runs of one session on one frame, each with a pull of its own")
+            "Several logs are runs of one session on one frame, each with its own pull")
       .required();
   add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
   verb.add_option(
@@ -146,12 +146,12 @@ void add_import_maslow4(Verb import) {
       "--runs",
       command->runs,
       "Runs of the log to use, such as 2 or 1,2; several form one session. A run may be given by "
-      "its first and last point, counted from 0 over all runs, such as 0:98. By default the last");
+      "its first and last point, counted from 0 over all runs, such as 0:98. Default: the last");
   verb.add_option("--pulls",
                   command->pulls,
                   "Pull on the belts in each run: a ratio (1,1.6), the motors' current "
                   "(1300mA,1900mA; Maslow_Calibration_Current_Threshold) or a force (150N,240N). "
-                  "By default as the log prints that setting");
+                  "Default: as the log prints that setting");
   add_output(verb,
              "-o,--output",
              command->output,

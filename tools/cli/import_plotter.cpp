@@ -38,7 +38,7 @@ void add_import_plotter(Verb import) {
             "file",
             command->input,
             "FluidNC's config.yaml with a WallPlotter, Marlin's M665 and M92 or its "
-            "Configuration.h, Polargraph's properties, or a mural's numbers, a line each")
+            "Configuration.h, Polargraph's properties, or a mural's numbers, one per line")
       .required();
   add_output(verb,
              "-o,--output",

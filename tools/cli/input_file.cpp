@@ -72,7 +72,7 @@ files::ReadBelts load_belts(const InputFile& file,
   if (read.belts.points.size() > grid::kMostBeltPoints) {
     throw InputError({{file.name,
                        "/points",
-                       fmt::format("{} places are more than {} takes ({})",
+                       fmt::format("{} places are more than {} accepts ({})",
                                    read.belts.points.size(),
                                    work,
                                    grid::kMostBeltPoints),
@@ -86,7 +86,7 @@ files::ReadBelts load_belts(const InputFile& file,
 CompensationMap load_map(const InputFile& file) {
   require_kind(file,
                {FileKind::map},
-               file.kind == FileKind::anchors ? "anchors of four belts are taken by chaintrue "
+               file.kind == FileKind::anchors ? "anchors of four belts are read by chaintrue "
                                                 "query, report, check, gcode and export maslow4"
                                               : "");
   return files::parse_map(file.text, file.name);

@@ -51,7 +51,7 @@ void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Sec
   section.blocks.push_back(
       Paragraph{fmt::format("Made by version {} with \"{}\".", made_by->version, command)});
   if (!table.rows.empty()) {
-    table.caption = "sha256sum prints the same for a file that has not changed since.";
+    table.caption = "sha256sum prints the same hash for an unchanged file.";
     section.blocks.push_back(std::move(table));
   }
   section.is_folded = true;

@@ -36,7 +36,7 @@ void put_advice(const MapContents& contents,
   }
   for (const grid::SettingResult& result : contents.settings) {
     if (!result.off) continue;
-    say(fmt::format("Check \"{}\" with a tape: your file has {:.1f} {}, the points give {:.1f}.",
+    say(fmt::format("Check \"{}\" with a tape: your file has {:.1f} {}, the points suggest {:.1f}.",
                     setting_in_words(result.setting),
                     in_unit(result.setting, result.stated),
                     unit_of(result.setting),
@@ -48,7 +48,7 @@ void put_advice(const MapContents& contents,
         "part.true.nc.{1}",
         source,
         machine->controller.settings.motor_spacing_mm
-            ? fmt::format(" Or type better numbers in, once: chaintrue export groundcontrol {}.",
+            ? fmt::format(" Or type in better numbers once: chaintrue export groundcontrol {}.",
                           source)
             : ""));
   }
@@ -85,7 +85,7 @@ Section remarks_section(const CompensationMap& map, std::optional<double> wish_m
     say(fmt::format("Your readings scatter by about {:.2f} mm{}.",
                     grid::noise_at_tool_mm(map),
                     contents.noise.source == grid::NoiseSource::repeats
-                        ? ", by the marks that were measured twice"
+                        ? ", judged by the marks measured twice"
                         : ""));
   }
   for (const std::string& note : contents.notes) say(note);
@@ -123,8 +123,8 @@ Table left_out_points(const CompensationMap& map) {
     table.rows.push_back({{"not tested: too few rows and columns for it"}});
     return table;
   }
-  row(direct ? "a column or row at a time" : "one at a time", accuracy.leave_one_out);
-  row(direct ? "the worse of the two" : "a block of the bed at a time", accuracy.blocked);
+  row(direct ? "one column or row at a time" : "one at a time", accuracy.leave_one_out);
+  row(direct ? "the worse of the two" : "one block of the bed at a time", accuracy.blocked);
   return table;
 }
 
@@ -169,8 +169,8 @@ Document map_document(const CompensationMap& map,
   document.tone = tone_of(contents);
   put_advice(contents, map.machine(), source, document);
   document.not_proved = {
-      "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
-      "is moved. They do not show the cause of the error.",
+      "These figures hold for the machine as measured, until a motor, a chain or the sheet is "
+      "moved. They do not show the cause of the error.",
       Detail::page};
   put_figures(map, document);
   document.remarks = remarks_section(map, wish_mm);

@@ -112,23 +112,23 @@ std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
     add(ErrorStep::Kind::after,
         "distances left out",
         contents.distances->left_out_good,
-        "each distance predicted by a fit without it, along the tape; contains the tape's noise");
+        "each distance predicted by a fit without it, along the tape; includes the tape's noise");
   } else {
     add(ErrorStep::Kind::after,
         "map, points left out",
         contents.accuracy.leave_one_out.tool,
-        "each point predicted by a map made without it; contains that reading's noise");
+        "each point predicted by a map without it; includes that reading's noise");
     add(ErrorStep::Kind::after,
         "map, regions left out",
         contents.accuracy.blocked.tool,
-        "a block of the bed predicted by a map made without it");
+        "a block of the bed predicted by a map without it");
   }
   if (noise_mm > 0.0) {
     steps.push_back({ErrorStep::Kind::reference,
                      "noise of a reading",
                      noise_mm,
                      {},
-                     fmt::format("{:.2g} mm a chain and {:.2g} mm a mark, {}",
+                     fmt::format("{:.2g} mm per chain and {:.2g} mm per mark, {}",
                                  contents.noise.length_mm,
                                  contents.noise.position_mm,
                                  contents.noise.source == grid::NoiseSource::stated
@@ -138,7 +138,7 @@ std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
   add(ErrorStep::Kind::reference,
       "map, expected",
       contents.accuracy.expected_tool,
-      "one sigma against the true machine, over the measured part");
+      "one sigma relative to the true machine, over the measured part");
   return steps;
 }
 

@@ -61,9 +61,9 @@ std::string not_to_cut_with(const CompensationMap& map) {
   const double left_out_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
   if (!(left_out_mm > kMostToCutWithMm)) return {};
   return fmt::format(
-      "Do not cut with this map: tested on marks left out of the fit it is off by {} mm rms, more "
-      "than {:g} mm. Check the marks with the largest errors, the machine's dimensions and the "
-      "settings in force, and measure again.",
+      "Do not cut with this map: at marks left out of the fit it is off by {} mm rms, more than "
+      "{:g} mm. Check the marks with the largest errors, the machine's dimensions and the settings "
+      "in force, and measure again.",
       about_mm(left_out_mm),
       kMostToCutWithMm);
 }
@@ -88,8 +88,7 @@ std::string misses_sentence(std::optional<double> today_mm,
   constexpr double kNoMoreThanUncertain = 1.4142;
   if (today_mm && *today_mm <= kNoMoreThanUncertain * expected_mm) {
     return fmt::format(
-        "Your machine needs no {}: its error is no larger than these readings can show, about {} "
-        "mm.",
+        "Your machine needs no {}: its error is below what these readings can show, about {} mm.",
         remedy.needed,
         about_mm(expected_mm));
   }
@@ -136,8 +135,8 @@ std::string points_sentence(const CompensationMap& map) {
   }
   if (map.machine() == nullptr) {
     return fmt::format(
-        "Splines through the lengths of {} points: each row and column, left out in turn, comes "
-        "back within {:.2f} mm rms ({:.2f} mm at worst).",
+        "Splines through the lengths of {} points: each row and column, left out in turn, is "
+        "predicted to {:.2f} mm rms ({:.2f} mm at worst).",
         points,
         left_out.tool.rms_mm,
         left_out.tool.maximum_mm);
@@ -145,7 +144,7 @@ std::string points_sentence(const CompensationMap& map) {
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     return fmt::format(
-        "{} distances between {} holes: each one, left out in turn, comes back within {:.2f} mm "
+        "{} distances between {} holes: each one, left out in turn, is predicted to {:.2f} mm "
         "rms{}.",
         used.used,
         points,
@@ -154,7 +153,7 @@ std::string points_sentence(const CompensationMap& map) {
   }
   return fmt::format(
       "At the {} points{} the machine is {:.2f} mm rms off, the map {:.2f} mm; each point, left "
-      "out in turn, comes back within {:.2f} mm rms{}.",
+      "out in turn, is predicted to {:.2f} mm rms{}.",
       points,
       has_placed_sheet(contents) ? ", for the best placement of the sheet," : "",
       summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
@@ -196,20 +195,20 @@ std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
 
 std::string wish_sentence(const CompensationMap& map, double wish_mm) {
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
-  const std::string held = fmt::format("You wish for {:g} mm: ", wish_mm);
+  const std::string held = fmt::format("Your target is {:g} mm: ", wish_mm);
   if (map.machine() == nullptr || !not_to_cut_with(map).empty())
-    return held + "these readings do not show whether that is reached.";
+    return held + "these readings do not show whether it is reached.";
   if (expected_mm <= wish_mm) return held + "reached.";
   if (map.contents().distances)
-    return held + "not reached. More distances, or a better tape, would bring it down.";
+    return held + "not reached. More distances or a better tape would reduce the error.";
   const auto marks = marks_for(map, wish_mm);
   if (marks)
     return held +
-           fmt::format("not reached. About {} marks measured as well as these would reach it.",
+           fmt::format("not reached. About {} marks measured as accurately as these would reach it.",
                        *marks);
   return held + fmt::format(
-                    "not reached, and not by up to {} marks measured as well as these: measure "
-                    "each mark more precisely.",
+                    "not reached, not even with {} marks measured as accurately as these: measure "
+                    "each mark more accurately.",
                     grid::kMostPlanned);
 }
 

@@ -78,12 +78,12 @@ std::string draw_middle_lines() {
   drawing.text(20, 84, "middle line", "start");
   drawing.text(100, 122, "here x has a minus");
   drawing.text(280, 160, "here y has a minus");
-  drawing.text(190, 190, "draw both middle lines first; hold the square to them");
+  drawing.text(190, 190, "draw both middle lines first; hold the square against them");
   return drawing.finished();
 }
 
 std::string draw_tape_and_hook() {
-  Drawing drawing("A tape held with its 100 mm mark to the first hole, the hook hanging free");
+  Drawing drawing("A tape with its 100 mm mark at the first hole and the hook hanging free");
   drawing.path("M10,20H370V150H10Z", kWood);
   drawing.path("M40,70H350V94H40Z", "fill=\"#fdf3c4\" stroke=\"#111\"");
   drawing.path("M40,66V104H34V66Z", "fill=\"#555\" stroke=\"#111\"");
@@ -97,13 +97,13 @@ std::string draw_tape_and_hook() {
     drawing.path(fmt::format("M{0:.0f},94V112M{1:.0f},106H{2:.0f}", x, x - 9, x + 9));
   }
   drawing.text(140, 66, "100");
-  drawing.text(310, 66, "the tape says");
+  drawing.text(310, 66, "tape reading");
   drawing.text(37, 60, "hook: free", "start");
   drawing.text(140, 130, "first hole");
   drawing.text(310, 130, "second hole");
   drawing.measure(140, 140, 310, 140);
   drawing.text(190, 170, "from centre to centre; the hook has play, so leave");
-  drawing.text(190, 188, "the 100 in and write down what the tape says");
+  drawing.text(190, 188, "the 100 in and write down the reading");
   return drawing.finished();
 }
 

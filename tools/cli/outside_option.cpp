@@ -31,8 +31,8 @@ void add_outside_options(Verb verb, OutsideOption& option, const std::string& us
              "--fade-mm",
              option.fade_width_mm,
              files::kFadeWidthMm,
-             "The distance over which --outside fade ends the correction")
-      .acts_on(facts::fade, "to be left out without --outside fade, whose width it is");
+             "Distance over which --outside fade ends the correction")
+      .acts_on(facts::fade, "to be left out without --outside fade");
 }
 
 grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {

@@ -99,7 +99,7 @@ class PlaceCheck {
     if (identity && grid::contains(inputs_, *identity))
       return add(path,
                  "a file that is read here",
-                 "another name: what is read is never replaced",
+                 "another name, because an input file is never replaced",
                  ProblemKind::output_is_input);
     if (is_standard_output(path)) return;
     look_at_folder(path);
@@ -130,7 +130,7 @@ class PlaceCheck {
     if (fs::exists(path, error) || fs::is_symlink(path, error)) return;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error)) {
-      add(path.string(), "a folder that does not exist", "a folder that does, or none");
+      add(path.string(), "a folder that does not exist", "an existing folder, or none");
     } else if (::access(folder.c_str(), W_OK | X_OK) != 0) {
       add(path.string(), "a folder that may not be written to", "another folder");
     }
@@ -268,7 +268,7 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
     throw InputError({{folder,
                        "",
                        error.message(),
-                       "a folder that can be made or written to",
+                       "a folder that can be created or written to",
                        {},
                        ProblemKind::output_place}});
   try {

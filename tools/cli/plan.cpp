@@ -76,9 +76,9 @@ std::string in_words(const grid::MeasurementPlan& plan,
     text += fmt::format(", and {} where the error would be largest", plan.extra);
   }
   text += fmt::format(
-      ".\nWalk row by row from the bottom left, turning round at the end of each.\n"
-      "Expected error of the tool with {:g} mm noise in a length and {:g} mm in a position (one "
-      "sigma): {:.2f} mm rms over the bed, {:.2f} mm at most, at ({:.0f}, {:.0f}).\n",
+      ".\nMeasure row by row from the bottom left, turning back at the end of each.\nExpected "
+      "error of the tool with {:g} mm noise in a length and {:g} mm in a position (one sigma): "
+      "{:.2f} mm rms over the bed, {:.2f} mm at most, at ({:.0f}, {:.0f}).\n",
       options.request.noise.length_mm,
       options.request.noise.position_mm,
       errors.rms_mm,
@@ -182,19 +182,19 @@ int run_plan(Verb verb, PlanOptions options) {
 void add_plan(Verb app) {
   auto options = std::make_shared<PlanOptions>();
   Verb verb = app.add_verb(
-      "plan", "Plan where to measure: a list for the workshop, and how accurate the map will be");
+      "plan", "Plan where to measure: a list for the workshop, and the expected accuracy of the map");
   add_input(verb,
             "--machine",
             options->machine,
-            "chaintrue_machine file; - is standard input. With --after only where the grid names "
-            "none, with --check not at all")
+            "chaintrue_machine file; - is standard input. With --after only if the grid has none; "
+            "not with --check")
       .acts_on(facts::lattice | facts::tape | facts::chains,
-               "to be left out: a map that is checked, and belts, name their own machine");
+               "to be left out, because maps to check and belts contain their machine");
   const Option grid =
       add_input(verb,
                 "grid",
                 options->follow_up.file,
-                "With --after: the points, the holes or the belts, measured so far");
+                "With --after: the points, holes or belts measured so far");
   const Option after = add_input(verb,
                                  "--after",
                                  options->follow_up.after,
@@ -206,7 +206,7 @@ void add_plan(Verb app) {
             options->follow_up.with,
             "With --after: the other files of the same diagnosis, as given to diagnose --with")
       .needs(after)
-      .acts_on(facts::chains, "to be left out: belts are diagnosed by themselves");
+      .acts_on(facts::chains, "to be left out, because belts are diagnosed separately");
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
   const Option points =
@@ -224,15 +224,15 @@ void add_plan(Verb app) {
               grid::kMostCheckPoints,
               usual_check.points))
           .acts_on(facts::planned_marks,
-                   "to be left out with --after: the diagnosis says how many");
+                   "to be left out with --after, because the diagnosis determines the number");
   add_number(verb,
              "--second-visits",
              options->second_visits,
              {"", 0.0, 66.0},
-             "Number of marks measured twice, the first one at the end; they show what changes "
-             "during the session")
+             "Number of marks measured twice, the first one at the end; they show changes during "
+             "the session")
       .acts_on(facts::lattice,
-               "to be left out: it is of marks that are planned anew, in columns and rows");
+               "to be left out, because it applies to new marks in columns and rows only");
   add_input(verb,
             "--check",
             options->check.map,
@@ -244,9 +244,10 @@ void add_plan(Verb app) {
       options->margin_mm,
       {"mm", 0.0, 10000.0},
       fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
-                  "small bed a fifth of its shorter side. Nearer to the edge, a sled tips over it",
+                  "small bed a fifth of its shorter side. Closer to the edge, a sled tips over",
                   kReachableMm))
-      .acts_on(facts::planned, "to be left out with --after: the diagnosis says where");
+      .acts_on(facts::planned, "to be left out with --after, because the diagnosis determines the "
+                               "places");
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
@@ -260,13 +261,14 @@ void add_plan(Verb app) {
              {"mm", 0.001, 50.0},
              noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm))
       .acts_on(facts::planned_marks,
-               "to be left out: it is of chain lengths that are read at marks");
+               "to be left out, because it applies to chain lengths read at marks only");
   add_number(verb,
              "--position-noise-mm",
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
              noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm))
-      .acts_on(facts::planned_marks, "to be left out: it is of places that are measured at marks");
+      .acts_on(facts::planned_marks, "to be left out, because it applies to positions measured at "
+                                     "marks only");
   add_measure_option(verb, options->measure);
   add_output(verb,
              "-o,--output",
@@ -277,16 +279,16 @@ void add_plan(Verb app) {
       .shows_default();
   verb.add_flag("--json",
                 options->json,
-                "Print the list as JSON, including the machine; where the list goes into a file, "
-                "the places and what is expected")
+                "Print the list as JSON, including the machine; if the list goes to a file, the "
+                "places and the expected error")
       .acts_on(facts::planned,
-               "to be left out with --after: the lines are as the file they go into");
+               "to be left out with --after, because the lines match their file");
   add_output(verb,
              "--page",
              options->page,
              {Origin::page},
              "Write a page to print: the bed, the instructions, and lines to fill in")
-      .acts_on(facts::planned, "to be left out with --after, which makes lines for a file");
+      .acts_on(facts::planned, "to be left out with --after, which prints lines for a file");
   add_drill_options(verb, options->gcode, options->drill);
   add_output(verb,
              "--svg",
@@ -295,22 +297,18 @@ void add_plan(Verb app) {
              "Write an SVG picture of the points over the expected error of the map, or of the "
              "holes and their distances");
   verb.footer(
-      "The list goes row by row from the bottom left and turns back at the end of each row;\n"
-      "chaintrue simulate --marks reads it. The expected error is printed on standard error.\n"
-      "Fill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, diagnose or\n"
-      "check as it is, a CSV with --machine. Empty cells are left out, with a note.\n"
-      "\n"
-      "Examples:\n"
-      "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
-      "--svg plan.svg\n"
-      "  build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode "
-      "marks.nc --page marks.html\n"
-      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
-      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
-      "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 --tape-sigma-mm "
-      "0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
+      "The list runs row by row from the bottom left, back and forth;\nchaintrue simulate --marks "
+      "reads it. The expected error is printed on standard error.\nFill in the list (in an editor "
+      "or a spreadsheet) and hand it to chaintrue fit, diagnose or\ncheck as it is, a CSV with "
+      "--machine. Empty cells are left out, with a note.\n\nExamples:\n  build/chaintrue plan "
+      "--machine fixtures/machines/classic.json --points 28 -o plan.csv --svg plan.svg\n  "
+      "build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode "
+      "marks.nc --page marks.html\n  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o "
+      "diagnosis.json\n  build/chaintrue plan fixtures/grids/seven_by_four.json --after "
+      "diagnosis.json\n  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "
+      "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue plan --check map.json -o "
+      "five.csv --svg five.svg");
   verb.runs(options, run_plan, [](const auto& own) {
     if (own.follow_up.after.empty() && !own.follow_up.file.empty()) missing_option("--after");
     if (own.follow_up.after.empty() && own.check.map.empty() && own.machine.empty())

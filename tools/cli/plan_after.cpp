@@ -96,7 +96,7 @@ std::string made_from_others(const PlanAfterOptions& options,
   const auto sentence = [&](std::string_view what) {
     std::vector<std::string> names;
     for (const Source& source : sources.all) names.push_back(source.name);
-    return fmt::format("{} was made from {} other than those of {}: diagnose these first.\n",
+    return fmt::format("{} was made from other {} than those in {}: diagnose these first.\n",
                        options.after,
                        what,
                        fmt::join(names, " and "));
@@ -106,7 +106,7 @@ std::string made_from_others(const PlanAfterOptions& options,
   if (points && distances) return {};
   if ((points && sources.sets.empty()) || (distances && sources.grids.empty())) {
     return fmt::format(
-        "{} was made from points and distances together: name its other files with --with.\n",
+        "{} was made from points and distances together: give its other files with --with.\n",
         options.after);
   }
   return sentence(points || sources.grids.empty() ? "holes" : "points");
@@ -201,7 +201,7 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
       grid::none_of(sources.all, [](const Source& source) { return source.json; });
   if (none_holds_readings && proposes(found, MeasurementKind::reading)) {
     fmt::print(stderr,
-               "A CSV cannot store readings: use a {} (JSON), which has a list for them.\n",
+               "A CSV file cannot store readings: use a {} (JSON), which has a list for them.\n",
                sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
   // The next step once these are measured and written into their files.

@@ -69,7 +69,7 @@ std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
     }
     lines += own + "},\n";
   }
-  return lines.empty() ? lines : "\"points\": add, each null filled in\n" + lines;
+  return lines.empty() ? lines : "add to \"points\", replacing each null\n" + lines;
 }
 
 /// An anchor's name, a point's number or "(x, y)" as in the belts' file.
@@ -92,7 +92,7 @@ std::string distances_of(const Diagnosis& found) {
                    end_of(next.to.front()),
                    next.sigma);
   }
-  return lines.empty() ? lines : "\"distances\": add, each null filled in\n" + lines;
+  return lines.empty() ? lines : "add to \"distances\", replacing each null\n" + lines;
 }
 
 std::string drawing_of(const Diagnosis& found) {
@@ -123,7 +123,7 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
   const Diagnosis found = load_diagnosis(after);
   if (!is_of(found, read.belts)) {
     fmt::print(stderr,
-               "{} was made from readings other than those of {}: diagnose these first.\n",
+               "{} was made from other readings than those in {}: diagnose these first.\n",
                options.after,
                file.name);
     return kBadInput;

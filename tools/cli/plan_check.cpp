@@ -42,8 +42,8 @@ std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
 /// 400, two one in 20.
 std::string_view detectable_change(const model::PerSide<double>& sigmas) {
   const double least = std::min(sigmas.left, sigmas.right);
-  if (least >= 3.0) return "certainly show it";
-  if (least >= 2.0) return "probably show it";
+  if (least >= 3.0) return "will certainly show it";
+  if (least >= 2.0) return "will probably show it";
   return "may miss it, so that more points or better readings are needed";
 }
 
@@ -67,8 +67,9 @@ int plan_the_check(const CompensationMap& map,
   if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
   write_outputs(outputs);
   fmt::print(stderr,
-             "{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: that is "
-             "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).\n",
+             "{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: its "
+             "effect is {:.1f} times the scatter of the readings (left chain), {:.1f} times "
+             "(right).\n",
              plan->marks.size(),
              100.0 * model::kPitchGrowthSigma,
              detectable_change(plan->expected_sigmas),

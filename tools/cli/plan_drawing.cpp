@@ -185,7 +185,7 @@ std::string draw_plan(const grid::MeasurementPlan& plan,
   Svg svg = begin(view,
                   fmt::format("{} points to measure", plan.marks.size()),
                   "The bed coloured by the expected error of a map from these points; the marks "
-                  "are numbered in the order of the walk.");
+                  "are numbered in the order of measurement.");
   svg.text(kLeft,
            32.0,
            fmt::format("{} points to measure: {} columns x {} rows{}",

@@ -47,14 +47,14 @@ void add_tape_options(Verb verb, HolesPlanRequest& request) {
              "--distances",
              request.distances,
              {"", 1.0, 10000.0},
-             "With --holes: number of distances to measure; by default twice the holes plus two, "
-             "and six more with --edges")
+             "With --holes: number of distances to measure; by default twice the number of holes "
+             "plus two, and six more with --edges")
       .shows_default("")
       .acts_on(facts::tape, "to be left out without --holes");
   verb.add_flag("--edges",
                 request.edges,
-                "With --holes: also measure to the sheet's edges, so that jobs lie where they "
-                "should on the sheet")
+                "With --holes: also measure to the sheet's edges, so that jobs are placed "
+                "correctly on the sheet")
       .acts_on(facts::tape, "to be left out without --holes");
   add_number(verb,
              "--tape-sigma-mm",

@@ -44,7 +44,7 @@ std::string ProgressState::words() const {
   if (step_.of > 1) words += fmt::format(", step {} of {}", step_.number, step_.of);
   words += fmt::format(", {}", step_.what);
   if (step_.pass > 0)
-    words += fmt::format(", pass {}{}", step_.pass, share < 0.0 ? " until it settles" : "");
+    words += fmt::format(", pass {}{}", step_.pass, share < 0.0 ? " until it converges" : "");
   return words + left_in_words(now_s - step_began_s_, share);
 }
 

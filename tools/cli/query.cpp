@@ -136,15 +136,15 @@ int query_anchors(const QueryCommand& command, const InputFile& file) {
     throw InputError({{file.name,
                        "/fit/coordinates",
                        "no stated_mm",
-                       "anchors fitted to a file that states those in force: where commands count "
-                       "from follows from them (import maslow4 --settings maslow.yaml)"}});
+                       "anchors fitted to a file with the anchors in force, which define the "
+                       "origin of commands (import maslow4 --settings maslow.yaml)"}});
   }
   const grid::BeltMap map(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
   return answer({map,
                  4,
                  "top left",
                  "top right",
-                 "outside the frame of these anchors, or nearer to one than its arm is long"},
+                 "outside the frame of these anchors, or closer to one than the length of its arm"},
                 command);
 }
 
@@ -181,7 +181,7 @@ void add_query(Verb app) {
   add_input(verb,
             "map",
             command->map,
-            "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter as fit makes it of "
+            "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter that fit wrote from "
             "a drawing; - is standard input")
       .required();
   add_numbers(verb, "coordinates", command->coordinates, {"mm", -1e6, 1e6}, "Pairs X Y [mm]");
@@ -200,33 +200,27 @@ void add_query(Verb app) {
       .one_of({"marks", "bed"})
       .shows_default()
       .acts_on(facts::map | facts::anchors,
-               "\"marks\": a plotter counts as its controller does, and knows no other frame",
+               "\"marks\", because a plotter has only its controller's frame",
                "marks")
       .acts_on(facts::map,
-               "\"marks\": belts count from where their frame's diagonals cross, and know no other "
-               "frame",
+               "\"marks\", because belts have only one frame, from the crossing of its diagonals",
                "marks");
   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
       .shows_default();
-  add_outside_options(verb, command->outside, "by default as the map says");
+  add_outside_options(verb, command->outside, "by default as stored in the map");
   verb.option("--outside")
       .acts_on(facts::map | facts::anchors,
-               "to be left out: a plotter has no surface that could end")
-      .acts_on(facts::map, "to be left out: four belts have no surface that could end");
+               "to be left out, because a plotter has no surface")
+      .acts_on(facts::map, "to be left out, because four belts have no surface");
   verb.add_flag("--json", command->json, "Print JSON instead of CSV");
   verb.footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "
-      "bed (exit code 4).\n"
-      "Sigmas are one standard deviation of the map at that point.\n"
-      "With anchors, the answer is the four belts' own lengths at the bed's height, from the "
-      "anchor\n"
-      "to the end, slanting, as the firmware pays them out; the upper two determine the position, "
-      "and --inverse\n"
-      "takes those two.\n"
-      "\n"
-      "Example:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue query map.json 100 200 -1000 -450");
+      "bed (exit code 4).\nSigmas are one standard deviation of the map at that point.\nWith "
+      "anchors, the answer is the lengths of the four belts as the firmware pays them out: "
+      "slanted,\nfrom the anchor to the belt's end. The upper two determine the position, and "
+      "--inverse takes\nthose two.\n\nExample:\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue query map.json 100 200 "
+      "-1000 -450");
   verb.runs(command, run_query, check_usage);
 }
 

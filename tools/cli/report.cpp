@@ -115,7 +115,7 @@ void add_report(Verb app) {
       verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
       .required();
   verb.add_flag("--certificate", command->certificate, "One page of a map, to print")
-      .acts_on(facts::map, "to be left out: only a map has a certificate");
+      .acts_on(facts::map, "to be left out, because only a map has a certificate");
   verb.add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
   verb.footer(
       "Examples:\n"

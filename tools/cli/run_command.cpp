@@ -36,7 +36,7 @@ void let_verbs_pass_on(CLI::App& app) {
 int run_command(const std::vector<std::string>& typed, const Guard& guard) {
   begin_command_line();
   files::forget_sources();
-  CLI::App app{"chaintrue makes a hanging two-chain router cut true.", "chaintrue"};
+  CLI::App app{"chaintrue makes a hanging two-chain router cut accurately.", "chaintrue"};
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", CHAINTRUE_VERSION);
   bool is_quiet = false;
@@ -46,7 +46,7 @@ int run_command(const std::vector<std::string>& typed, const Guard& guard) {
              "--threads",
              threads,
              {"", 0.0, 4096.0},
-             "Largest number of cores, 0 for all; the answers do not depend on it");
+             "Largest number of cores, 0 for all; results do not depend on it");
   app.footer("chaintrue help VERB, or VERB --help, lists the options of a verb, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
 #define CHAINTRUE_VERB(id) add_##id(Verb(app));

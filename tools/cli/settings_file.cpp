@@ -42,9 +42,9 @@ ControllerKind kind_with(const Machine& stated,
   if (settings_of(of_file) == SettingsOf::none) {
     throw InputError({{now.name,
                        "/controller",
-                       "a machine that names no controller",
-                       "settings that a controller holds; a machine that it believes as it stands "
-                       "is given with --machine"}});
+                       "a machine without a controller",
+                       "a controller's settings; if the controller uses the machine file itself, "
+                       "give it with --machine"}});
   }
   const ControllerKind of_map = in_place != nullptr ? *in_place : stated.controller.kind;
   if (settings_of(of_map) == SettingsOf::none && in_place == nullptr) return of_file;
@@ -54,9 +54,9 @@ ControllerKind kind_with(const Machine& stated,
         "",
         fmt::format("settings of a {} controller", name_of(of_file)),
         in_place != nullptr
-            ? fmt::format("those of a {}, as --controller says", name_of(of_map))
-            : fmt::format("those of a {}, which the map was measured with; where another "
-                          "controller runs the machine now, name it with --controller",
+            ? fmt::format("those of a {}, as given by --controller", name_of(of_map))
+            : fmt::format("those of a {}, which the map was measured with; if another controller "
+                          "now runs the machine, name it with --controller",
                           name_of(of_map))}});
 }
 
@@ -66,8 +66,8 @@ void refuse_other_chain(const std::vector<files::SettingChange>& changes, const 
   throw InputError({{file,
                      "",
                      files::in_words(of_chain),
-                     "the values that the map was measured with: others change the meaning of a "
-                     "chain length, so measure and fit again, or set them back"}});
+                     "the values that the map was measured with, because they define the meaning "
+                     "of a chain length: restore them, or measure and fit again"}});
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ Machine with_settings(const Machine& stated,
   }
   if (names_none) {
     fmt::print(stderr,
-               "The map names no controller; a {} with the settings of {} is used.\n",
+               "The map has no controller; a {} with the settings in {} is used.\n",
                name_of(machine.controller.kind),
                now.name);
     return machine;
@@ -120,10 +120,10 @@ Machine with_settings(const Machine& stated,
       files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
   refuse_other_chain(changes, now.name);
   if (changes.empty()) {
-    fmt::print(stderr, "{} has the settings that the map is for.\n", now.name);
+    fmt::print(stderr, "{} has the map's settings.\n", now.name);
   } else {
     fmt::print(stderr,
-               "The settings in {} differ from those that the map was measured with ({}): the new "
+               "The settings in {} differ from those that the map was measured with ({}); the new "
                "ones are used.\n",
                now.name,
                files::in_words(changes));

@@ -22,9 +22,9 @@ constexpr SettingWords kSettingWords[] = {
     {Setting::motor_right_y_mm, "right motor, y", "mm", 1.0},
     {Setting::chain_zero_left_mm, "left chain's zero", "mm", 1.0},
     {Setting::chain_zero_right_mm, "right chain's zero", "mm", 1.0},
-    {Setting::sheet_x_mm, "sheet laid right by", "mm", 1.0},
-    {Setting::sheet_y_mm, "sheet laid up by", "mm", 1.0},
-    {Setting::sheet_rotation_rad, "sheet turned left by", "mrad", 1000.0},
+    {Setting::sheet_x_mm, "sheet offset, right", "mm", 1.0},
+    {Setting::sheet_y_mm, "sheet offset, up", "mm", 1.0},
+    {Setting::sheet_rotation_rad, "sheet rotation, left", "mrad", 1000.0},
 };
 
 const SettingWords& words_of(Setting setting) {
@@ -58,7 +58,7 @@ Table settings_table(const std::vector<SettingRow>& settings) {
                                value(row.calibrated),
                                value(row.sigma),
                                unit_of(row.setting)};
-    if (row.is_off) cells.emplace_back("off: by more than your file allows");
+    if (row.is_off) cells.emplace_back("off: by more than the uncertainty in your file");
     table.rows.push_back({std::move(cells), row.is_off});
   }
   return table;

@@ -57,11 +57,11 @@ void add_measure_option(Verb verb, std::string& word) {
   verb.add_option(
           "--measure",
           word,
-          "What you will measure. places: you send the controller to each mark and measure where "
-          "the tool stands. lengths: you bring the tool to each mark and read both chains. By "
-          "default places if the machine names its controller, lengths otherwise")
+          "What you will measure. places: you send the controller to each mark and measure the "
+          "tool's position. lengths: you bring the tool to each mark and read both chains. "
+          "Default: places if the machine has a controller, otherwise lengths")
       .one_of({"places", "lengths"})
-      .acts_on(facts::planned_marks, "to be left out: it is of what is read at marks");
+      .acts_on(facts::planned_marks, "to be left out, because it applies to readings at marks only");
 }
 
 std::string sheet_csv(const Sheet& sheet) {
@@ -100,13 +100,13 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
              {Origin::program},
              "Write a program that drills the marks in order, or stops above each one if lengths "
              "are to be read")
-      .acts_on(facts::planned, "to be left out with --after, which makes lines for a file");
+      .acts_on(facts::planned, "to be left out with --after, which prints lines for a file");
   add_number(
       verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
       .acts_on(facts::program, "to be left out without --gcode")
       .acts_on(facts::drilled,
-               "to be left out: where lengths are read the program stops above each mark and "
-               "drills none");
+               "to be left out, because a program for lengths stops above each mark without "
+               "drilling");
   add_number(verb,
              "--clearance-mm",
              options.clearance_mm,
@@ -119,8 +119,8 @@ std::string drill_gcode(std::string_view what,
                         const std::vector<DrillPlace>& places,
                         const DrillOptions& options) {
   std::string text = fmt::format(
-      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that every one is "
-      "on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
+      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that all holes "
+      "are on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
       what,
       options.depth_mm,
       options.clearance_mm);

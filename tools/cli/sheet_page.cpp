@@ -138,7 +138,7 @@ std::string blank_cells(int count) {
 }
 
 std::string typed_into(const std::string& list) {
-  return fmt::format("Type the readings into {}; leave empty what you did not measure.",
+  return fmt::format("Type the readings into {}; leave cells empty if you did not measure them.",
                      list.empty() || list == "-" ? "the list" : list);
 }
 
@@ -162,19 +162,23 @@ std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::st
   }
   std::vector<std::string> steps =
       places ? std::vector<std::string>{
-                   "Fasten a sheet to the bed and do not move it until all is measured. Zero is the middle of the bed, x to the right, y up.",
-                   "Send the tool to the marks in the order of their numbers, without any compensation, and mark where it stands (or run the program that drills them).",
+                   "Fasten a sheet to the bed and do not move it until everything is measured. "
+                   "Zero is the middle of the bed, x to the right, y up.",
+                   "Send the tool to the marks in numerical order, without any compensation, and "
+                   "mark where it stops (or run the program that drills them).",
                    "Measure x and y of every mark from the sheet's middle lines, to half a millimetre or better."}
              : std::vector<std::string>{
                    "Draw the marks on a sheet. Zero is the middle of the bed, x to the right, y up.",
-                   "Bring the bit over each mark in the order of their numbers; measure where it stands if it is not on it, and write down the lengths of both chains from the pin at 12 o'clock to their ends at the ring."};
+                   "Bring the bit over each mark in numerical order. If it is not exactly on the "
+                   "mark, measure its position. Write down the lengths of both chains from the pin "
+                   "at 12 o'clock to their ends at the ring."};
   const std::size_t second = visits.size() - sheet.marks.size();
   if (second > 0) {
     steps.push_back(fmt::format(
-        "{} marks come a second time, later in the session{}. Measure them like any other: the two "
+        "{} marks are repeated later in the session{}. Measure them like any other; the two "
         "readings show whether the machine changed in between.",
         second,
-        places ? fmt::format(" and {:g} mm to the side, so that they are holes of their own",
+        places ? fmt::format(" and {:g} mm to the side, so that they are separate holes",
                              kBesideMm)
                : ""));
   }
@@ -206,12 +210,13 @@ std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
                  draw_tape_and_hook(),
                  {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to "
                   "each; zero is the middle of the bed.",
-                  "Measure from centre to centre. The hook at the tape's end has play: hold the "
-                  "100 mm mark to the first hole instead, write down the tape's reading, and fit "
-                  "with --hook-offset-mm 100.",
-                  "Look at every number twice: one misread tape costs more than a hole left out.",
+                  "Measure from centre to centre. The hook at the tape's end has play, so hold the "
+                  "100 mm mark at the first hole, write down the tape's reading, and fit with "
+                  "--hook-offset-mm 100.",
+                  "Check every number twice: one misread distance does more harm than a missing "
+                  "hole.",
                   typed_into(list)},
-                 "<th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th>",
+                 "<th>from</th><th>to</th><th>about, mm</th><th>tape reading, mm</th>",
                  rows);
 }
 

@@ -119,7 +119,7 @@ void add_design_options(Verb verb, SimulateOptions& o) {
       .shows_default("");
   add_input(where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), as plan writes it");
   add_input(
-      where, "--points", o.points, "CSV of true positions, read without noise and with all digits");
+      where, "--points", o.points, "CSV of true positions, with readings without noise or rounding");
   add_number(where,
              "--holes",
              o.holes.plan.holes,
@@ -129,7 +129,7 @@ void add_design_options(Verb verb, SimulateOptions& o) {
   verb.add_option("--spacing", o.spacing, "With --grid: regular or chebyshev (denser at the edges)")
       .shows_default()
       .acts_on(facts::lattice,
-               "to be left out: it is of the columns and rows of a grid on two chains");
+               "to be left out, because it applies to the columns and rows of a grid on two chains");
   add_number(verb,
              "--margin-mm",
              o.margin_mm,
@@ -137,31 +137,31 @@ void add_design_options(Verb verb, SimulateOptions& o) {
              "Distance from the bed's edge to the outermost marks; by default the marks span whole "
              "hundreds of mm")
       .acts_on(facts::lattice | facts::scattered | facts::tape,
-               "to be left out: the places are given, or lie as belts allow");
+               "to be left out, because the places are given or follow from the belts");
   verb.add_flag("--without-corners", o.without_corners, "Leave out the four corners")
       .acts_on(facts::lattice | facts::scattered,
-               "to be left out: it is of marks of a grid or anywhere on the bed");
+               "to be left out, because it applies to simulated marks only");
   verb.add_option(
           "--region", o.region, "Part of the bed with marks: whole, left, right, top or bottom")
       .shows_default()
-      .acts_on(facts::session, "to be left out: it is of marks on the bed");
+      .acts_on(facts::session, "to be left out, because it applies to simulated marks only");
   verb.add_option("--order",
                   o.order,
                   "Order of visits: rows, columns, serpentine_rows, serpentine_columns or random")
       .shows_default()
-      .acts_on(facts::session, "to be left out: it is of visits of marks");
+      .acts_on(facts::session, "to be left out, because it applies to visits of marks only");
   add_number(verb,
              "--repeats",
              o.repeats,
              {"", 0.0, 1e6},
              "Number of second visits to measured marks, spread over the session")
-      .acts_on(facts::session, "to be left out: it is of visits of marks");
+      .acts_on(facts::session, "to be left out, because it applies to visits of marks only");
   add_number(verb,
              "--jitter-mm",
              o.jitter_mm,
              {"mm", 0.0, 1000.0},
              "Largest distance of the sled from a mark")
-      .acts_on(facts::session, "to be left out: it is of a sled put down at marks");
+      .acts_on(facts::session, "to be left out, because it applies to marks only");
 }
 
 void add_noise_options(Verb verb, SimulateOptions& o) {
@@ -171,55 +171,55 @@ void add_noise_options(Verb verb, SimulateOptions& o) {
              files::kNoiseMm,
              "Standard deviation (1 sigma) of a chain reading")
       .acts_on(facts::session | facts::belts,
-               "to be left out: it is of chain lengths that are read at marks");
+               "to be left out, because it applies to chain lengths read at marks only");
   add_number(verb,
              "--position-noise-mm",
              o.noise.position_mm,
              files::kNoiseMm,
              "Standard deviation (1 sigma) of each coordinate")
-      .acts_on(facts::session, "to be left out: it is of marks that are measured");
+      .acts_on(facts::session, "to be left out, because it applies to measured marks only");
   verb.add_flag(
           "--heavy-tails",
           o.noise.heavy_tails,
           "Draw noise from Student's t (4 degrees of freedom) with the same standard deviation")
       .acts_on(facts::session | facts::belts,
-               "to be left out: it is of the noise of lengths and marks");
+               "to be left out, because it applies to the noise of lengths and marks only");
   add_number(verb,
              "--length-rounding-mm",
              o.noise.length_rounding_mm,
              files::kNoiseMm,
              "Round readings to whole multiples")
       .acts_on(facts::session | facts::belts,
-               "to be left out: it is of chain lengths that are read at marks");
+               "to be left out, because it applies to chain lengths read at marks only");
   add_number(verb,
              "--position-rounding-mm",
              o.noise.position_rounding_mm,
              files::kNoiseMm,
              "Round marks to whole multiples, such as 0.5 for a tape")
-      .acts_on(facts::session, "to be left out: it is of marks that are measured");
+      .acts_on(facts::session, "to be left out, because it applies to measured marks only");
   add_number(verb,
              "--stated-length-noise-mm",
              o.stated_length_mm,
              files::kNoiseMm,
-             "The value that the file holds, by default the true one")
-      .acts_on(facts::session, "to be left out: it is of what a grid states");
+             "Value in the file; by default the true one")
+      .acts_on(facts::session, "to be left out, because it applies to the noise in a grid only");
   add_number(verb,
              "--stated-position-noise-mm",
              o.stated_position_mm,
              files::kNoiseMm,
-             "The value that the file holds, by default the true one")
-      .acts_on(facts::session, "to be left out: it is of what a grid states");
+             "Value in the file; by default the true one")
+      .acts_on(facts::session, "to be left out, because it applies to the noise in a grid only");
   add_number(verb,
              "--stated-dof",
              o.stated_dof,
              files::kNoiseDof,
              "Degrees of freedom of the noise in the file")
-      .acts_on(facts::session, "to be left out: it is of what a grid states");
+      .acts_on(facts::session, "to be left out, because it applies to the noise in a grid only");
   add_number(
-      verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "Number of marks written down wrong")
-      .acts_on(facts::drawn, "to be left out: readings at given places have no slips");
+      verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "Number of marks recorded wrongly")
+      .acts_on(facts::drawn, "to be left out, because readings at given places have no errors");
   add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "Error of those marks")
-      .acts_on(facts::drawn, "to be left out: readings at given places have no slips");
+      .acts_on(facts::drawn, "to be left out, because readings at given places have no errors");
 }
 
 void add_holes_options(Verb verb, HolesOptions& o) {
@@ -241,44 +241,45 @@ void add_holes_options(Verb verb, HolesOptions& o) {
 void add_truth_options(Verb verb, SimulateOptions& o) {
   verb.add_option("--effect",
                   o.effects,
-                  "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`; of "
-                  "--belts docs/maslow4.md)");
+                  "Hidden effect id:side:key=value,... (- for no side; see `chaintrue effects`, "
+                  "for --belts docs/maslow4.md)");
   add_input(verb,
             "--effects",
             o.declared,
-            "chaintrue_effect files: effects of your own that --effect may name; the grid's "
-            "machine keeps them")
+            "chaintrue_effect files: declared effects that --effect may name; the grid's machine "
+            "contains them")
       .acts_on(facts::session | facts::places | facts::tape,
-               "to be left out: declared effects are of two chains, and four belts have their own");
+               "to be left out, because declared effects act on two chains");
   verb.add_option("--offset",
                   o.offsets,
                   "Hidden offset of a setting, true minus assumed, such as motor_left_x_mm=1.5")
       .acts_on(facts::drawn,
-               "to be left out: readings at given places are of the machine as its file states it");
+               "to be left out, because readings at given places use the machine file unchanged");
   verb.add_flag("--draw-settings",
                 o.draw_settings,
                 "Draw motors and zeros from the machine's uncertainty")
       .acts_on(facts::session | facts::tape,
-               "to be left out: nothing is drawn of belts, nor at given places");
+               "to be left out, because nothing is drawn for belts or at given places");
   add_number(verb,
              "--sheet-shift-mm",
              o.sheet_shift_mm,
              {"mm", 0.0, 1000.0},
              "Standard deviation (1 sigma) of the sheet's placement")
-      .acts_on(facts::session, "to be left out: it is of the sheet that marks stand on");
+      .acts_on(facts::session, "to be left out, because it applies to a sheet with marks only");
   add_number(verb,
              "--sheet-rotation-mrad",
              o.sheet_rotation_mrad,
              {"mrad", 0.0, 500.0},
              "Standard deviation (1 sigma) of the sheet's placement")
-      .acts_on(facts::session, "to be left out: it is of the sheet that marks stand on");
+      .acts_on(facts::session, "to be left out, because it applies to a sheet with marks only");
   verb.add_option("--model",
                   o.model,
                   "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
       .shows_default()
-      .acts_on(facts::session | facts::places, "to be left out: it is of chain lengths at places");
+      .acts_on(facts::session | facts::places, "to be left out, because it applies to chain "
+                                               "lengths only");
   add_number(verb, "--seed", o.seed, {"", 0.0, 9e15}, "Same seed, same bytes")
-      .acts_on(facts::drawn, "to be left out: nothing is drawn at given places");
+      .acts_on(facts::drawn, "to be left out, because nothing is drawn at given places");
 }
 
 }  // namespace
@@ -288,17 +289,17 @@ void add_simulate(Verb app) {
   Verb verb = app.add_verb("simulate", "Simulate measurements on a machine with hidden effects");
   auto machine = verb.add_choice("machine");
   add_input(
-      machine, "--machine", options->machine, "The chaintrue_machine file as its owner states it");
+      machine, "--machine", options->machine, "The chaintrue_machine file as its owner has it");
   add_input(machine,
             "--belts",
             options->belts,
-            "A router on four belts instead, which finds its anchors: a chaintrue_belts or "
-            "chaintrue_anchors file with its settings");
+            "A router on four belts instead: a chaintrue_belts or chaintrue_anchors file with its "
+            "settings");
   verb.add_option("--pulls",
                   options->pulls,
                   "With --belts: measure all places once with each relative pull, such as 1,1.6; "
                   "sizes of effects refer to the smallest")
-      .acts_on(facts::belts, "to be left out: it is of four belts, which a motor pulls");
+      .acts_on(facts::belts, "to be left out, because it applies to four belts only");
   add_design_options(verb, *options);
   add_noise_options(verb, *options);
   add_holes_options(verb, options->holes);
@@ -308,14 +309,15 @@ void add_simulate(Verb app) {
              "-o,--output",
              options->output,
              {Origin::measured},
-             "chaintrue_grid (of --holes: chaintrue_holes, of --belts: chaintrue_belts) file; - is "
-             "standard output")
+             "chaintrue_grid file (with --holes: chaintrue_holes, with --belts: chaintrue_belts); "
+             "- is standard output")
       .shows_default();
   add_output(
       verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file")
       .acts_on(
           facts::session | facts::tape,
-          "to be left out: at given places nothing is hidden, and what belts hide has no file");
+          "to be left out, because nothing is hidden at given places, and for belts there is no "
+          "such file");
   verb.footer(
       "Examples:\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm "
@@ -330,7 +332,7 @@ void add_simulate(Verb app) {
   add_option_check(verb, [options](OptionProblems& problems) { check_words(*options, problems); });
   verb.runs(options, run_simulate, [](const auto& own) {
     if (!own.belts.empty() && own.grid.empty()) {
-      usage_error("simulate", "--belts goes with --grid, columns x rows of places");
+      usage_error("simulate", "--belts needs --grid, columns x rows of places");
     }
   });
 }

@@ -87,7 +87,7 @@ void take_offset(const std::string& text, BeltMachine& truth, OptionProblems& pr
   if (!is_free) {
     problems.add("--offset",
                  text,
-                 "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less what the file says, as "
+                 "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, true minus the file's value, as "
                  "in tl_x_mm=5",
                  ProblemKind::bad_syntax);
     return;
@@ -101,7 +101,7 @@ void take_pulls(const std::string& text, synthetic::BeltsSpec& spec, OptionProbl
   for (const grid::BeltPull& pull : files::pulls_of(text, "--pulls")) {
     if (pull.unit != grid::BeltPull::Unit::relative)
       return problems.add(
-          "--pulls", text, "numbers against each other, as in 1,1.6", ProblemKind::bad_syntax);
+          "--pulls", text, "ratios, as in 1,1.6", ProblemKind::bad_syntax);
     spec.pulls.push_back(pull.value);
   }
 }

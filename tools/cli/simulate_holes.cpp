@@ -39,7 +39,7 @@ std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
     problems.add(
         "--offset",
         std::string(model::name(offset.setting)),
-        "a setting of the machine; without --edges holes know their distances, not the sheet",
+        "a setting of the machine; without --edges the distances do not depend on the sheet",
         ProblemKind::unknown_word);
   }
   return offsets;

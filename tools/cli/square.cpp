@@ -120,7 +120,7 @@ std::string as_table(const model::CutSquare& square, const SquareTask& task) {
       "{:<18}{:>12.3f}{:>12.3f}\n", "diagonal rising", diagonal, square.rising_diagonal_mm);
   text += fmt::format(
       "{:<18}{:>12.3f}{:>12.3f}\n", "diagonal falling", diagonal, square.falling_diagonal_mm);
-  text += fmt::format("moved as a whole by ({:+.3f}, {:+.3f}) mm and turned by {:+.3f} mrad\n",
+  text += fmt::format("shifted by ({:+.3f}, {:+.3f}) mm and rotated by {:+.3f} mrad\n",
                       square.offset.x_mm,
                       square.offset.y_mm,
                       1e3 * square.rotation_rad);
@@ -167,10 +167,11 @@ void advise(const SquareOptions& options, const SquareTask& task) {
   }
   fmt::print(stderr,
              "Cut {} and measure the four sides and both diagonals, each from an edge of one "
-             "groove to the same edge of the other, so that the bit's width drops out: as the "
-             "machine is, the lengths are those under cut_mm.{}\n",
+             "groove to the same edge of the other, so that the bit's width cancels. With the "
+             "machine unchanged, the lengths are those under cut_mm.{}\n",
              options.program == "-" ? "the program" : options.program,
-             options.map.empty() ? "" : " Compensated, they are those under commanded_mm.");
+             options.map.empty() ? "" : " With a compensated program, they are those under "
+                                        "commanded_mm.");
   if (options.map.empty()) return say_next({"gcode", "check", options.program});
   say_next({"gcode",
             "compensate",
@@ -250,7 +251,7 @@ void add_square(Verb app) {
       "--at",
       options->at,
       {"mm", -20000.0, 20000.0},
-      "X Y of the lower left corner [mm]; by default the square lies around the bed's middle")
+      "X Y of the lower left corner [mm]; by default the square is centred on the bed")
       .takes(2);
   verb.add_flag("--below",
                 options->below,
@@ -263,7 +264,7 @@ void add_square(Verb app) {
   add_number(
       verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
       .acts_on(facts::program, "to be left out without --gcode")
-      .acts_on(facts::map | facts::machine, "to be left out: a plotter's pen has no depth");
+      .acts_on(facts::map | facts::machine, "to be left out, because a plotter's pen has no depth");
   verb.footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

@@ -111,12 +111,12 @@ std::string draw_square(const model::CutSquare& square, const SquareTask& task) 
                    square.falling_diagonal_mm,
                    task.size_mm * std::sqrt(2.0)));
   line(kSquareTop + kSide + 116.0,
-       fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
+       fmt::format("shifted by ({:+.2f}, {:+.2f}) mm and rotated by {:+.3f} mrad",
                    square.offset.x_mm,
                    square.offset.y_mm,
                    1e3 * square.rotation_rad));
   line(kSquareTop + kSide + 142.0,
-       "bow: the farthest that a side leaves the line between its corners, + outwards");
+       "bow: largest distance of a side from the line between its corners, + outwards");
   return svg.finished();
 }
 

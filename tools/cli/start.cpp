@@ -88,7 +88,7 @@ int start_template(Verb verb, const std::string& folder) {
                 {"README.txt", template_readme(path), Origin::list}});
   fmt::print(
       stderr,
-      "{} describes a classic Maslow, with every key explained. Put your machine's numbers in.\n",
+      "{} describes a classic Maslow, with every key explained. Enter your machine's numbers.\n",
       path);
   say_next({"start", path});
   return kDone;
@@ -163,9 +163,9 @@ void add_start(Verb app) {
   add_input(verb,
             "file",
             command->file,
-            "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; of a "
+            "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; for a "
             "V-plotter Marlin's, Polargraph's or a mural's settings, or a chaintrue_plotter; "
-            "without one a machine file to fill in is written");
+            "without one, a machine file to fill in is written");
   add_output_folder(verb, "folder", command->folder, "The folder to create").shows_default();
   verb.footer(
       "Example:\n"

@@ -72,8 +72,8 @@ std::unique_ptr<const grid::PlotterMap> load_plotter_map(const InputFile& file,
     throw InputError({{file.name,
                        "/found",
                        "",
-                       "what a test drawing found; chaintrue fit drawing.json -o found.json writes "
-                       "a plotter with it"}});
+                       "results of a test drawing; chaintrue fit drawing.json -o found.json writes "
+                       "a plotter with them"}});
   }
   try {
     return std::make_unique<const grid::PlotterMap>(plotter);
@@ -81,7 +81,7 @@ std::unique_ptr<const grid::PlotterMap> load_plotter_map(const InputFile& file,
     throw InputError({{file.name,
                        "/set/machine/area",
                        error.what(),
-                       "an area that the pen reaches, as set and as found"}});
+                       "an area that the pen reaches, with the old and the new settings"}});
   }
 }
 
@@ -95,7 +95,7 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   if (read.plotter.found) {
     set = grid::once_typed_in(set, grid::machine_found(set, *read.plotter.found));
     fmt::print(stderr,
-               "This page is for the plotter with the numbers of export plotter typed in.\n");
+               "This page is for the plotter with the numbers from export plotter typed in.\n");
   }
   const grid::TestDrawing drawing = grid::planned_drawing(set);
   require_reach(drawing, file.name);

@@ -8,37 +8,37 @@ namespace {
 
 constexpr std::string_view kKeys[][2] = {
     {"bed", "the sheet that the machine can cut, in mm; zero is its middle, x right, y up"},
-    {"motors", "where the motors' axes are, from that zero; taped to a few mm is good enough"},
+    {"motors", "where the motors' axes are, from that zero; to a few mm is enough"},
     {"sprocket", "teeth on a motor, and the chain's pitch: 10 and 6.35 mm on every Maslow"},
     {"feed", "over_top where the chains leave over the sprockets' tops, else off_bottom"},
     {"attachment",
      "{\"kind\": \"ring\", \"radius_mm\": from the bit to a chain's end}, or {\"kind\": "
      "\"brackets\", \"spacing_mm\", \"height_mm\", \"cg_below_bit_mm\"}"},
-    {"chain", "its mass, and its stretch per newton; leave them if you do not know better"},
-    {"sled", "what the sled weighs with its router, in kg: a bathroom scale will do"},
+    {"chain", "its mass and its stretch per newton; keep the defaults if unknown"},
+    {"sled", "the sled's weight with its router, in kg; a bathroom scale is accurate enough"},
     {"frame", "how far the frame leans back, in degrees"},
-    {"uncertainty", "how well the motors, the chains' zeros and the ring are known, 1 sigma"},
+    {"uncertainty", "uncertainty of the motors, the chains' zeros and the ring, 1 sigma"},
     {"controller",
-     "what the firmware believes: {\"kind\": \"maslow_classic\", \"settings\": {GroundControl's "
-     "own names: motorspacingx, motoroffsety, rotationradius, chainsagcorrection, ...}}"},
+     "the firmware's settings: {\"kind\": \"maslow_classic\", \"settings\": {GroundControl's own "
+     "names: motorspacingx, motoroffsety, rotationradius, chainsagcorrection, ...}}"},
 };
 
 }  // namespace
 
 std::vector<std::string> template_comments() {
   std::vector<std::string> comments = {
-      "A classic Maslow. Put your machine's numbers in; every key is explained here."};
+      "A classic Maslow. Enter your machine's numbers; every key is explained here."};
   for (const auto& [key, meaning] : kKeys) comments.push_back(fmt::format("{}: {}", key, meaning));
   return comments;
 }
 
 std::string template_readme(const std::string& machine_path) {
-  std::string text = "machine.json describes a classic Maslow. Put your own numbers into it:\n\n";
+  std::string text = "machine.json describes a classic Maslow. Enter your numbers:\n\n";
   for (const auto& [key, meaning] : kKeys) text += fmt::format("  {:<13}{}\n", key, meaning);
   return text + fmt::format(
-                    "\nThen the sheets to print are made by\n\n    chaintrue start {}\n\n"
-                    "If GroundControl, WebControl or FluidNC runs the machine, its settings need "
-                    "no typing:\n\n    chaintrue start groundcontrol.ini\n",
+                    "\nThen make the sheets to print:\n\n    chaintrue start {}\n\nIf "
+                    "GroundControl, WebControl or FluidNC runs the machine, chaintrue reads its "
+                    "settings file instead:\n\n    chaintrue start groundcontrol.ini\n",
                     machine_path);
 }
 

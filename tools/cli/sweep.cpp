@@ -69,7 +69,7 @@ void refuse_old_results(const SweepOptions& options) {
   OptionProblems problems;
   problems.add("-o",
                options.directory,
-               "a new folder, or --resume to go on with the cells that are there",
+               "a new folder, or --resume to continue with the existing cells",
                ProblemKind::output_place);
   problems.throw_if_any();
 }
@@ -88,7 +88,7 @@ int assemble(Verb verb,
   if (missing > 0) {
     fmt::print(stderr,
                "chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
-               "parts of all shards stand in {}/parts\n",
+               "parts of all shards are in {}/parts\n",
                static_cast<std::ptrdiff_t>(cells.size()) - missing,
                cells.size(),
                options.directory);
@@ -160,11 +160,11 @@ void add_sweep(Verb app) {
   add_output_folder(
       verb, "-o,--output", options->directory, "Folder for the shards and the results")
       .required();
-  verb.add_option("--shard", options->shard, "Compute this share of the cells only, such as 3/16");
+  verb.add_option("--shard", options->shard, "Compute only this share of the cells, such as 3/16");
   add_input(verb,
             "--effects",
             options->effects,
-            "chaintrue_effect files: effects of your own that the specification may name");
+            "chaintrue_effect files: declared effects that the specification may name");
   verb.add_flag("--resume",
                 options->resume,
                 "Keep the finished cells in the folder and continue; also merges shards");

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, sweep::kFactors> kTitles = {
     "The machine that the map is used on",
     "The surface",
     "The spacing of the marks",
-    "How far from the marks the sled stood, mm",
+    "Distance of the sled from the marks, mm",
     "Noise of length / position, mm",
     "The grid"};
 
@@ -44,7 +44,7 @@ Chart panel(const sweep::SweepSpec& spec,
           .title = std::string(kTitles[factor]),
           .caption =
               "Error of the tool over the bed, rms in mm, against the number of points; all other "
-              "factors together.",
+              "factors combined.",
           .data = {std::move(lines)}};
 }
 
@@ -101,7 +101,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
       return points_of(spec, a.grid) < points_of(spec, b.grid);
     });
     sentences.push_back(fmt::format(
-        "From {:.0f} to {:.0f} points the error goes from {:.2f} to {:.2f} mm rms at the tool.",
+        "From {:.0f} to {:.0f} points the error changes from {:.2f} to {:.2f} mm rms at the tool.",
         points_of(spec, fewest->grid),
         points_of(spec, most->grid),
         fewest->tool_rms_mm,
@@ -144,7 +144,7 @@ Document sweep_page(const sweep::SweepSpec& spec, const std::vector<files::Level
     if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));
   }
   if (panels.blocks.empty()) panels.blocks.emplace_back(panel(spec, errors, sweep::kFactors - 1));
-  page.verdict = {fmt::format("{} cells: {} combinations, {} repetitions of each.",
+  page.verdict = {fmt::format("{} cells: {} combinations, {} repetitions each.",
                               sweep::cells(spec),
                               sweep::combinations(spec),
                               spec.repetitions)};

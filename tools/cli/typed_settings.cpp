@@ -38,7 +38,7 @@ CompensationMap with_settings_of(const std::string& settings,
         {{file.name,
           "",
           "anchors of a wall plotter",
-          "the new points with the machine that they were commanded on: --machine takes it"}});
+          "the new points with the machine that executed the commands: give it with --machine"}});
   }
   measured = grid::commanded_with(measured, now);
   return grid::map_for_settings(map, now, "");
@@ -88,8 +88,8 @@ std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
   const std::string differ = files::in_words(differ_from_map(changed->in_force));
   const auto sentence = [&](std::string_view what, std::string_view with, std::string_view to_do) {
     return fmt::format(
-        "{}: the new points fit {} ({}) within {:.2f} mm rms in a chain, the map's own within "
-        "{:.2f} mm. {} {}",
+        "{}: the new points fit {} ({}) to {:.2f} mm rms in a chain, the map's settings to {:.2f} "
+        "mm. {} {}",
         what,
         with,
         differ,
@@ -101,20 +101,20 @@ std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
   std::string& said = changed->check.sentence;
   if (!before && changed->all) {
     said = sentence("The settings have changed since this map was measured",
-                    "the numbers of export groundcontrol",
-                    "Use the map of export groundcontrol --map-after.");
+                    "the numbers from export groundcontrol",
+                    "Use the map from export groundcontrol --map-after.");
   } else if (!before) {
-    said = sentence("Only some of the numbers of export groundcontrol have been typed in",
+    said = sentence("Only some of the numbers from export groundcontrol have been typed in",
                     "these",
-                    "Type in the others too, and use the map of export groundcontrol --map-after.");
+                    "Type in the others too, and use the map from export groundcontrol --map-after.");
   } else if (changed->all) {
     said = sentence("The numbers that this map is for are not in the controller",
-                    "those of before",
+                    "the previous ones",
                     "Type them in, or use the map that they were exported from.");
   } else {
     said = sentence("Only some of the numbers that this map is for are in the controller",
-                    "the others as they were",
-                    "Type in these too.");
+                    "the others unchanged",
+                    "Type in the others too.");
   }
   return std::move(changed->check);
 }

@@ -88,7 +88,7 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
   const double from_start = distance(centre, request.start);
   const double from_end = distance(centre, request.end);
   if (from_start < radius_tolerance || from_end < radius_tolerance) {
-    refuse(bad_arc, block, "the arc's radius is zero: its centre lies at its start or end");
+    refuse(bad_arc, block, "the arc's radius is zero: its centre is at its start or end");
   }
   const double difference = std::fabs(from_start - from_end);
   const double relative = difference / std::max(from_start, from_end);
@@ -96,8 +96,8 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
     refuse(bad_arc,
            block,
-           fmt::format("the arc's end does not lie on its circle: the radius is {} at the "
-                       "start and {} at the end",
+           fmt::format("the arc's end is not on its circle: the radius is {} at the start and {} "
+                       "at the end",
                        in_units(from_start, request),
                        in_units(from_end, request)));
   }
@@ -130,7 +130,7 @@ Circle circle_of(const ArcRequest& request, const Block& block) {
   const bool has_centre =
       block.has(centre_word(request.first_axis)) || block.has(centre_word(request.second_axis));
   if (block.has('r') && has_centre) {
-    refuse(bad_arc, block, "the arc has a radius and a centre: only one of them can hold");
+    refuse(bad_arc, block, "the arc has both a radius and a centre");
   }
   if (!block.has('r') && !has_centre) {
     refuse(bad_arc, block, "the arc has neither a centre (I, J, K) nor a radius (R)");

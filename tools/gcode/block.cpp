@@ -44,7 +44,7 @@ constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
 void read_code(Code code, Place place, Block& block, bool tools_have_no_diameter) {
   const KnownCode* known = find(code);
-  if (known == nullptr) refuse(unknown_code, place, fmt::format("{} is not known", name(code)));
+  if (known == nullptr) refuse(unknown_code, place, fmt::format("{} is unknown", name(code)));
   const bool harmless =
       tools_have_no_diameter && (code == g::cutter_left || code == g::cutter_right);
   if (known->refusal != nullptr && !harmless) {
@@ -54,7 +54,7 @@ void read_code(Code code, Place place, Block& block, bool tools_have_no_diameter
   if (slot != nullptr) {
     refuse(modal_conflict,
            place,
-           fmt::format("{} and {} exclude each other within a line", name(*slot), name(code)));
+           fmt::format("{} and {} cannot be on the same line", name(*slot), name(code)));
   }
   slot = known;
 }
@@ -74,7 +74,7 @@ Code read_m(ValueReader& reader) {
   const Place place = reader.place();
   const long number = reader.integer();
   if (number < 0 || number > 9999)
-    refuse(unknown_code, place, fmt::format("M{} is not known", number));
+    refuse(unknown_code, place, fmt::format("M{} is unknown", number));
   return m(static_cast<int>(number));
 }
 
@@ -93,7 +93,7 @@ void read_assignment(ValueReader& reader, Block& block) {
   if (!reader.accept("=")) {
     refuse(bad_parameter,
            reader.place(),
-           "'=' was expected: a parameter that is no word's value is set");
+           "'=' was expected, because a parameter outside a word's value is an assignment");
   }
   assignment.value = reader.real();
   block.assignments.push_back(std::move(assignment));
@@ -101,7 +101,7 @@ void read_assignment(ValueReader& reader, Block& block) {
 
 void read_word(char letter, Place place, ValueReader& reader, Block& block) {
   if (kPlainLetters.find(letter) == std::string_view::npos) {
-    refuse(bad_character, place, fmt::format("'{}' begins no word here", upper(letter)));
+    refuse(bad_character, place, fmt::format("no word starts with '{}'", upper(letter)));
   }
   if (block.has(letter)) {
     refuse(repeated_word, place, fmt::format("a second {} word on the line", upper(letter)));

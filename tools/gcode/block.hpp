@@ -120,7 +120,7 @@ struct Assignment {
 
 /// For a line that is a whole program, and for a comment that contains one.
 inline constexpr const char* kLineEndsLost =
-    "one line holds several moves: the file's line ends are lost; save it anew with its line ends";
+    "one line has several moves: the file's line ends are lost; save it again with line ends";
 
 /// Reused from line to line.
 struct Block {

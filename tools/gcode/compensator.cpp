@@ -127,7 +127,7 @@ void Compensator::along(const Move& move, double feed) {
   if (from_home && move.kind != MoveKind::rapid) {
     note({move.line,
           "way_from_home",
-          "the way from home to the first place goes as it is; only its end is compensated"});
+          "the move from home to the first place is not changed; only its end is compensated"});
   }
   if (!limits_.here() && (move.kind == MoveKind::rapid || from_home)) {
     // The tool's position before the first move is unknown, and so are the directions of its
@@ -169,8 +169,8 @@ void Compensator::go_to_assumed_start(const Move& move) {
   note(
       {move.line,
        "start_assumed",
-       fmt::format("the program cuts before it goes to a place in X and Y; it is taken to start at "
-                   "X{:.6g} Y{:.6g}",
+       fmt::format("the program cuts before it moves in X and Y; it is assumed to start at X{:.6g} "
+                   "Y{:.6g}",
                    move.from.x_mm,
                    move.from.y_mm)});
   Move start = move;
@@ -186,8 +186,8 @@ void Compensator::move(const Move& move) {
   if (move.kind == MoveKind::probe) {
     refuse(not_emittable,
            {move.line},
-           "probing needs a dotted code, which some controllers misread; probe before the job, not "
-           "within it");
+           "probing needs a code with a decimal point, which some controllers misread; probe "
+           "before the job, not within it");
   }
   for (const double turn : move.turn_deg) {
     if (turn != 0.0) {

@@ -77,35 +77,35 @@ void ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
   }
   add(straight_arcs_,
       "arc_cut_straight",
-      fmt::format("{} cuts so short or so wide an arc as a straight line, here up to {:.3f} mm off "
-                  "it; the compensated file holds no arcs",
+      fmt::format("{} cuts so short or so flat an arc as a straight line, here up to {:.3f} mm "
+                  "off; the compensated file has no arcs",
                   firmware_.name,
                   straight_arcs_.worst));
   add(upright_arcs_,
       "arc_plane_not_known",
-      fmt::format("{} knows arcs in X and Y only and would cut this one there; the compensated "
-                  "file holds no arcs",
+      fmt::format("{} supports arcs only in X and Y and would cut this one there; the compensated "
+                  "file has no arcs",
                   firmware_.name));
   add(arc_turns_,
       "arc_turns_not_known",
-      fmt::format("{} {} the P of an arc, its number of turns; the compensated file holds no arcs",
+      fmt::format("{} {} the P of an arc, its number of turns; the compensated file has no arcs",
                   firmware_.name,
                   firmware_.unknown));
   add(no_length_,
       "move_of_no_length",
-      fmt::format("{} misreads a move to where the tool is already as one elsewhere; the "
-                  "compensated file holds no such move",
+      fmt::format("{} misreads a move to the tool's current position; the compensated file has no "
+                  "such move",
                   firmware_.name));
   add(short_ticks_,
       "shorter_than_a_tick",
-      fmt::format("{} takes at least {:g} ms for a move: at their feed these would take less, so "
-                  "the tool is slower there",
+      fmt::format("{} needs at least {:g} ms per move; at their feed these would take less, so the "
+                  "tool is slower there",
                   firmware_.name,
                   1000.0 * firmware_.tick_s));
   add(short_plans_,
       "shorter_than_the_plan",
-      fmt::format("{} plans {} moves ahead: these are so short that it cannot stop within them "
-                  "from F{:g} at {:g} mm/s^2, its default, so the tool is slower there",
+      fmt::format("{} plans {} moves ahead; these are so short that it cannot stop within them "
+                  "from F{:g} at its default {:g} mm/s^2, so the tool is slower there",
                   firmware_.name,
                   firmware_.planned_moves,
                   short_plans_.worst,

@@ -43,11 +43,11 @@ CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why) {
 std::string_view sentence_of(CorrectionReason reason) {
   switch (reason) {
     case CorrectionReason::outside_map:
-      return "lies outside the map";
+      return "is outside the map";
     case CorrectionReason::unreachable:
       return "cannot be reached by the machine";
     case CorrectionReason::not_converged:
-      return "has no answer in the map: the iteration did not converge";
+      return "cannot be found in the map, because the iteration did not converge";
     case CorrectionReason::controller:
       break;
   }

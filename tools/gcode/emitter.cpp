@@ -95,7 +95,7 @@ void refuse_compensated(const Comment& comment) {
   if (!is_marked(comment.text)) return;
   refuse(already_compensated,
          {comment.line},
-         "this file has been compensated before, as this mark in it says; take the original");
+         "this file has already been compensated, as this line shows; use the original");
 }
 
 Emitter::Emitter(ByteSink out, int decimals, bool semicolons)
@@ -158,7 +158,7 @@ void Emitter::command(const Move& move,
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
     refuse(
-        not_emittable, {move.line}, "a coordinate or feed rate of this move is no sensible number");
+        not_emittable, {move.line}, "a coordinate or feed rate of this move is not a usable number");
   }
   text_.assign(rapid ? "G0" : "G1");
   bool moves = false;
@@ -202,12 +202,13 @@ void Emitter::word(const PassedWord& word) {
     refuse(
         not_emittable,
         {word.line},
-        fmt::format("{} cannot be written: some controllers read only what stands before the dot",
+        fmt::format("{} cannot be written, because some controllers read only the part before the "
+                    "decimal point",
                     name(*word.code)));
   }
   if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
     refuse(
-        not_emittable, {word.line}, "this line has more characters than a controller's line holds");
+        not_emittable, {word.line}, "this line has more characters than a controller accepts");
   }
   const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
                      ((waiting_word_.front() == 'T' && text == "M6") ||

@@ -67,7 +67,7 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
     control.label = fmt::format("<{}>", name);
   } else {
     const auto number = reader.integer();
-    if (number < 0) refuse(bad_flow, line.place(at), "an O number is not negative");
+    if (number < 0) refuse(bad_flow, line.place(at), "an O number must not be negative");
     control.label = fmt::format("{}", number);
   }
   for (std::size_t i = 0; i < std::size(kWords); ++i) {
@@ -79,8 +79,8 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
   }
   refuse(bad_flow,
          reader.place(),
-         "after an O-word comes nothing, or one of sub, call, return, if, while, do, repeat "
-         "and their ends");
+         "an O-word must be followed by nothing, or by one of sub, call, return, if, while, do, "
+         "repeat and their ends");
 }
 
 void Flow::control(const CleanLine& line, std::size_t at) {
@@ -129,7 +129,7 @@ Flow::Found Flow::skip_to(const std::string& label,
                           Place from) {
   auto found = find(label, keywords);
   if (found) return std::move(*found);
-  refuse(bad_flow, from, fmt::format("the end of o{} does not stand in the file", label));
+  refuse(bad_flow, from, fmt::format("the file has no end of o{}", label));
 }
 
 void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
@@ -138,7 +138,7 @@ void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
     refuse(bad_flow,
            line.place(0),
            fmt::format(
-               "the subroutine o{} is defined already, on line {}", control.label, known->second));
+               "the subroutine o{} is already defined on line {}", control.label, known->second));
   }
   bodies_.insert_or_assign(control.label, source_.position());
   skip_to(control.label, {Keyword::endsub}, line.place(0));
@@ -160,7 +160,7 @@ LineSource::Position Flow::find_body(const std::string& label, Place place) {
   }
   refuse(bad_flow,
          place,
-         fmt::format("the subroutine o{} does not stand in this file; other files are not read",
+         fmt::format("the subroutine o{} is not in this file; other files are not read",
                      label));
 }
 
@@ -228,7 +228,7 @@ void Flow::call_program(long number, long repeats, Place place) {
 
 void Flow::leave_program(Place place) {
   if (calls_.empty()) {
-    refuse(bad_flow, place, "M99 in the main program repeats it for ever");
+    refuse(bad_flow, place, "M99 in the main program repeats it forever");
   }
   if (!calls_.back().program) {
     refuse(bad_flow, place, "M99 ends a program called by M98, not an o-word subroutine");

@@ -37,7 +37,7 @@ void Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
     if (std::fabs(count - std::round(count)) > 0.0001) {
       refuse(bad_flow,
              line.place(control.rest),
-             fmt::format("a loop is repeated a whole number of times, not {}", count));
+             fmt::format("a loop count must be a whole number, not {}", count));
     }
     block.remaining = static_cast<long>(std::clamp(std::round(count), -1.0, 1e15));
     if (block.remaining <= 0) {
@@ -112,7 +112,7 @@ void Flow::jump_out(const CleanLine& line, const ControlLine& control) {
   if (open == nullptr || open->kind == Keyword::if_) {
     refuse(bad_flow,
            line.place(0),
-           fmt::format("o{} is no loop that could be left here", control.label));
+           fmt::format("o{} is not a loop that could be left here", control.label));
   }
   const OpenBlock loop = *open;
   const auto index = static_cast<std::size_t>(open - blocks_.data());

@@ -22,8 +22,8 @@ void Interpreter::step(Place place) {
   if (++steps_ <= dialect_.step_budget) return;
   refuse(step_budget,
          place,
-         fmt::format("the program has taken {} steps in loops, subroutines and cycles "
-                     "without coming to its end",
+         fmt::format("the program has taken {} steps in loops, subroutines and cycles without "
+                     "reaching its end",
                      dialect_.step_budget));
 }
 
@@ -40,14 +40,14 @@ void Interpreter::note_deletable() {
 
 void Interpreter::note_whole(std::size_t last_line) {
   if (!moves_) {
-    return sink_.note({last_line, "moves_nothing", "the program moves nothing", moves_nothing});
+    return sink_.note({last_line, "moves_nothing", "the program does not move the tool", moves_nothing});
   }
   if (long_arcs_ > 1 && long_arcs_ == arcs_) {
     sink_.note(
         {first_long_arc_,
          "arcs_long",
-         fmt::format("each of the {} arcs, this one first, is longer than half a circle: are G2 "
-                     "and G3 exchanged?",
+         fmt::format("each of the {} arcs, beginning with this one, is longer than half a circle: "
+                     "are G2 and G3 exchanged?",
                      arcs_)});
   }
   std::vector<std::string> left;
@@ -58,7 +58,7 @@ void Interpreter::note_whole(std::size_t last_line) {
   if (left.empty()) return;
   sink_.note({last_line,
               "state_left",
-              fmt::format("the program ends with {} in force, which holds for whatever is run next",
+              fmt::format("the program ends with {} in force, which affects the next program",
                           fmt::join(left, ", "))});
 }
 
@@ -100,7 +100,7 @@ AfterBlock Interpreter::execute(const std::vector<CommentText>& texts) {
     if (!std::exchange(units_stated_, true)) {
       sink_.note({block_.line,
                   "units_assumed",
-                  "the program moves before it says G20 or G21; it is taken to be in millimetres"});
+                  "the program moves before G20 or G21; millimetres are assumed"});
     }
     move(motion);
   }
@@ -115,11 +115,11 @@ int Interpreter::motion_to_be() const {
   const bool length_takes_axes = block_.is(g::tool_length_stated);
   const bool centre = block_.has('i') || block_.has('j') || block_.has('k');
   if (once_takes_axes && length_takes_axes) {
-    refuse(modal_conflict, block_, "two codes of the line claim its axis words");
+    refuse(modal_conflict, block_, "two codes on the line use its axis words");
   }
   if (motion != nullptr && motion->uses('x')) {
     if (once_takes_axes || length_takes_axes) {
-      refuse(modal_conflict, block_, "two codes of the line claim its axis words");
+      refuse(modal_conflict, block_, "two codes on the line use its axis words");
     }
     return motion->tenths;
   }
@@ -128,8 +128,8 @@ int Interpreter::motion_to_be() const {
   if (motion != nullptr || modes_.motion == g::no_motion) {
     refuse(no_motion_mode,
            block_,
-           "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
-           "could use them");
+           "there are axis words, but no motion (G0, G1, G2, G3 ...) is in force that could use "
+           "them");
   }
   return modes_.motion;
 }
@@ -218,8 +218,8 @@ void Interpreter::set_feed(int motion) {
     if (block_.code(Group::units) != nullptr && block_.is(g::inches) != modes_.inches && !inverse) {
       sink_.note({block_.line,
                   "feed_before_units",
-                  "F and a change of units share a line: F counts in the old unit here, other "
-                  "controllers take the new one"});
+                  "F and a change of units are on one line: F is read in the old unit here, but "
+                  "other controllers use the new one"});
     }
     modes_.feed = inverse ? block_.value('f') : length('f');
   }
@@ -254,7 +254,7 @@ void Interpreter::set_modes() {
         {block_.line,
          "dotted_code",
          "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
-         "holds neither"});
+         "has neither"});
   }
   if (block_.is(g::no_motion)) modes_.motion = g::no_motion;
   if (const KnownCode* retract = block_.code(Group::retract))
@@ -268,7 +268,7 @@ AfterBlock Interpreter::after() const {
       result.flow = AfterBlock::Flow::leave_program;
       return result;
     }
-    if (!block_.has('p')) refuse(missing_word, block_, "M98 needs the number of a program as P");
+    if (!block_.has('p')) refuse(missing_word, block_, "M98 needs a program number as P");
     result.flow = AfterBlock::Flow::call_program;
     result.program = std::lround(block_.value('p'));
     result.repeats = std::lround(block_.find('l').value_or(1.0));

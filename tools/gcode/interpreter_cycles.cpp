@@ -67,12 +67,12 @@ void Interpreter::cycle(int motion) {
   const char depth_letter = kAxisLetters[cycle.axes.normal];
   if (!block_.has_axes()) refuse(bad_cycle, block_, "a canned cycle needs axis words");
   if (block_.has('a') || block_.has('b') || block_.has('c') || block_.has_polar()) {
-    refuse(bad_cycle, block_, "a canned cycle takes X, Y and Z only");
+    refuse(bad_cycle, block_, "a canned cycle accepts only X, Y and Z");
   }
   if (z_unknown_) {
     refuse(unsupported_code,
            block_,
-           "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
+           "after probing, G53, G28 or G30 the start of a cycle is known only to the machine");
   }
   const bool again = modes_.motion == motion;
   const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;
@@ -98,15 +98,15 @@ void Interpreter::cycle(int motion) {
   }
   const bool pecks = motion == g::peck_break || motion == g::peck;
   if (!sticky('q', sticky_.q, true) && pecks) {
-    refuse(bad_cycle, block_, "the cycle's depth of a peck, Q, is missing");
+    refuse(bad_cycle, block_, "the cycle's peck depth Q is missing");
   }
   if (pecks && !(sticky_.q > 0.0)) {
-    refuse(bad_cycle, block_, "the depth Q must be above zero");
+    refuse(bad_cycle, block_, "the depth Q must be positive");
   }
-  if (sticky_.p < 0.0) refuse(bad_cycle, block_, "the dwell time is below zero");
+  if (sticky_.p < 0.0) refuse(bad_cycle, block_, "the dwell time is negative");
   const double repeats = block_.find('l').value_or(1.0);
   if (!(repeats >= 1.0) || std::round(repeats) != repeats) {
-    refuse(bad_cycle, block_, "a cycle is repeated a whole number of times, at least once");
+    refuse(bad_cycle, block_, "the repeat count of a cycle must be a whole number of at least 1");
   }
 
   double height = cycle.program[cycle.axes.normal];
@@ -127,7 +127,7 @@ void Interpreter::cycle(int motion) {
   cycle.retract = sticky_.r + (modes_.incremental ? sticky_.start : 0.0);
   cycle.bottom = sticky_.depth + (modes_.incremental ? cycle.retract : 0.0);
   if (cycle.retract < cycle.bottom) {
-    refuse(bad_cycle, block_, "the retract plane R lies below the cycle's bottom");
+    refuse(bad_cycle, block_, "the retract plane R is below the cycle's bottom");
   }
   modes_.motion = motion;
   // From below the R plane first straight up to it; a row that began below it goes to it even from
@@ -180,7 +180,7 @@ void Interpreter::Cycle::tap_or_bore() const {
   const int spindle = interpreter.modes_.spindle;
   const bool stops_spindle = motion == g::tap || motion == g::bore_stop || motion == g::bore_manual;
   if (motion == g::tap && spindle != 3) {
-    refuse(bad_cycle, interpreter.block_, "tapping (G84) needs the spindle turning clockwise");
+    refuse(bad_cycle, interpreter.block_, "tapping (G84) needs the spindle to turn clockwise");
   }
   if (stops_spindle && spindle == 0) refuse(bad_cycle, interpreter.block_, kSpindleStands);
   feed(bottom);

@@ -53,9 +53,8 @@ void Interpreter::move(int motion) {
       if (block_.is(g::machine_frame)) {
         if (block_.has_z_alone()) return machine_height(motion);
         note_home(
-            "G53 with X or Y goes to a place of the machine's own frame, and only the machine "
-            "knows where on the sheet that is; write the place on the sheet without G53, and "
-            "G53 with Z on a line of its own");
+            "G53 with X or Y moves in machine coordinates, whose position on the sheet is unknown; "
+            "write sheet coordinates without G53, and put G53 with Z on a separate line");
       }
       const auto machine = target();
       return straight(motion == g::rapid ? MoveKind::rapid : MoveKind::feed, machine);
@@ -81,7 +80,7 @@ Axes Interpreter::target() const {
   const bool in_machine = block_.is(g::machine_frame);
   Axes place = in_machine ? machine_ : to_program(machine_);
   if (block_.has_polar()) {
-    if (in_machine) refuse(bad_word_value, block_, "G53 takes no polar coordinates");
+    if (in_machine) refuse(bad_word_value, block_, "G53 does not accept polar coordinates");
     polar(place);
   }
   for (std::size_t i = 0; i < place.size(); ++i) {
@@ -99,11 +98,9 @@ void Interpreter::check_start(int motion) {
     if (modes_.incremental && !placed_[axis]) {
       note_once({block_.line,
                  "start_relative",
-                 "the program is relative (G91) before it has gone to a place: where it cuts "
-                 "depends on where "
-                 "the tool happens to be; add a first line that goes to its start on the sheet, "
-                 "such as G90 G0 "
-                 "X0 Y0",
+                 "the program is relative (G91) before its first absolute position, so where it "
+                 "cuts depends on where the tool happens to be; add a first line that moves to its "
+                 "start on the sheet, such as G90 G0 X0 Y0",
                  unknown_start});
     }
     placed_[axis] = true;
@@ -123,7 +120,7 @@ void Interpreter::machine_height(int motion) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
       refuse(unsupported_code,
              block_,
-             "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
+             "a height in machine coordinates (G53) needs a feed rate in mm/min or inch/min");
     }
     text += with_value(" F", modes_.feed);
   }
@@ -136,14 +133,14 @@ void Interpreter::check_height(const Axes& machine) const {
   if (modes_.incremental) {
     refuse(unsupported_code,
            block_.place('z'),
-           "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot "
-           "step from it (G91) here");
+           "after probing, G53, G28 or G30 the height is known only to the machine, so Z cannot be "
+           "relative (G91) here");
   }
   if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
     refuse(unsupported_code,
            block_.place('z'),
-           "after a height in the machine's frame (G53, G28, G30) Z moves by itself first, "
-           "without X and Y: only the machine knows the height that it starts from");
+           "after a height in machine coordinates (G53, G28, G30) Z must move first, without X and "
+           "Y, because the height where it starts is known only to the machine");
   }
 }
 
@@ -153,12 +150,12 @@ void Interpreter::polar(Axes& program) const {
     refuse(bad_word_value, block_, "polar coordinates (@, ^) are for the XY plane (G17)");
   }
   if (block_.has('x') || block_.has('y')) {
-    refuse(modal_conflict, block_, "a point has X and Y or polar coordinates (@, ^), not both");
+    refuse(modal_conflict, block_, "a point has either X and Y or polar coordinates (@, ^)");
   }
   double radius = std::hypot(program[0], program[1]);
   double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
   if ((modes_.incremental || !block_.has('^')) && radius == 0.0) {
-    refuse(bad_word_value, block_, "at the program's zero a polar step has no direction");
+    refuse(bad_word_value, block_, "a relative polar move has no direction at the program's zero");
   }
   if (block_.has('@')) radius = (modes_.incremental ? radius : 0.0) + length('@');
   if (block_.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block_.value('^');
@@ -186,10 +183,10 @@ void Interpreter::probe() {
   if (machine[0] != machine_[0] || machine[1] != machine_[1]) {
     refuse(unsupported_code,
            block_,
-           "probing sideways (X, Y) ends at a place that only the machine knows");
+           "probing sideways (X, Y) ends at a position known only to the machine");
   }
   if (std::fabs(machine[2] - machine_[2]) < 0.254) {
-    refuse(bad_word_value, block_, "the probe starts closer than 0.254 mm (0.01 inch) to its end");
+    refuse(bad_word_value, block_, "the probe starts less than 0.254 mm (0.01 inch) from its end");
   }
   straight(MoveKind::probe, machine);
   z_unknown_ = true;
@@ -205,7 +202,7 @@ void Interpreter::arc(bool clockwise) {
     if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
       refuse(bad_arc,
              block_.place('p'),
-             fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
+             fmt::format("P, the number of turns, must be a whole number from 1 to {}", kMostTurns));
     }
   }
   if (block_.is(g::machine_frame)) {
@@ -214,8 +211,8 @@ void Interpreter::arc(bool clockwise) {
   if (z_unknown_ && modes_.plane != g::plane_xy) {
     refuse(unsupported_code,
            block_,
-           "after probing, G53, G28 or G30 only the machine knows where an upright arc "
-           "(G18, G19) starts");
+           "after probing, G53, G28 or G30 the start of an upright arc (G18, G19) is known only to "
+           "the machine");
   }
   const auto machine = target();
   const Axes start = to_program(machine_);

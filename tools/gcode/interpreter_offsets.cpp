@@ -108,8 +108,8 @@ void Interpreter::needs_known_z() const {
   if (!z_unknown_ || !block_.has('z')) return;
   refuse(unsupported_code,
          block_.place('z'),
-         "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot be set "
-         "from it here");
+         "after probing, G53, G28 or G30 the height is known only to the machine, so Z cannot be "
+         "set from it here");
 }
 
 void Interpreter::set_system() {
@@ -117,7 +117,7 @@ void Interpreter::set_system() {
   if (mode != 2.0 && mode != 20.0) {
     refuse(unsupported_code,
            block_,
-           "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
+           "only G10 L2 and L20 (work offsets) are supported, not tool tables");
   }
   const double number = block_.find('p').value_or(-1.0);
   if (number < 0.0 || number > 9.0 || std::round(number) != number) {
@@ -132,7 +132,7 @@ void Interpreter::set_system() {
     }
   }
   if (block_.has_polar()) {
-    refuse(bad_word_value, block_, "G10 takes no polar coordinates");
+    refuse(bad_word_value, block_, "G10 does not accept polar coordinates");
   }
   if (block_.has('r')) parameters_.set(rotation_parameter(system), block_.value('r'));
 
@@ -168,7 +168,7 @@ void Interpreter::set_offset() {
     refuse(missing_word, block_, "G52 and G92 need an axis word");
   }
   if (block_.has_polar()) {
-    refuse(bad_word_value, block_, "G52 and G92 take no polar coordinates");
+    refuse(bad_word_value, block_, "G52 and G92 do not accept polar coordinates");
   }
   const bool from_here = block_.is(g::offset_here);
   if (from_here) needs_known_z();
@@ -217,9 +217,8 @@ void Interpreter::go_home(int first) {
       return pass_height(with_value(word, z_mm), code);
     }
     note_home(
-        "the place that G28 and G30 go to is stored in the machine, and only the machine knows "
-        "where on the sheet that is; write the place on the sheet, and leave X and Y out of the "
-        "retract (G28 G91 Z0)");
+        "the position of G28 and G30 is stored in the machine, so where it is on the sheet is "
+        "unknown; write sheet coordinates, and leave X and Y out of the retract (G28 G91 Z0)");
   }
   placed_[0] = placed_[1] = true;
   straight(MoveKind::rapid, through);

@@ -38,8 +38,8 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
       refuse(
           bad_word_value,
           block.place(letter),
-          fmt::format("the {} word could belong to two codes of this line; write each of them on "
-                      "a line of its own",
+          fmt::format("the {} word could belong to two codes on this line; write each on a "
+                      "separate line",
                       upper(letter)));
     }
     user = code;
@@ -66,7 +66,7 @@ void check_whole(const Block& block, char letter, std::string_view whose) {
   if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) return;
   refuse(bad_word_value,
          block.place(letter),
-         fmt::format("{}{} is a whole number, not below zero; here it is {}",
+         fmt::format("{}{} must be a whole number of at least 0; here it is {}",
                      upper(letter),
                      whose,
                      with_value("", value)));
@@ -156,12 +156,12 @@ void Interpreter::pass_words() {
 void Interpreter::dwell() {
   if (!block_.is(g::dwell)) return;
   if (!block_.has('p') || block_.value('p') < 0.0)
-    refuse(missing_word, block_, "G4 needs its time as P, not below zero");
+    refuse(missing_word, block_, "G4 needs a time P of at least 0");
   note_once(
       {block_.line,
        "dwell_unit",
-       "G4 counts P in seconds here, in milliseconds on the classic Maslow firmware; P passes "
-       "unchanged"});
+       "G4 P is in seconds here but in milliseconds on the classic Maslow firmware; P is not "
+       "changed"});
   pass(g::dwell, with_value(" P", block_.value('p')));
 }
 
@@ -171,7 +171,8 @@ void Interpreter::tool_length() {
   if (block_.is(g::tool_length_stated)) {
     if (block_.has('x') || block_.has('y') || block_.has('a') || block_.has('b') ||
         block_.has('c')) {
-      refuse(unsupported_code, block_, "a tool offset (G43.1) in any axis but Z moves the path");
+      refuse(unsupported_code, block_, "a tool offset (G43.1) in an axis other than Z moves the "
+                                       "path");
     }
     pass(g::tool_length_stated, block_.has('z') ? with_value(" Z", length('z')) : std::string());
   } else if (const KnownCode* code = block_.code(Group::tool_length)) {

@@ -79,16 +79,16 @@ void Limits::word(const PassedWord& word) {
     refuse(
         not_emittable,
         {word.line},
-        fmt::format("{}: {} keeps no tool lengths, so every height after it could be wrong; take "
-                    "G43 out and set Z to zero with each tool",
+        fmt::format("{}: {} stores no tool lengths, so every height after it could be wrong; "
+                    "remove G43 and set Z to zero with each tool",
                     word.text,
                     firmware.name));
   }
   if (word.moves_itself && !knows_code(firmware, *word.code)) {
     refuse(not_emittable,
            {word.line},
-           fmt::format("{}: {} does not know {} and would take the height for one above the work; "
-                       "write a safe height of the work (G0 Z...)",
+           fmt::format("{}: {} does not support {} and would read the height as one above the "
+                       "work; write a safe height above the work (G0 Z...)",
                        word.text,
                        firmware.name,
                        name(*word.code)));
@@ -125,7 +125,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
   if (size > options_.largest_correction_mm) {
     object_to(
         correction_too_large,
-        fmt::format("{} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
+        fmt::format("{} would be corrected by {:.2f} mm, more than the {} mm allowed",
                     in_xy(sample.target),
                     size,
                     options_.largest_correction_mm));
@@ -155,8 +155,8 @@ void Limits::examine(const Move& move, const PathSample& sample) {
       summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
       if (slope > options_.steepest_correction) {
         object_to(correction_too_steep,
-                  fmt::format("before {} the correction changes by {:.3f} mm per "
-                              "mm, more than the {} that are allowed",
+                  fmt::format("before {} the correction changes by {:.3f} mm per mm, more than the "
+                              "{} allowed",
                               in_xy(sample.target),
                               slope,
                               options_.steepest_correction));
@@ -167,8 +167,8 @@ void Limits::examine(const Move& move, const PathSample& sample) {
       grid::MapStatus::extrapolated) {
     findings_.add(Note{move.line,
                        "extrapolated",
-                       fmt::format("{} lies outside the measured points: the "
-                                   "correction there is extrapolated",
+                       fmt::format("{} is outside the measured points; the correction there is "
+                                   "extrapolated",
                                    in_xy(sample.target))});
   }
 }

@@ -67,9 +67,9 @@ class Cleaner {
     if (!is_blank(c) && (byte < 0x20 || byte >= 0x7F)) {
       refuse(bad_character,
              here(),
-             fmt::format("{} does not belong into G-code outside a comment", printable(c)));
+             fmt::format("{} is not allowed in G-code outside a comment", printable(c)));
     }
-    if (c == ')') refuse(bad_character, here(), "')' closes no comment");
+    if (c == ')') refuse(bad_character, here(), "')' has no matching '('");
     if (c == '[') ++depth_;
     if (c == ']' && depth_ > 0) --depth_;
     if (!is_blank(c)) {
@@ -90,17 +90,17 @@ class Cleaner {
     unsigned stated = 0;
     const auto [stop, error] = std::from_chars(raw_.data() + digits, raw_.data() + end, stated);
     if (error != std::errc{} || stop != raw_.data() + end) {
-      refuse(bad_checksum, place, "'*' outside brackets begins a checksum, but no number follows");
+      refuse(bad_checksum, place, "'*' outside brackets starts a checksum, but no number follows");
     }
     std::size_t rest = end;
     while (rest < raw_.size() && is_blank(raw_[rest])) ++rest;
     if (rest < raw_.size() && raw_[rest] != ';' && raw_[rest] != '(') {
-      refuse(bad_checksum, place, "something follows the checksum");
+      refuse(bad_checksum, place, "there is text after the checksum");
     }
     if (stated != sum) {
       refuse(bad_checksum,
              place,
-             fmt::format("the checksum is {}, but the line's is {}", stated, sum));
+             fmt::format("the checksum is {}, but that of the line is {}", stated, sum));
     }
     at_ = rest;
   }
@@ -165,7 +165,7 @@ bool LineSource::next(SourceLine& line) {
       if (buffer_[end] == '\0') {
         refuse(not_text,
                {lines_before_ + 1, end - begin_ + 1},
-               "a zero byte stands here: the file is not plain text (UTF-16, or no G-code at all)");
+               "there is a zero byte, so the file is not plain text (UTF-16, or not G-code)");
       }
       ++end;
     }
@@ -180,8 +180,8 @@ bool LineSource::next(SourceLine& line) {
   if (end - begin_ > kMaxLineLength) {
     refuse(line_too_long,
            {lines_before_ + 1, 0},
-           fmt::format("the line is longer than {} characters: its line ends are lost, or "
-                       "this is no program",
+           fmt::format("the line is longer than {} characters: the line ends are lost, or this is "
+                       "not a program",
                        kMaxLineLength));
   }
   if (end == buffer_.size() && end == begin_) return false;

@@ -12,13 +12,13 @@ struct OtherKind {
   const char* sentence;
 };
 constexpr OtherKind kOtherKinds[] = {
-    {"<svg", "this is a drawing (SVG), not a program; let a CAM program make G-code of it"},
+    {"<svg", "this is a drawing (SVG), not a program; make G-code from it with a CAM program"},
     {"<", "this is a web page, not a program; save the raw file (Raw, or Download)"},
-    {"{\\rtf", "this is a formatted text (RTF), not a program; save it as plain text"},
+    {"{\\rtf", "this is formatted text (RTF), not a program; save it as plain text"},
     {"{", "this is a JSON file, not a program"},
     {"%PDF", "this is a PDF, not a program"},
     {"PK\x03\x04", "this is a ZIP archive, not a program; unpack it"},
-    {"solid ", "this is a solid (STL), not a program; let a CAM program make G-code of it"},
+    {"solid ", "this is a solid (STL), not a program; make G-code from it with a CAM program"},
 };
 
 /// \param begun a line of the program came before
@@ -108,7 +108,7 @@ void Program::line_number(std::size_t& at) const {
   const std::size_t start = at + 1;
   at = past_digits(line_.text, start);
   if (at == start)
-    refuse(bad_line_number, line_.place(start), "N needs a whole number, not negative");
+    refuse(bad_line_number, line_.place(start), "N needs a whole number of at least 0");
   if (peek(at) == '.') at = past_digits(line_.text, at + 1);
 }
 
@@ -119,7 +119,7 @@ void Program::percent(const SourceLine& raw) {
     return;
   }
   if (!opened_by_percent_) {
-    refuse(bad_character, {raw.number, 1}, "a % ends a program only where a % began it");
+    refuse(bad_character, {raw.number, 1}, "a % ends a program only if a % began it");
   }
   return end(raw.number, "%");
 }

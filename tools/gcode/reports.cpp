@@ -122,10 +122,10 @@ class Surveyor final : public Sink {
                                     area.y_min - place.y_mm,
                                     place.y_mm - area.y_max});
     if (beyond <= 1e-9) return;
-    std::string sentence = fmt::format("{} lies {:.2f} mm outside the sheet", in_xy(place), beyond);
+    std::string sentence = fmt::format("{} is {:.2f} mm outside the sheet", in_xy(place), beyond);
     if (sheet_.is_assumed) {
       sentence += fmt::format(
-          ", taken to be {:g} x {:g} mm with X0 Y0 in its middle; --machine states another",
+          ", assumed to be {:g} x {:g} mm with X0 Y0 in its middle; --machine sets another",
           area.x_max - area.x_min,
           area.y_max - area.y_min);
     }

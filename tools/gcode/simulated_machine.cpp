@@ -32,7 +32,7 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
   const bool controller = failure.reason == CorrectionReason::controller;
   refuse(controller ? outside_controller : outside_map,
          {line},
-         fmt::format("{}: the tool's place {}", in_xy(command), failure.sentence()));
+         fmt::format("{}: the tool's position {}", in_xy(command), failure.sentence()));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Function {
 };
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kArcDomain = "asin and acos take values from -1 to 1";
+constexpr const char* kArcDomain = "asin and acos need values from -1 to 1";
 
 /// Longer names before their prefixes.
 constexpr Function kFunctions[] = {
@@ -38,10 +38,10 @@ constexpr Function kFunctions[] = {
     {"exp", [](double x) { return std::exp(x); }},
     {"fix", [](double x) { return std::floor(x); }},
     {"fup", [](double x) { return std::ceil(x); }},
-    {"ln", [](double x) { return x > 0.0 ? std::log(x) : kNone; }, "ln takes values above zero"},
+    {"ln", [](double x) { return x > 0.0 ? std::log(x) : kNone; }, "ln needs values above zero"},
     {"round", [](double x) { return std::trunc(x + (x < 0.0 ? -0.5 : 0.5)); }},
     {"sin", [](double x) { return std::sin(x * kRadiansPerDegree); }},
-    {"sqrt", [](double x) { return std::sqrt(x); }, "sqrt takes no value below zero"},
+    {"sqrt", [](double x) { return std::sqrt(x); }, "sqrt needs values of at least zero"},
     {"tan", [](double x) { return std::tan(x * kRadiansPerDegree); }},
 };
 
@@ -211,7 +211,7 @@ double ValueReader::number() {
     refuse(bad_number, start, "a number was expected here");
   }
   if (stop != digits.data() + digits.size()) {
-    refuse(bad_number, start, fmt::format("'{}' is no number", digits));
+    refuse(bad_number, start, fmt::format("'{}' is not a number", digits));
   }
   if (error != std::errc{} || !std::isfinite(value)) {
     refuse(number_out_of_range, start, fmt::format("'{}' is out of range", digits));
@@ -263,7 +263,7 @@ double ValueReader::parameter() {
 
 double ValueReader::exists() {
   const Place start = place();
-  if (!accept("[#")) refuse(bad_expression, start, "exists takes [#<name>]");
+  if (!accept("[#")) refuse(bad_expression, start, "exists needs [#<name>]");
   const auto name = angle_name();
   if (!accept("]")) refuse(bad_expression, place(), "']' was expected");
   return truth(parameters_.get(name).has_value());
@@ -274,7 +274,7 @@ double ValueReader::function() {
   if (accept("exists")) return exists();
   if (accept("atan")) {
     const double y = bracketed();
-    if (!accept("/")) refuse(bad_expression, place(), "atan takes [y]/[x]");
+    if (!accept("/")) refuse(bad_expression, place(), "atan needs [y]/[x]");
     return std::atan2(y, bracketed()) / kRadiansPerDegree;
   }
   for (const Function& candidate : kFunctions) {

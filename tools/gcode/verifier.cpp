@@ -177,7 +177,7 @@ class Verification {
     const ProgramEvent& event = expected();
     if (before != PathMatcher::Outcome::follows || event.kind != ProgramEvent::Kind::move) {
       stray(before == PathMatcher::Outcome::follows
-                ? fmt::format("the run goes to a place on line {} where the original has {}",
+                ? fmt::format("the run moves on line {} where the original has {}",
                               command.line,
                               event.word.text.empty() ? "its end" : event.word.text)
                 : fmt::format("the heights before the first place differ (line {})", command.line));
@@ -233,8 +233,8 @@ class Verification {
     if (outcome == PathMatcher::Outcome::wrong_speed) {
       const Deviation front = matcher_.front();
       summary_.motion_differs = fmt::format(
-          "line {} of the file run moves at {} where line {} of the original has "
-          "another motion or feed, near {}",
+          "line {} of the file run moves at {}, but line {} of the original has a different motion "
+          "or feed, near {}",
           piece.line,
           words(piece),
           front.original_line,
@@ -247,8 +247,8 @@ class Verification {
       const ProgramEvent& event = expected();
       if (event.kind == ProgramEvent::Kind::word) {
         return differ(fmt::format("missing: {}", event.word.text),
-                      fmt::format("{} of line {} of the original does not come at its place, {}; "
-                                  "line {} of the file run moves on",
+                      fmt::format("{} of line {} of the original is not at its position, {}; line "
+                                  "{} of the file run moves on",
                                   event.word.text,
                                   event.line,
                                   words(matcher_.path_end()),
@@ -276,14 +276,14 @@ class Verification {
     if (outcome != PathMatcher::Outcome::follows) {
       if (outcome == PathMatcher::Outcome::past_end && !is_end) {
         return differ(fmt::format("{} comes too early", name),
-                      fmt::format("{} on line {} of the file run comes before its place: the path "
-                                  "still has to go on at {}",
+                      fmt::format("{} on line {} of the file run is too early: the path is not "
+                                  "finished at {}",
                                   name,
                                   found.line,
                                   words(matcher_.front().intended)));
       }
-      stray(is_end ? fmt::format("the file run ends on line {}, but the path of line {} of the "
-                                 "original has not been run to its end",
+      stray(is_end ? fmt::format("the file run ends on line {}, before the path of line {} of the "
+                                 "original is complete",
                                  found.line,
                                  matcher_.front().original_line)
                    : place_fault());
@@ -297,15 +297,14 @@ class Verification {
                                      : ended ? fmt::format("too many: {}", name)
                                              : fmt::format("{} instead of {}", name, wanted);
       return differ(difference,
-                    fmt::format("line {} of the file run has {} where line {} of the original has "
-                                "{}",
+                    fmt::format("line {} of the file run has {}, but line {} of the original has {}",
                                 found.line,
                                 name,
                                 event.line,
                                 wanted));
     }
     if (is_end) {
-      if (summary_.commands == 0 && !moves_itself_) stray("the file run moves nothing");
+      if (summary_.commands == 0 && !moves_itself_) stray("the file run does not move the tool");
       return;
     }
     moves_itself_ = moves_itself_ || found.word.moves_itself;
@@ -325,8 +324,8 @@ class Verification {
   [[nodiscard]] std::string place_fault() const {
     const Deviation front = matcher_.front();
     return fmt::format(
-        "on line {} of the file run the tool stands at {}, {:.4f} mm from its place "
-        "{} on line {} of the original",
+        "on line {} of the file run the tool is at {}, {:.4f} mm from its position {} on line {} "
+        "of the original",
         front.run_line,
         words(front.tool),
         front.distance_mm,

@@ -7,19 +7,20 @@ namespace chaintrue::report {
 namespace {
 
 constexpr Term kTerms[] = {
-    {"rms", "root mean square: the usual size of errors of either sign, large ones counted more"},
-    {"one sigma", "two values of three lie within it, nineteen of twenty within twice of it"},
-    {"mark", "a place on the sheet at which the tool, or the chains, were measured"},
-    {"map", "the true chain lengths for every place of the bed, made from the marks"},
-    {"uncorrected", "the machine with the settings that it had when it was measured"},
-    {"calibrated", "the settings moved to where they fit the readings best"},
+    {"rms", "root mean square: the typical size of errors of either sign, with large ones weighted "
+            "more"},
+    {"one sigma", "one standard deviation: two of three values are within it, nineteen of twenty "
+                  "within twice as much"},
+    {"mark", "a place on the sheet where the tool or the chains were measured"},
+    {"map", "the true chain lengths for every place on the bed, computed from the marks"},
+    {"uncorrected", "the machine with the settings in force when it was measured"},
+    {"calibrated", "with the settings that fit the readings best"},
     {"left out",
-     "one reading, or one block of the bed at a time, that the fit did not use: the error of "
-     "predicting it tests the fit"},
+     "not used by the fit, one reading or one block of the bed at a time; the error of predicting "
+     "it tests the fit"},
     {"residual", "the reading minus what was expected"},
     {"chain zero",
-     "how much too long or short a chain reads everywhere, because its zero is "
-     "wrong"},
+     "the constant error of a chain's readings due to a wrong zero"},
     {"noise", "the differences of repeated readings"},
     {"pitch", "the length of one link, 6.35 mm when it is new"},
     {"catenary", "the curve in which a chain hangs"},

@@ -47,8 +47,8 @@ Section before_after_section(const MapPictures& report) {
            arrows_of(report, &ReportPoint::before),
            arrows_of(report, &ReportPoint::after),
            {"Before: " + report.before_what,
-            "Each arrow runs from where the tool should be to where it lands. Hover or tap a point "
-            "for its values.",
+            "Each arrow points from the intended to the actual position of the tool. Hover over or "
+            "tap a point for its values.",
             "After: with the map, same scale",
             "The residual at the points that the map was made from.",
             " Random directions are noise; neighbours that point the same way would be something "

@@ -199,7 +199,7 @@ TEST(Road, OmittedNumbersAreReportedIfTheyContradictTheFit) {
   for (const std::uint64_t seed : {1, 2}) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
     const grid::MapContents& plain = road.plain.map.contents();
-    EXPECT_THAT(plain.notes, ::testing::Contains(::testing::HasSubstr("The larger number is given")));
+    EXPECT_THAT(plain.notes, ::testing::Contains(::testing::HasSubstr("The larger number is reported")));
     // Noise of 0.2 mm in a chain and 0.3 mm in each coordinate is below 0.3 mm^2 at the tool.
     EXPECT_GT(plain.accuracy.expected_tool.rms_mm,
               std::sqrt(std::pow(plain.accuracy.blocked.tool.rms_mm, 2) - 0.3))

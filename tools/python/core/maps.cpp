@@ -59,8 +59,8 @@ grid::BeltMap belt_map(const FittedAnchors& anchors) {
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
     throw cli::Failed("the anchors",
                       "no_anchors_in_force",
-                      "These anchors were fitted to belts that do not say which anchors were in force: "
-                      "where commands count from follows from them.");
+                      "These anchors were fitted to belts without the anchors in force, which define "
+                      "the origin of commands.");
   }
   return grid::BeltMap(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
 }

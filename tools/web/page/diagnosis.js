@@ -12,7 +12,7 @@ import {keepLaw, ownEffectPart, ownWords} from "./own_effect.js";
 import {Sheet} from "./sheet.js";
 
 /** What a diagnosis adds that the result does not repeat: its own numbers. */
-const NUMBERS = / With it, the tool's error falls from .*$| The error of one belt's reading falls from .*$/;
+const NUMBERS = / Correcting for it reduces the .*$| The error of one belt's reading falls from .*$/;
 
 export function causesPart(page) {
   const noise = new NoiseFields(page, () => diagnose(page, noise.words()));

@@ -101,7 +101,7 @@ export class Plotter {
     page.fit = fitParts(sentencesOf(fit).map((line) => capital(inPage(line.replace(`${DRAWING}: `, "")))), !isDone);
     page.store.derive(isDone ? fit.files : {[FOUND]: null});
     // A slip of the hand has no cause in the plotter; settings that fit nothing may have one.
-    if (!isDone && !fit.stderr.includes("no settings give this drawing")) return;
+    if (!isDone && !fit.stderr.includes("no settings explain this drawing")) return;
     const diagnosis = await runVerb(page, ["diagnose", DRAWING, "-o", "diagnosis.json", "--force"], {quiet: true, supersede: "plotter"});
     if (!diagnosis || isStale()) return;
     page.store.derive(diagnosis.code === DONE ? diagnosis.files : NO_DIAGNOSIS);

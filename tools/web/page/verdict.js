@@ -8,10 +8,10 @@ import {Sheet} from "./sheet.js";
 import {isWish} from "./wish.js";
 
 const HEADLINE = /^(Your machine (misses|needs)|With these (anchors|lines)|The lines bow)\b/;
-const SESSION = /^What changed during the session/;
-const STOP = /^What changed during the session|^Do not paste these anchors/;
+const SESSION = /^Changes during the session/;
+const STOP = /^Changes during the session|^Do not paste these anchors/;
 /** Sentences about single readings, and about what the readings leave undecided. */
-const WARNING = /^\S+\.(csv|json|txt|yaml): |was left out|^Left out: |cannot tell which/;
+const WARNING = /^\S+\.(csv|json|txt|yaml): |was left out|^Left out: |cannot show which/;
 const LINK_MM = 6.35;
 /** Noise alone makes the error at left-out marks about 2.2 times a coordinate's scatter; twice that is no noise. */
 const MOST_SCATTERS = 4.5;
@@ -25,7 +25,7 @@ export function fitParts(sentences, isWrong) {
 
 /** A mark that came out elsewhere when it was measured again, as its reader says it; null for another sentence. */
 function twice(sentence, list) {
-  const lines = /: line (\d+), column \d+: this mark was measured twice, also at line (\d+)/.exec(sentence)?.slice(1).map(Number);
+  const lines = /: line (\d+), column \d+: this mark was also measured at line (\d+)/.exec(sentence)?.slice(1).map(Number);
   if (!lines || !list) return null;
   const [again, first] = lines.map((line) => list.rows.findIndex((row) => row.line === line - 1));
   if (again < 0 || first < 0) return null;
@@ -60,7 +60,7 @@ export function verdictOf(page) {
     ...sentences.filter((line) => WARNING.test(line)).map((line) => twice(line, list) ?? line.replace(/^\S+\.(csv|json): (line \d+, column \d+: |\/\S+: )?/, "")), atLeftOut(jsonOf(folder["map.json"])),
   ].filter(Boolean);
   // A mark with a hint at the wrong digit needs no second sentence.
-  const hinted = new Set(warnings.map((line) => /^Mark (\d+) lies/.exec(line)?.[1]).filter(Boolean));
+  const hinted = new Set(warnings.map((line) => /^Mark (\d+) is/.exec(line)?.[1]).filter(Boolean));
   const told = warnings.filter((line) => !hinted.has(/^Point \d+ \(row (\d+)\)|^Point (\d+) at/.exec(line)?.slice(1).find(Boolean)));
   const shown = (line) => STOP.test(line) || WARNING.test(line);
   return {tone: stops.length > 0 ? "bad" : told.length > 0 ? "caution" : "good", headline, warnings: told, others: sentences.filter((line) => !shown(line))};

@@ -24,4 +24,4 @@ export function wishWords({wish}) {
 }
 
 /** What a fit says of the wish. */
-export const isWish = (line) => line.startsWith("You wish for");
+export const isWish = (line) => line.startsWith("Your target is");

@@ -135,7 +135,7 @@ for (const browser of browsers) {
 
   walk("a chain that jumped a tooth stops until it is read", browser, async (visit) => {
     await visit.click("A chain that jumped a tooth");
-    await result(visit, "jumped over teeth");
+    await result(visit, "skipped teeth");
     await visit.text("#step-result .said.bad", "Mark 32 is mark 1 again, yet 6 mm lower: about one link. Did a chain jump?");
     await visit.text("#way-part", "Measure again first");
     assert.ok(await isDisabled(visit, "Type numbers in") && await isDisabled(visit, "Compensate each program"));
@@ -157,7 +157,7 @@ for (const browser of browsers) {
 
   walk("a tape that is too long asks which of two causes it is; nothing wrong asks for nothing", browser, async (visit) => {
     await visit.click("A tape that is too long");
-    await visit.text("#step-result .said.caution", "marks cannot tell which");
+    await visit.text("#step-result .said.caution", "cannot show which");
     await visit.text("#way-part button", "Type numbers in");
     assert.ok(await isDisabled(visit, "Type numbers in"));
     await visit.click("Machine");

@@ -157,7 +157,7 @@ Expected other_sheet(Session& session, Dice& dice) {
   for (MeasuredPoint& point : std::get<MeasuredGrid>(session).points)
     point.mark = {std::round(dice.uniform(-1000.0, 1000.0)),
                   std::round(dice.uniform(-500.0, 500.0))};
-  return whole("are they of another sheet");
+  return whole("are they from another sheet");
 }
 
 Expected rows_exchanged(Session& session, Dice& dice) {
@@ -211,8 +211,8 @@ Expected hole_without_minus(Session& session, Dice& dice) {
     if (hole.commanded.x_mm > -100.0) continue;
     hole.commanded.x_mm = -hole.commanded.x_mm;
     // If another hole is there already, both are reported.
-    return {{fmt::format("hole {} was cut at", hole.name),
-             fmt::format("as hole {}: is a minus missing", hole.name)},
+    return {{fmt::format("holes {} and", hole.name),
+             fmt::format("and {} are at the same spot", hole.name)},
             "",
             true};
   }
@@ -274,13 +274,13 @@ std::vector<Kind> all_kinds() {
   constexpr double kToInches = 1.0 / 25.4;
   using enum Way;
   return {
-      {"x mirrored", commands, marks("sign of x_mm looks turned", -1.0, 1.0)},
+      {"x mirrored", commands, marks("sign of x_mm looks reversed", -1.0, 1.0)},
       {"y mirrored", commands, marks("counted downwards", 1.0, -1.0)},
-      {"both mirrored", commands, marks("both look turned round", -1.0, -1.0)},
+      {"both mirrored", commands, marks("both look reversed", -1.0, -1.0)},
       {"x and y exchanged", commands, axes_exchanged()},
-      {"no minus on x", commands, without_minus("minus signs of x_mm look left out", true, false)},
-      {"no minus on y", commands, without_minus("minus signs of y_mm look left out", false, true)},
-      {"no minus at all", commands, without_minus("all the minus signs look left out", true, true)},
+      {"no minus on x", commands, without_minus("minus signs of x_mm seem to be missing", true, false)},
+      {"no minus on y", commands, without_minus("minus signs of y_mm seem to be missing", false, true)},
+      {"no minus at all", commands, without_minus("all minus signs seem to be missing", true, true)},
       {"marks in inches", commands, marks("x_mm and y_mm look like inches", kToInches, kToInches)},
       {"marks in centimetres", commands, marks("x_mm and y_mm look like centimetres", 0.1, 0.1)},
       {"all x from the 100 mm mark",
@@ -317,13 +317,13 @@ std::vector<Kind> all_kinds() {
        lengths,
        every_point("left_mm and right_mm look swapped",
                    [](auto& p) { std::swap(p.lengths->left_mm, p.lengths->right_mm); })},
-      {"x mirrored", lengths, marks("sign of x_mm looks turned", -1.0, 1.0)},
+      {"x mirrored", lengths, marks("sign of x_mm looks reversed", -1.0, 1.0)},
       {"y mirrored", lengths, marks("counted downwards", 1.0, -1.0)},
       {"x and y exchanged", lengths, axes_exchanged()},
       {"lengths in inches", lengths, chain_lengths("the lengths look like inches", kToInches)},
       {"lengths in centimetres", lengths, chain_lengths("the lengths look like centimetres", 0.1)},
       {"all in inches", lengths, chain_lengths("these look like inches", kToInches, kToInches)},
-      {"no minus on x", lengths, without_minus("minus signs of x_mm look left out", true, false)},
+      {"no minus on x", lengths, without_minus("minus signs of x_mm seem to be missing", true, false)},
       {"a row left out", lengths, slipped(lengths, true)},
       {"left and right in a row",
        lengths,
@@ -353,8 +353,8 @@ std::vector<Kind> all_kinds() {
                    })},
       {"lengths in inches", belts, belt_lengths("these lengths look like inches", kToInches)},
       {"lengths in centimetres", belts, belt_lengths("these lengths look like centimetres", 0.1)},
-      {"a diagonal twice over", belts, diagonal("was it taped twice over,", 2.0)},
-      {"half a diagonal", belts, diagonal("was only half of it taped, of", 0.5)},
+      {"a diagonal twice over", belts, diagonal("is it double the true", 2.0)},
+      {"half a diagonal", belts, diagonal("is it half of the true", 0.5)},
       {"a digit wrong", belts, belt_digit_wrong}};
 }
 
@@ -394,7 +394,7 @@ std::vector<std::string> false_alarms(Way way, std::uint64_t seed) {
   // Friction and drift separate a mark's two visits too: the report of a disagreement is right, and
   // not a slip.
   std::erase_if(messages, [](const std::string& message) {
-    return message.find("was measured twice, also at") != std::string::npos;
+    return message.find("was also measured at") != std::string::npos;
   });
   return messages;
 }
