@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sources of a map, a diagnosis or a compensated program. It has neither a date nor a folder:
-/// the same input gives the same bytes on any machine.
+/// The sources of a map, a diagnosis or a compensated program. Dates and folders are left out, so
+/// the same input produces the same bytes on any machine.
 #pragma once
 
 #include <string>

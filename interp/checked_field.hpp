@@ -29,7 +29,7 @@ namespace chaintrue::interp {
 class CheckedField {
  public:
   using Value = std::array<double, 2>;
-  /// Empty where there is no value.
+  /// Empty if there is no value.
   using Function = std::function<std::optional<Value>(double x, double y)>;
   struct Options {
     double spacing = 1.0;  ///< of the lattice, > 0
@@ -42,7 +42,7 @@ class CheckedField {
 
   CheckedField(Function function, const Options& options);
 
-  /// The interpolated value; empty where the caller computes it.
+  /// The interpolated value; empty if the caller computes it.
   [[nodiscard]] std::optional<Value> value(double x, double y);
   /// Largest second derivative along any direction by second differences of the cell's nodes;
   /// infinite where `value` is empty.

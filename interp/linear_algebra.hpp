@@ -144,7 +144,7 @@ class PivotedCholesky {
   Eigen::Transpositions<Eigen::Dynamic> exchanged_;
 };
 
-/// M = V diag(values) V' of a symmetric matrix of which the lower triangle is read; values ascending, the columns
+/// M = V diag(values) V' of a symmetric matrix, from its lower triangle; values ascending, the columns
 /// of V orthonormal.
 class SymmetricEigen {
  public:
@@ -156,7 +156,7 @@ class SymmetricEigen {
   Eigen::VectorXd values_;
   Eigen::MatrixXd vectors_;
 };
-/// F with F F' = C of a covariance, which may be semidefinite but for rounding; a column for each
+/// F with F F' = C of a covariance, which may be semidefinite up to rounding; a column for each
 /// direction, the widest last.
 [[nodiscard]] Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& covariance);
 

@@ -25,7 +25,7 @@ struct NearestPoint {
 class ConvexHull {
  public:
   /// The hull of `points` by A. M. Andrew's monotone chain (Inf. Proc. Letters 9 (1979) 216-219).
-  /// Throws std::invalid_argument where the points are not finite or lie on one line.
+  /// Throws std::invalid_argument if the points are not finite or lie on one line.
   explicit ConvexHull(const std::vector<PlanePoint>& points);
 
   [[nodiscard]] const std::vector<PlanePoint>& corners() const { return corners_; }
@@ -52,7 +52,7 @@ struct RegionPolicy {
 /// `surface` at (x, y) under the policy: linear up to edge_width outside the hull, but for `clamp`.
 /// Continuous across the hull and through every policy's zones; `fade` and `linear` are C1 across the
 /// hull's edges. The gradient next to an edge uses a difference of the surface's gradient along the
-/// edge (error about 1e-6 of a second derivative). Zero where the place is not finite.
+/// edge (error about 1e-6 of a second derivative). Zero if the place is not finite.
 [[nodiscard]] ValueGradient evaluate(const Surface& surface,
                                      const ConvexHull& hull,
                                      const RegionPolicy& policy,

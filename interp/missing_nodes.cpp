@@ -39,7 +39,7 @@ std::optional<LineFill> along(const std::vector<double>& nodes,
   return fill;
 }
 
-/// R C f of (1); empty where a node that it needs is missing.
+/// R C f of (1); empty if a node that it needs is missing.
 std::optional<double> across(const Eigen::Ref<const Eigen::MatrixXd>& values,
                              const LineFill& row,
                              const LineFill& column) {

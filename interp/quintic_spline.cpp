@@ -24,7 +24,7 @@ struct Support {
 };
 
 Axis make_axis(const std::vector<double>& nodes) {
-  const SplineAxis checked(nodes);  // throws where the nodes are no axis
+  const SplineAxis checked(nodes);  // throws if the nodes are no axis
   const auto n = static_cast<int>(nodes.size());
   Axis axis;
   axis.degree = n >= 6 ? 5 : std::min(n - 1, 3);

@@ -118,7 +118,7 @@ struct PenalisedFit {
   double inverse_lambda = 1.0;  ///< averaged as corrected_covariance is: the prior variance
   double sigma2 = 1.0;
   double edf = 0.0;                 ///< trace of the hat matrix
-  double minus_two_log_reml = 0.0;  ///< V of (3), plus the prior's terms where there is one
+  double minus_two_log_reml = 0.0;  ///< V of (3), plus the prior's terms if there is one
 };
 
 /// Residuals of m rows left out of the fit, smoothing held fixed: (I - H_gg)^-1 (y_g - X_g b), from
@@ -135,7 +135,7 @@ struct PenalisedFit {
     const Eigen::Ref<const Eigen::MatrixXd>& root,
     double sigma2);
 
-/// Prior on lambda and, where it is unknown, on sigma2.
+/// Prior on lambda and, if unknown, on sigma2.
 enum class SmoothingPrior {
   none,             ///< plain REML
   avoids_boundary,  ///< flat in the standard deviations lambda^(-1/2) and sigma; see above

@@ -16,7 +16,7 @@ inline constexpr int kMostSteps = 100;
 
 struct SearchResult {
   Theta theta;
-  /// The search's limits; equal where there is nothing to search.
+  /// The search's limits; equal if there is nothing to search.
   Theta low;
   Theta high;
   State state;  ///< with the derivatives

@@ -96,7 +96,7 @@ class SplineAxis {
   AxisEnds ends_;
   std::vector<double> step_;           // h_i
   std::vector<double> inverse_step_;   // 1 / h_i
-  std::vector<double> lower_;          // below the diagonal, divided by nothing
+  std::vector<double> lower_;          // below the diagonal, not divided
   std::vector<double> upper_;          // above the diagonal, divided by the pivot of its row
   std::vector<double> inverse_pivot_;  // 1 / pivot after elimination
   bool straight_line_ = false;

@@ -39,7 +39,7 @@ PerSide<ChainNumbers<N>> moved_chains(const EquilibriumConstants& m,
   return chains_at(m, inputs, moved);
 }
 
-/// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not converge.
+/// Newton on (1) and (2) from `q`. \returns iterations, or 0 if it did not converge.
 template <bool kRotates>
 int converge_inverse(const EquilibriumConstants& m, BedPoint p, Unknowns<double>& q) {
   for (int n = 1; n <= hanging::kMostSteps; ++n) {

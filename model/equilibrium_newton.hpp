@@ -70,7 +70,7 @@ int converge_by_continuation(const EquilibriumConstants& m,
   });
 }
 
-/// From straight chains, or by continuation where that finds nothing. \param converge as above
+/// From straight chains, or by continuation if that fails. \param converge as above
 /// \returns steps, or 0
 template <class Converge>
 int converge_from_start(const EquilibriumConstants& m,

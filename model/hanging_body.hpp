@@ -111,7 +111,7 @@ inline bool advance(const BodyForces& body, const Unknowns<double>& step, Unknow
          small(kNRight, force) && std::abs(step[kTurn]) < kTurnStepRad;
 }
 
-/// Newton from `q`. \returns steps, or 0 where it does not converge.
+/// Newton from `q`. \returns steps, or 0 if it does not converge.
 template <class Equations>
 int converge(const Equations& equations, const BodyForces& body, Unknowns<double>& q) {
   for (int n = 1; n <= kMostSteps; ++n) {
@@ -144,7 +144,7 @@ Unknowns<Dual<N>> with_derivatives(const Equations& equations,
 
 /// Follows solutions in steps that Newton can take, where a cold start finds none.
 /// \param converge int(double share, State&): steps to the solution at that share of the way, or 0
-/// \returns all steps, or 0 where the end is not reached
+/// \returns all steps, or 0 if the end is not reached
 template <class State, class Converge>
 int follow(State& q, const Converge& converge) {
   constexpr double kShortest = 1e-4;

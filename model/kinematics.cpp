@@ -50,7 +50,7 @@ void require_sound(const EquilibriumParameters& p) {
   require("sled_weight_n", p.sled_weight_n, std::numeric_limits<double>::min(), kMost);
   require("chain_weight_n_per_mm", p.chain_weight_n_per_mm, 0.0, 1.0);
   require("chain_compliance_per_n", p.chain_compliance_per_n, 0.0, 0.01);
-  require("tilt_rad", p.tilt_rad, -1.55, 1.55);  // on a flat frame nothing hangs
+  require("tilt_rad", p.tilt_rad, -1.55, 1.55);  // on a flat frame the chains do not hang
   require("beam_flexibility_mm_per_n", p.beam_flexibility_mm_per_n, 0.0, 10.0);
   require("side_force_n", p.side_force_n, -kMost, kMost);
   require("sag_correction", p.sag_correction, -kInfinity, kInfinity);

@@ -129,7 +129,7 @@ class Kinematics {
   [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const;
 };
 
-/// \throws std::invalid_argument where a parameter is not finite or out of its range, with its name
+/// \throws std::invalid_argument if a parameter is not finite or out of its range, with its name
 /// and value.
 [[nodiscard]] std::unique_ptr<const Kinematics> make_kinematics(
     const EquilibriumParameters& parameters, Model model = Model::elastic);

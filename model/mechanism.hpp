@@ -58,7 +58,7 @@ struct MechanismParameter {
 /// How the tool came to a position. Vectors have an entry for each length, or none.
 struct MechanismVisit {
   int order = 0;  ///< the visit's number
-  /// +1 where the length was paid out to get there, -1 where it was taken in; empty: paid out.
+  /// +1 if the length was paid out to get there, -1 if it was taken in; empty: paid out.
   std::vector<double> direction = {};
   /// Whether a motor pulled its length tight at the reading while others held; empty: none did.
   std::vector<bool> pulled = {};
@@ -74,8 +74,8 @@ struct LengthsPrediction {
   Eigen::MatrixXd by_parameter;
 };
 
-/// Why there are no lengths at a position, or no position for lengths; each mechanism has reasons of
-/// its own.
+/// Why there are no lengths at a position, or no position for lengths; each mechanism defines its
+/// reasons.
 using MechanismFailure = Failure<MechanismReason>;
 [[nodiscard]] MechanismFailure mechanism_failure(NamedReason auto reason) { return named(reason); }
 template <NamedReason Reason>
@@ -119,7 +119,7 @@ class Mechanism {
   /// the tool: they are what a controller pays out for a command.
   [[nodiscard]] virtual std::span<const std::string_view> lengths() const = 0;
   [[nodiscard]] virtual std::span<const MechanismParameter> parameters() const = 0;
-  /// theta, in the order of parameters(); 0 where nothing is stated yet.
+  /// theta, in the order of parameters(); 0 if not stated.
   [[nodiscard]] virtual const Eigen::VectorXd& values() const = 0;
   /// Positions at which predict() succeeds for a valid mechanism.
   [[nodiscard]] virtual MechanismExtent extent() const = 0;
@@ -218,8 +218,7 @@ class MechanismBase : public Mechanism {
   std::vector<AppliedEffect> applied_;
 };
 
-/// One sigma of the movement of a parameter about which nothing is known beforehand, in its own
-/// unit.
+/// One sigma of the movement of a parameter without prior knowledge, in its unit.
 inline constexpr double kParameterShiftSigma = 5.0;
 
 /// (1) at other values of the parameters.

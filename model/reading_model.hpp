@@ -145,7 +145,7 @@ using VisitFailure = Failure<PoseReason, std::size_t>;
 /// `order`. Hysteresis follows the sign of the change of a chain's length since the visit before,
 /// taken before hysteresis and pitch error; no change keeps the sign, the first visit counts as
 /// paid out (+1). `on_progress` is called after each visit with the number done. \throws
-/// std::invalid_argument where two visits have the same number.
+/// std::invalid_argument if two visits have the same number.
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const ReadingModel& model,
     std::span<const Visit> visits,

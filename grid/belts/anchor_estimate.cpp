@@ -19,8 +19,7 @@ using model::kBelts;
 
 namespace {
 
-/// A frame with larger residuals is a wrong minimum or holds gross errors: other starts are tried
-/// too.
+/// A frame with larger residuals is a wrong minimum or has gross errors, so other starts are tried too.
 constexpr double kPlausibleSpreadMm = 10.0;
 
 double least_spread_mm(const MeasuredBelts& belts) {

@@ -301,7 +301,7 @@ std::string question_of(double distance_mm, double by_belts_mm) {
     least = cost;
     question = slip.question;
   }
-  // A tape is held at its 100 mm mark, since its hook is loose.
+  // Tapes are often held at the 100 mm mark because the hook is loose.
   constexpr double kHeldAtMm = 100.0;
   constexpr double kHeldNearMm = 20.0;
   const double longer_mm = distance_mm - by_belts_mm;

@@ -71,7 +71,7 @@ struct DistanceQuestion {
 struct OtherUnit {
   const char* word;
   double factor;  ///< makes millimetres
-  double found;   ///< the median length, as it stands
+  double found;   ///< the median length, unchanged
 };
 /// If no frame is as small as these lengths.
 [[nodiscard]] std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts);

@@ -59,10 +59,10 @@ struct TapedRows {
   Eigen::MatrixXd by_mark;      ///< n x 2 N
   Eigen::MatrixXd by_sheet;     ///< n x 3, by its own sheet's shift in x and y, and its turn
   std::vector<model::MarkPoint> marks;  ///< of all holes, from where the first set's commands count
-  Eigen::MatrixXd noise_mm2;            ///< of (1) what f^2 stands before
+  Eigen::MatrixXd noise_mm2;            ///< the factor of f^2 in (1)
   Eigen::MatrixXd shared_mm2;           ///< of (1) what sizes, zeros and sheets share
 };
-/// Empty where the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
+/// Empty if the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
 /// machine whose anchors in force are not known.
 [[nodiscard]] std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
                                                   const AnchorVector& anchors,

@@ -120,7 +120,7 @@ class BeltSheet final : public SheetInFrame {
   }
 
   [[nodiscard]] model::ToolPosition in_frame(BedPoint on_sheet) const override {
-    // Each round takes the error down to the displacement's slope, a few thousandths of it.
+    // Each round reduces the error to a few thousandths, the slope of the displacement.
     constexpr int kMostRounds = 40;
     constexpr double kConvergedMm = 1e-10;
     const MarkPoint there = sheet.to_mark(on_sheet);

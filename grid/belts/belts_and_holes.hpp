@@ -49,7 +49,7 @@ inline constexpr double kBeltScaleSigma = 0.02;
 /// One sigma of a stated anchor coordinate without belt readings: the accuracy that six places
 /// about the middle give (docs/maslow4.md).
 inline constexpr double kStatedAnchorMm = 50.0;
-/// (2) takes a second for this many.
+/// Solving (2) takes a second for this many.
 inline constexpr std::size_t kMostTapedByBelts = 400;
 
 /// A fitted hole.

@@ -22,7 +22,7 @@
 namespace chaintrue::grid {
 
 struct BeltsError {
-  std::optional<ErrorSummary> today;  ///< empty where the anchors in force are not known
+  std::optional<ErrorSummary> today;  ///< empty if the anchors in force are not known
   ErrorSummary expected;
   model::BedPoint worst_at;  ///< of `expected`
 };

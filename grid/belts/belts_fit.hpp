@@ -61,7 +61,7 @@ struct AnchorCoordinate {
 struct BeltResidual {
   double residual_mm = 0.0;  ///< read less fitted
   bool counts = true;        ///< false: rejected
-  double sigmas = 0.0;       ///< against a fit without it; 0 if nothing else determines it
+  double sigmas = 0.0;       ///< relative to a fit without it; 0 if no other reading determines it
   double deleted_residual_mm = 0.0;  ///< minus the prediction from all others
 };
 
@@ -112,7 +112,7 @@ struct BeltsFit {
   model::PerBelt<double> rms_of_mm;     ///< of those that count
   std::vector<FittedPlace> places;      ///< of each point
   std::vector<BadBeltReading> bad;      ///< rejected, the worst first
-  std::vector<std::size_t> bad_points;  ///< of which fewer than three readings agree
+  std::vector<std::size_t> bad_points;  ///< where fewer than three readings agree
   std::optional<BeltScale> scale;       ///< empty: not known
   BeltPrediction one_left_out;
   std::optional<BeltPrediction>

@@ -29,7 +29,7 @@ struct AgainstCommands {
   /// Belts that, changed for one another, agree with the commands at least four times as well.
   std::optional<std::vector<BeltPair>> swapped;
 };
-/// Empty where no anchors are in force, or no place has a command that they reach.
+/// Empty if no anchors are in force, or no place has a command that they reach.
 [[nodiscard]] std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts);
 
 /// The stated anchors are not those of the measured frame. Either a stated coordinate is many

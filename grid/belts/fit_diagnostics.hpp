@@ -72,7 +72,7 @@ class FitDiagnostics {
   struct Expected {
     double mm = 0.0;
     double variance_mm2 = 0.0;
-    double with_scale = 0.0;  ///< covariance with the scale's logarithm, where there is one
+    double with_scale = 0.0;  ///< covariance with the scale's logarithm, if there is one
   };
   /// Empty if too few readings determine one of its ends.
   [[nodiscard]] std::optional<Expected> expected(const MeasuredBelts& belts,

@@ -108,7 +108,7 @@ BeltsFit fit_report(const MeasuredBelts& belts,
 
 namespace {
 
-/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing where a belt
+/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt
 /// that it takes does not count.
 void predict_point(const MeasuredBelts& belts,
                    std::size_t point,

@@ -22,8 +22,7 @@ namespace chaintrue::grid::belts {
                                   const FitDiagnostics& view,
                                   const Eigen::MatrixXd& covariance);
 
-/// Each place by the anchors without it. Rejected readings neither predict nor are
-/// predicted.
+/// Each place predicted by anchors fitted without it. Rejected readings are excluded.
 [[nodiscard]] BeltPrediction predict_one_by_one(const MeasuredBelts& belts,
                                                 const FitDiagnostics& view);
 /// A fit with what counts given, and the readings as its anchors explain them.
@@ -32,7 +31,7 @@ struct Refitted {
   MeasuredBelts belts;
 };
 using Refit = std::function<std::optional<Refitted>(const AnchorFit& from)>;
-/// Every second place, in the order of the visits, by the others, and those by these. Empty where a
+/// Every second place, in the order of the visits, by the others, and those by these. Empty if a
 /// half has fewer than kFewestBeltPoints, or has no fit.
 [[nodiscard]] std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
                                                               const AnchorFit& frame,

@@ -93,7 +93,7 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
 [[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
 /// For all four belts.
 [[nodiscard]] model::PerBelt<bool> pulled_belts(const BeltPoint& point);
-/// The pull that sizes of effects refer to; empty where no point has one.
+/// The pull that sizes of effects refer to; empty if no point has one.
 [[nodiscard]] std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);
 /// Over `reference`; 1 where either is not known.
 [[nodiscard]] double pull_over(const std::optional<BeltPull>& reference, const BeltPoint& point);

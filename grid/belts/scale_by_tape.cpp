@@ -64,7 +64,7 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
   return frame;
 }
 
-/// One sigma of the scale with this distance as well; infinity where it is not determined.
+/// One sigma of the scale with this distance as well; infinity if it is not determined.
 double sigma_with(const MeasuredBelts& belts,
                   const belts::FitDiagnostics& view,
                   BeltDistance& distance) {

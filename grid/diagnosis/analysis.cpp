@@ -116,7 +116,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   return {};
 }
 
-/// Fits the member that names its class: settings and sizes belong together.
+/// Fits the named member of each class, so that settings and sizes are consistent.
 void speak_of_leaders(const RegressorSystem& system,
                       const ModelComparison& comparison,
                       Decision& decision) {

@@ -34,7 +34,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
       std::max(std::sqrt(square / as_double(frame.checks)), belts::kLeastSpreadMm);
 }
 
-/// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty where the
+/// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty if the
 /// distances do not converge.
 std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_causes,
                                               const AveragedAnchors& averaged,
@@ -61,7 +61,7 @@ std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_cause
   return factor.inverse();
 }
 
-/// Within the parameter's range: an average over models may lie slightly outside.
+/// Clamped, because an average over models may be slightly outside the parameter's range.
 CauseInAnchorFit cause_in_fit(const AveragedCause& own) {
   CauseInAnchorFit result;
   result.effect = own.cause.cause.effect->id;

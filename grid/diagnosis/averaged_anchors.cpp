@@ -149,7 +149,7 @@ class Averaging {
   }
 
   AveragedAnchors averaged() {
-    (void)comparison_.best();  // throws where there is none
+    (void)comparison_.best();  // throws if there is none
     std::vector<double> log_weights;
     for (const CandidateModel& model : comparison_.models)
       log_weights.push_back(model.log_weight + log_prior_change(model));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kCutDirections = 16;
 constexpr double kShareLeftOut = 0.25;
-/// Places whose scatter across their best line is less than this share of that along it lie on a line.
+/// Places are on a line if their scatter across the best line is less than this share of that along it.
 constexpr double kOnALine = 1e-3;
 /// Enough models for 99 % of the probability with 60 marks of a real scan, whose pattern dozens of
 /// neighbouring discrepancies share.

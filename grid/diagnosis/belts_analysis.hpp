@@ -16,7 +16,7 @@ struct BeltsAnalysis : Analysis {
   MeasuredBelts belts;       ///< without distances, which carry no information about a cause
   belts::AnchorFit alone;    ///< anchors and places without a cause
   belts::AnchorFit frame;    ///< about which the system is linear, with the known causes
-  double sigma_mm = 0.0;     ///< of one belt's reading, as it is whitened
+  double sigma_mm = 0.0;     ///< of one belt's reading, as used for whitening
   AveragedAnchors averaged;  ///< the same for a fit and a diagnosis of the same belts
 };
 

@@ -38,7 +38,7 @@ struct BeltPlacePicture {
 /// The distance of the tool from its believed position by the upper two belts, over the measured
 /// places. Each includes the remaining uncertainty of the true anchors.
 struct ToolError {
-  double stated_mm = 0.0;  ///< rms with the anchors as stated; 0 where none are
+  double stated_mm = 0.0;  ///< rms with the stated anchors; 0 if none are stated
   double before_mm = 0.0;  ///< rms, anchors fitted alone
   double after_mm = 0.0;   ///< rms of the remaining uncertainty, causes and anchors
   /// One sigma of the scale per metre; empty if no tape determines it.
@@ -70,7 +70,7 @@ struct BeltsFindings {
   std::optional<BeltScale> scale;
   std::optional<FirmwareFit> firmware_fit;
   std::vector<BeltPlacePicture> places;  ///< in the order of the file
-  std::optional<SecondPass> second_pass;  ///< if it separates what nothing less does
+  std::optional<SecondPass> second_pass;  ///< if it separates causes that nothing less separates
 };
 
 }  // namespace chaintrue::grid::diagnosis

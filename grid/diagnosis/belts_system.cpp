@@ -301,7 +301,7 @@ RegressorSystem system_of(const MeasuredBelts& belts,
                           const ObservationSet& session,
                           const std::vector<CauseId>& causes,
                           const std::vector<SizedCause>& known) {
-  // Two rows more than anchors are needed, or nothing is left to judge by.
+  // Two rows more than anchors are needed; otherwise no degrees of freedom remain.
   constexpr Eigen::Index kFewestChecks = 3;
   // Two bad readings at a place, or at neighbouring places, can mask each other.
   constexpr std::size_t kBeyondTheBest = 8;

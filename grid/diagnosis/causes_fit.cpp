@@ -103,7 +103,7 @@ double least_known_size(const std::vector<Cause>& causes) {
   return largest;
 }
 
-/// A map for each set of causes that may act on the readings instead; empty where the fit fails.
+/// A map for each set of causes that may act on the readings instead; empty if the fit fails.
 std::vector<std::optional<CompensationMap>> other_maps(
     const Measured& measured,
     const JointFitOptions& options,

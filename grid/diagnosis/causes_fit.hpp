@@ -84,7 +84,7 @@ struct CausesFit {
   std::vector<Cause> built_on;         ///< empty: the plain map
   std::vector<OfferedCause> offered;
   std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
-  /// Rms of (2) at the tool over the measured part, mm; zero where it is too small to be known, and nothing is added.
+  /// Rms of (2) at the tool over the measured part, mm; zero if it is too small to be known, and nothing is added.
   double left_open_mm = 0.0;
   /// Why no cause could be tried; empty if it was.
   std::string not_weighed;

@@ -25,7 +25,7 @@ namespace chaintrue::grid::diagnosis {
 enum class Coordinate {
   x,              ///< mm
   y,              ///< mm
-  across,         ///< mm, over the bed in a direction of its own
+  across,         ///< mm, over the bed in any direction
   border,         ///< mm, from the nearest border of the bed inwards
   length_left,    ///< mm
   length_right,   ///< mm

@@ -35,7 +35,7 @@ class CovarianceRoot {
   }
   /// V^(-1/2), rows x rows.
   [[nodiscard]] Eigen::MatrixXd inverse() const;
-  /// The block of V^(-1) with so many rows and columns from these on.
+  /// The block of V^(-1) of this size that starts at these indices.
   [[nodiscard]] Eigen::MatrixXd precision_block(Eigen::Index row,
                                                 Eigen::Index rows,
                                                 Eigen::Index column,

@@ -16,7 +16,7 @@ using Key = std::vector<std::size_t>;  ///< classes that act, ascending
 struct Grouped {
   double probability = 0.0;
   double discrepancy = 0.0;
-  const CandidateModel* best = nullptr;  ///< without a discrepancy, where there is one
+  const CandidateModel* best = nullptr;  ///< without a discrepancy, if there is one
   const CandidateModel* with_discrepancy = nullptr;
 };
 
@@ -33,7 +33,7 @@ class Decider {
   Decision run(bool detected) {
     group();
     marginals();
-    // A pattern exceeds noise by itself, and can escape a test against noise alone.
+    // A pattern exceeds noise on its own and can pass a test against noise alone.
     const bool beyond_noise = detected || result_.discrepancy > kDiscrepancyLikely;
     if (beyond_noise && result_.caused > kCaused) {
       name_best();
@@ -202,7 +202,7 @@ class Decider {
     keep_only(sure);
   }
 
-  /// The likeliest group in which all of these act; empty where none does. `causes` ascending.
+  /// The most probable group in which all of these act; empty if none does. `causes` ascending.
   [[nodiscard]] const Grouped* likeliest_with(const Key& causes) const {
     const Grouped* best = nullptr;
     for (const auto& [key, grouped] : groups_) {

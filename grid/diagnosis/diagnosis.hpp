@@ -102,7 +102,7 @@ struct CauseGivenLaw {
 /// verdict.
 struct Unexplained {
   double probability = 0.0;
-  double signal_to_noise = 0.0;  ///< of the pattern as it is estimated
+  double signal_to_noise = 0.0;  ///< of the estimated pattern
   double rms_mm = 0.0;           ///< of the tool, at the points (or of the distances)
   double share = 0.0;            ///< of the mean square of what the settings leave
   /// The coordinate that it is a function of, as in LeftOver; empty for a function of the place.
@@ -187,7 +187,7 @@ struct CalibratedSetting {
 struct HeldOut {
   double rms_mm = 0.0;
   double percentile_95_mm = 0.0;
-  double low_mm = 0.0;  ///< 90 % interval of the rms, blocks drawn anew
+  double low_mm = 0.0;  ///< 90 % interval of the rms, by resampling blocks
   double high_mm = 0.0;
 };
 
@@ -216,9 +216,9 @@ enum class MeasurementKind { point, revisit, reading, distance };
 struct NextMeasurement {
   MeasurementKind kind = MeasurementKind::point;
   std::string words;                     ///< point, revisit and distance: what to do, for a person
-  std::string side;                      ///< of a reading, where it has one
+  std::string side;                      ///< of a reading, if it has one
   std::optional<model::MarkPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
-  double sigma = 0.0;                    ///< of a reading: how well it has to be read
+  double sigma = 0.0;                    ///< of a reading: required accuracy
   /// Probability that the right cause is then named alone, this and all above it done.
   double raises_probability_to = 0.0;
   /// For a distance: its ends, as in the holes' file. A hole to be cut has no name yet and is
@@ -275,14 +275,14 @@ struct Stability {
 
 /// The result without a quarter of the bed, or of one session alone.
 struct PartFinding {
-  double towards_rad = 0.0;  ///< where the quarter lies, from the middle; from x towards y
+  double towards_rad = 0.0;  ///< direction of the quarter from the middle; from x towards y
   std::string session;       ///< the session's name; empty for a quarter
   std::size_t units = 0;     ///< those left out with a quarter, or those of the session
   Hypothesis likeliest;      ///< the likeliest cause, or "nothing" where none is likelier than not
   std::vector<Hypothesis> named;  ///< what is named, with its probability here
 };
 
-/// A parameter of the plotter's mechanism, in its own unit.
+/// A parameter of the plotter's mechanism, in its unit.
 struct DrawnSetting {
   std::string name;  ///< "zero_left_mm"
   double set = 0.0;

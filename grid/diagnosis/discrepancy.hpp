@@ -36,14 +36,14 @@ namespace chaintrue::grid::diagnosis {
 enum class FieldEntry {
   chains,
   tool,
-  lengths,  ///< each length of the mechanism by a function of its own; of place or visit
+  lengths,  ///< each length of the mechanism by a separate function, of place or visit
 };
 
 struct DiscrepancyField {
   /// For the border: a drop over it moves the tool outwards, by one function of the distance from
   /// the side for x and from the top or bottom for y.
   Coordinate of = Coordinate::place;
-  double length = 0.0;  ///< in the unit of what it is a function of
+  double length = 0.0;  ///< in the unit of its variable
   FieldEntry entry = FieldEntry::chains;
   std::optional<double> direction_rad{};  ///< of entry: of (left, right), or of (x, y)
   double across_rad = 0.0;                ///< from x, of Coordinate::across
@@ -55,7 +55,7 @@ struct DiscrepancyField {
 struct DiscrepancyKernel {
   std::vector<DiscrepancyField> fields;  ///< equal in variance
   double prior = 0.0;                    ///< share among all kernels
-  /// Whether its fields disturb each length of the mechanism by itself.
+  /// Whether its fields disturb each length of the mechanism separately.
   [[nodiscard]] bool of_lengths() const {
     return !fields.empty() && fields.front().entry == FieldEntry::lengths;
   }
@@ -111,7 +111,7 @@ struct FieldArgument {
                                       const FieldArgument& b);
 
 /// How a field enters: d of its direction; (1, 1) of the border, where both components are one
-/// field's; nothing where the components are independent.
+/// field's; nothing if the components are independent.
 [[nodiscard]] std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
 
 /// T at a place.

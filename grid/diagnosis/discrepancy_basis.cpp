@@ -75,7 +75,7 @@ std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
   return result;
 }
 
-/// R^-1 of what a field makes of the kept rows, through either component of its entry.
+/// R^-1 times a field's effect on the kept rows, through either component of its entry.
 struct Components {
   Eigen::MatrixXd first, second;  ///< N x r
 };
@@ -297,7 +297,7 @@ DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double s
     const double own = on_(k) + shift;
     const double before = k > 0 ? subdiagonal_(k - 1) : 0.0;
     if (k > 0) result.above(k) = before / std::sqrt(d);
-    // J is positive but for rounding
+    // J is positive up to rounding
     d = std::max(k > 0 ? own - before * before / d : own, shift);
     result.on(k) = 1.0 / std::sqrt(d);
     result.log_det += std::log(d / shift);

@@ -9,7 +9,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
+/// Density of a half-Cauchy over the logarithm of the strength, up to a constant.
 double cauchy_weight(double strength) {
   return strength / (1.0 + std::pow(strength / kDiscrepancyScale, 2));
 }
@@ -29,7 +29,7 @@ class Kernels {
     std::vector<DiscrepancyField> group;
     for (const double mm : {140.0, 250.0, 450.0}) at_any_ratio({Coordinate::place, mm}, group);
     take(group, 0.35);
-    // Each chain by itself.
+    // Each chain separately.
     for (const double mm : {250.0, 450.0, 800.0}) group.push_back({Coordinate::place, mm});
     take(group, 0.15);
     // The tool moved along x and along y by functions of x alone and of y alone, as edges, boards

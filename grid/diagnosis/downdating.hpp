@@ -34,7 +34,7 @@ struct FollowedModels {
   std::size_t most_discrepancies = 4;  ///< the likeliest
 };
 
-/// The number of readings that the remaining ones stand for.
+/// The number of readings that the remaining ones represent.
 enum class CountAs {
   themselves,
   /// Each evidence raised to the power of all rows over the remaining ones, as if the sample were

@@ -64,7 +64,7 @@ class NoiseDensity {
  private:
   struct Component {
     double anchor = 0.0;    ///< dof times the square of its scale
-    double constant = 0.0;  ///< log density but for the quadratic form, with the prior of the scale
+    double constant = 0.0;  ///< log density without the quadratic form, with the prior of the scale
   };
   [[nodiscard]] double part(const Component& component, double quadratic) const;
 
@@ -87,7 +87,7 @@ struct MarginalisedSystem {
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
   std::vector<double> discrepancy_trace;
 };
-/// Prior and density of one rejected unit of so many rows, as a natural logarithm.
+/// Natural logarithm of the prior times the density of one rejected unit with this many rows.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
 /// For all these groups; directions count separately.
 [[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
@@ -102,7 +102,7 @@ struct MarginalisedSystem {
                                     const MarginalisedSystem& marginalised,
                                     int regressor);
 /// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
-/// appears in the readings. Empty where there are none.
+/// appears in the readings. Empty if there are none.
 [[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Length of a column's kept rows in units of that noise.
 [[nodiscard]] double length_in_noise(const RegressorSystem& system,

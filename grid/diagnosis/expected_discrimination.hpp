@@ -42,7 +42,7 @@ struct Alternative {
   int discrepancy = -1;      ///< with them, as in the most probable model of these causes
   double probability = 0.0;  ///< their sum over all alternatives is 1
   Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
-  Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k but for the noise
+  Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k without the noise
 };
 
 /// The remaining sets of causes, each at its best places, by group and the most probable first,

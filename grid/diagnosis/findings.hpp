@@ -12,7 +12,7 @@ namespace chaintrue::grid::diagnosis {
 /// Probability that some cause of a class acts.
 [[nodiscard]] Hypothesis hypothesis_of(const CauseClass& members, double probability);
 [[nodiscard]] std::vector<Hypothesis> hypotheses(const Analysis& analysis);
-/// The quarters of the bed, and each session by itself.
+/// The quarters of the bed, and each session separately.
 [[nodiscard]] std::vector<PartFinding> bed_part_findings(const Analysis& analysis);
 [[nodiscard]] std::vector<PartFinding> session_findings(const Analysis& analysis,
                                                         const std::vector<std::string>& names);

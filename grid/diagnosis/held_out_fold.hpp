@@ -64,7 +64,7 @@ class HeldOutFolds {
 
 /// Groups of units that are held out together.
 struct HeldOutBlocks {
-  std::vector<std::vector<std::size_t>> units;  ///< empty where there are too few units
+  std::vector<std::vector<std::size_t>> units;  ///< empty if there are too few units
   bool of_the_bed = false;                      ///< or each hole with all distances that end there
 };
 

@@ -31,7 +31,7 @@ double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
   return std::sqrt(a.estimate.noise_square * sum / as_double(units.size()));
 }
 
-/// Errors of the machine as delivered, and with the sheets alone moved to where they fit.
+/// Errors of the machine as delivered, and with only the sheets' placement fitted.
 struct BeforeCalibration {
   std::vector<Eigen::Vector2d> as_stated, placed;
 };

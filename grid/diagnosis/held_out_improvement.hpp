@@ -15,7 +15,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Empty where there are too few points to hold any out.
+/// Empty if there are too few points to hold any out.
 [[nodiscard]] std::optional<HeldOutImprovement> measure_improvement(const Analysis& analysis);
 
 /// Whether a machine with the causes predicts held-out readings better than one without, with the

@@ -20,7 +20,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// For the law at the heaviest point of its curve; absent where no parts of the bed can be left out.
+/// For the law at the heaviest point of its curve; absent if no parts of the bed can be left out.
 [[nodiscard]] std::optional<LawHeldOut> held_out_with(const Analysis& analysis,
                                                       const LawEvidence& evidence,
                                                       const WeighedLaw& law);

@@ -15,7 +15,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Laws with the evidence that they come from.
+/// Laws with their evidence.
 struct LawsFound {
   std::vector<Law> laws;
   std::vector<LawEvidence> evidence;

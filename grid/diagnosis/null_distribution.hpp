@@ -23,7 +23,7 @@ class SingleScore {
               double noise_dof);
   /// The largest of all; `e` like MarginalisedSystem::e.
   [[nodiscard]] double largest(const Eigen::VectorXd& e) const;
-  /// The largest over the columns of normal equations of so many rows.
+  /// The largest over the columns of normal equations with this many rows.
   [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const;
   /// For each column of `e`.
   [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;

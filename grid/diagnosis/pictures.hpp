@@ -33,7 +33,7 @@ struct PointPicture {
   double angle_right_rad = 0.0;
   double tension_left_n = 0.0;
   double tension_right_n = 0.0;
-  /// +1 where the chain was paid out to get here, -1 where it was taken in; 0 without an order.
+  /// +1 if the chain was paid out to get here, -1 if it was taken in; 0 without an order.
   int direction_left = 0;
   int direction_right = 0;
 };

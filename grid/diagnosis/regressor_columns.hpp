@@ -23,7 +23,7 @@ class RegressorColumns {
  public:
   RegressorColumns() = default;
   explicit RegressorColumns(Eigen::Index rows) : distinct_(rows, 0) {}
-  /// Each column by itself.
+  /// Each column separately.
   RegressorColumns(Eigen::MatrixXd columns);  // NOLINT(google-explicit-constructor): it is a matrix
 
   /// factor times this.

@@ -37,7 +37,7 @@ struct PlaceGap {
 /// place) between those of the places of the tool.
 [[nodiscard]] std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId cause);
 
-/// Whether its formula steps where it sets in, so that it has no derivative by its place.
+/// Whether its formula has a step where it sets in, and so no derivative by its place.
 [[nodiscard]] bool has_step(const model::effects::Effect& effect);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -85,7 +85,7 @@ class Round {
     double low = own.values.back() - reach.below;
     double high = own.values.back() + reach.above;
     if (own.cause.effect->law != nullptr) {
-      // A formula is known to be finite between its bounds alone.
+      // A formula is known to be finite only between its bounds.
       const auto& bounds = own.cause.effect->parameters.back();
       low = std::max(low, bounds.lower);
       high = std::min(high, bounds.upper);

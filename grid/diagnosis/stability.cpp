@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestLines = 3;
 constexpr std::size_t kFewestOnLine = 3;  // on average
-/// Log odds if nothing else is left: the largest that a double can represent.
+/// Log odds if no alternative remains: the largest that a double can represent.
 constexpr double kMostOdds = 700.0;
 
 /// Units that read the chains at one mark.

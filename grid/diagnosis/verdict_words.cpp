@@ -14,7 +14,7 @@ namespace {
 /// Words for a kind of readings and its machine.
 struct Vocabulary {
   std::string_view readings;   ///< that do not distinguish causes
-  std::string_view one_each;   ///< of which some are bad
+  std::string_view one_each;   ///< some of which are bad
   std::string_view bad;        ///< before the bad ones' names
   std::string_view capital;    ///< before "show what fits"
   std::string_view undecided;  ///< before "tell it from this"

@@ -203,7 +203,7 @@ void advise(Diagnosis& d) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a repeating pattern, whatever its "
         "cause.");
-    // More marks on the same sheet cannot tell whose error it is.
+    // More marks on the same sheet cannot show which of the two is wrong.
     d.what_to_do.emplace_back(
         "Rotate the sheet by half a turn, or place the marks with a different tape, and measure "
         "again. An error that rotates with the sheet belongs to the sheet or the tape; one that "

@@ -140,7 +140,7 @@ struct UnitEstimate {
   Eigen::VectorXd residual;
   Eigen::VectorXd left_out;             ///< against a fit without the unit
   Eigen::MatrixXd left_out_covariance;  ///< of that, including the unit's own noise
-  Eigen::VectorXd left_out_with_group;  ///< empty where no group has the unit
+  Eigen::VectorXd left_out_with_group;  ///< empty if no group has the unit
   [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
 };
 
@@ -186,7 +186,7 @@ struct Estimate {
   /// Deviations of the settings from what was stated, then the scales.
   Eigen::VectorXd map_unknowns;
   FitColumns columns;
-  ResidualSurface surface;  ///< without one: scales, and splines of nothing
+  ResidualSurface surface;  ///< without one: scales only
   bool has_surface = false;
   double surface_log_evidence = 0.0;  ///< of the surface over none, if requested
   Eigen::MatrixXd covariance;         ///< of all unknowns of a map, columns.total() squared

@@ -32,7 +32,7 @@ class JointProblem {
 
   [[nodiscard]] State stated() const;
   [[nodiscard]] EstimationFailure unreachable(const UnreachablePlace& failure) const;
-  /// Fails where the machine has no pose at a place.
+  /// Fails if the machine has no pose at a place.
   tl::expected<void, EstimationFailure> linearise(const State& state);
   /// With a weight for each unit; 0 rejects it.
   [[nodiscard]] interp::PenalisedProblem weighted(const Eigen::VectorXd& weights) const;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kOfTheChain = {
     "chainpitch", "gearteeth", "chainoversprocket"};
-/// Settings that a firmware takes as 0 if they are not set.
+/// Settings that a firmware reads as 0 if they are not set.
 constexpr std::array<std::string_view, 3> kZeroUnlessSet = {
     "topbeamtilt", "leftchaintolerance", "rightchaintolerance"};
 

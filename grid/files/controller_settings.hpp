@@ -38,8 +38,8 @@ struct SettingChange {
 /// "motorspacingx 2978.4 -> 2982.7791, rotationradius 139.1 -> 138.2759"
 [[nodiscard]] std::string in_words(const std::vector<SettingChange>& changes);
 
-/// Those that say how a turn of the motor becomes millimetres of chain, and how the chain is led:
-/// chain lengths that were measured before such a change mean something else after it.
+/// Settings that define the chain per motor turn and the chain's path. Chain lengths measured
+/// before such a change have a different meaning after it.
 [[nodiscard]] std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes);
 
 }  // namespace chaintrue::grid::files

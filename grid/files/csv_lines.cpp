@@ -24,7 +24,7 @@ bool is_skipped(std::string_view line) {
   return first == line.end() || *first == '#';
 }
 
-/// Calls `visit(line, number)` for every line that holds cells. A lone CR ends a line as well.
+/// Calls `visit(line, number)` for every line with cells. A lone CR ends a line as well.
 template <class Visit>
 void for_each_line(std::string_view text, const Visit& visit) {
   text = without_byte_order_mark(text);

@@ -30,7 +30,7 @@ std::size_t size_of_one(std::string_view text, const std::array<std::string_view
   return 0;
 }
 
-/// Digits, points and commas of a number, its sign and unit taken off; empty where it is none.
+/// Digits, points and commas of a number, without its sign and unit; empty if it is not a number.
 std::string_view figures_of(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with('-') || text.starts_with('+')) text = trimmed(text.substr(1));

@@ -24,8 +24,8 @@ namespace chaintrue::grid::files {
 [[nodiscard]] bool stands_for_nothing(std::string_view text);
 
 /// Decimal commas become points, and groups of thousands are joined, if the file as a whole is
-/// unambiguous: between commas `"555,5"` must stand there too, not `"1,113"` alone; a number with a
-/// decimal point leaves all commas but those of thousands as they are.
+/// unambiguous: if commas separate cells, `"555,5"` must occur, not only `"1,113"`; if any number
+/// has a decimal point, all commas except those of thousands are unchanged.
 void write_decimal_points(char separator, std::vector<CsvRow>& rows);
 
 }  // namespace chaintrue::grid::files

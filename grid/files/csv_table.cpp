@@ -64,7 +64,7 @@ ColumnName column_name(std::string_view text) {
 
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
-/// The cell of a row that holds a column's number.
+/// The cell of a row in this column.
 struct CellOfColumn {
   std::size_t index = kNoCell;
   double factor = 1.0;

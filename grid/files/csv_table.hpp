@@ -47,7 +47,7 @@ struct CsvTable {
 };
 
 /// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
-/// problem is added where it is none, or out of range.
+/// problem is added if it is not a number or out of range.
 [[nodiscard]] std::optional<double> number_in_unit(const CsvCell& cell,
                                                    double unit,
                                                    std::string_view name,

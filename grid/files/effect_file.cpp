@@ -74,7 +74,7 @@ struct EffectText {
   std::string file;
 };
 
-/// Adds what it declares to the machine.
+/// Adds the declared effects to the machine.
 void declare(const EffectText& source, model::Machine& machine, Problems& problems) {
   const Effect& effect = declared_effect(parse_effect(source.text, source.file));
   const auto known = std::find_if(machine.declared.begin(),

@@ -16,16 +16,16 @@ namespace chaintrue::grid::files {
 /// Without the checks of model::effects::problems_of.
 [[nodiscard]] const Record<model::effects::Declaration>& declaration_record();
 
-/// A machine's "declared_effects": each is read, checked by itself and declared.
+/// A machine's "declared_effects": each is read, checked and declared.
 void read_declared(const Cursor& at, std::vector<const model::effects::Effect*>& declared);
 [[nodiscard]] std::optional<Json> write_declared(
     const std::vector<const model::effects::Effect*>& declared);
 [[nodiscard]] Expected declared_expected();
-/// Whether what a machine declares is finite on its bed, and nothing at null.
+/// Whether a machine's declared effects are finite on its bed and 0 at null.
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine);
 
 /// The effect of this name that the document's own machine declares, for a record that is read
-/// before or without that machine; null where there is none.
+/// before or without that machine; null if there is none.
 [[nodiscard]] const model::effects::Effect* declared_in_document(const Cursor& at,
                                                                  std::string_view id);
 

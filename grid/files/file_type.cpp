@@ -27,7 +27,7 @@ std::optional<std::string> type_in_head(const std::string& text) {
     if (is_type && !type && event == Event::value && parsed.is_string())
       type = parsed.get<std::string>();
     is_type = event == Event::key && depth == 1 && parsed == kTypeKey;
-    return depth == 0;  // nothing is kept
+    return depth == 0;  // nothing is stored
   };
   [[maybe_unused]] const Json nothing = Json::parse(text, look, false);
   return type;
@@ -61,7 +61,7 @@ bool is_json(std::string_view text) {
   text = without_byte_order_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;
-  // "[EMC]" is a section of an ini file, "[true]" is JSON that no reader takes.
+  // "[EMC]" is a section of an ini file, "[true]" is JSON that no reader accepts.
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const bool is_section =
       text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);

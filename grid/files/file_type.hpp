@@ -41,7 +41,7 @@ enum class FileKind {
 /// no verb accepts.
 [[nodiscard]] std::string what_takes(std::string_view file_type);
 
-/// The value of "file_type" in a JSON object; empty where there is none. \throws InputError for a
+/// The value of "file_type" in a JSON object; empty if there is none. \throws InputError for a
 /// text that is not JSON.
 [[nodiscard]] std::string file_type_of(const std::string& text, const std::string& file);
 

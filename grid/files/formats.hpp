@@ -18,7 +18,7 @@ namespace chaintrue::grid::files {
 struct Format {
   std::string_view file_type;
   std::string_view noun = "";  ///< "a map"
-  /// The verbs that take such a file, or the one that wrote a result which none takes.
+  /// The verbs that read such a file or, if none does, the one that wrote it.
   std::string_view verbs = "";
   /// How to make a file of this version; empty for formats that only other programs read.
   std::string_view anew = "";

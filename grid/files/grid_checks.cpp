@@ -109,8 +109,8 @@ Extent extent_of(const MeasuredGrid& grid) {
 }
 
 /// A chain grows by at most a millimetre for each that the tool moves, and over a bed by 0.7 mm or
-/// more; 25.4 times that or the 25.4th part of it is a change of unit. The limits stand half-way,
-/// in ratios.
+/// more; 25.4 times that or the 25.4th part of it is a change of unit. The limits are half-way, in
+/// ratios.
 bool is_unit_under(double steepness) { return steepness > 5.0; }
 bool is_unit_over(double steepness) { return steepness < 0.2; }
 /// Between 7 to 10 times, centimetres, and 18 to 25 times, inches.

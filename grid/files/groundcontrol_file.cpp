@@ -113,8 +113,8 @@ void attach_sled(const SettingValues& numbers, bool has_brackets, Machine& machi
 /// took the gears for 291 to 1.
 constexpr double kCountsOfATurn = 8113.73;
 
-/// Relative excess of chain paid out over the controller's count: what it counts as a turn of the
-/// sprocket is more than a turn.
+/// Relative excess of chain paid out over the controller's count: what it counts as one turn of the
+/// sprocket is more than one.
 double more_by_encoder(SettingReader& settings, Problems& problems) {
   constexpr Range kCounts{"counts a turn", 100.0, 1e6};
   // Beyond this the motors are different ones with other counts.

@@ -77,7 +77,7 @@ struct GroundcontrolText {
 /// settings gives.
 [[nodiscard]] bool says_more_than_its_settings(const model::Machine& machine);
 
-/// The machine's controller with `settings` in place of its own. `by` is the source of the change:
+/// The machine's controller with these settings. `by` is the source of the change:
 /// "the 28 points of map.json".
 [[nodiscard]] GroundcontrolText write_groundcontrol_settings(const model::Machine& machine,
                                                              const model::ControllerSettings& settings,

@@ -223,7 +223,7 @@ void check_tape_zero(const MeasuredHoles& set,
                                         std::abs(*offset),
                                         *offset > 0.0 ? "longer" : "shorter");
   double total_mm = set.tape.tape_zero_offset_mm + *offset;
-  // Tapes are held at a mark, as printed on the sheet; a machine is off by a centimetre at most.
+  // Tapes are held at a printed mark; a machine is off by a centimetre at most.
   constexpr double kAtTheMarkMm = 15.0;
   constexpr double kAtZeroMm = 3.0;
   const double mark_mm =

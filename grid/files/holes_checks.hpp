@@ -45,8 +45,8 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     Problems& problems);
 /// Warns of distances that equal the commanded ones exactly.
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems);
-/// Units, triangles, a tape zero offset that was forgotten, and whether there are enough distances.
-/// A doubtful stated offset gives only a warning. Call it only if nothing was wrong before.
+/// Units, triangles, a forgotten zero offset of the tape, and too few distances.
+/// A doubtful stated offset gives only a warning. Call it only if there are no earlier problems.
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
                           bool tape_zero_is_stated,

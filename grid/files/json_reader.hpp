@@ -175,7 +175,7 @@ class RecordTable {
   std::vector<Json> rules_;
 };
 
-/// For a std::optional that holds a value.
+/// For a std::optional with a value.
 [[nodiscard]] std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
                                                           const OptionalAccess& access);
 
@@ -187,7 +187,7 @@ class RecordTable {
 template <class T>
 class Record : public RecordTable {
   using Text = std::string_view;
-  /// The member alone decides the type, so that a range or a record may stand for its value.
+  /// Only the member determines the type, so a range or a record may be given for its value.
   template <class V>
   using ValueOf = std::type_identity_t<Value<V>>;
 
@@ -262,7 +262,7 @@ class Record : public RecordTable {
     return add_optional(key, meaning, member, value, IfEmpty::null);
   }
 
-  /// `write` returns nothing if the key is to be left out.
+  /// `write` returns nothing if the key is left out.
   Record& custom(Text key,
                  Text meaning,
                  bool is_required,
@@ -274,8 +274,8 @@ class Record : public RecordTable {
     return *this;
   }
 
-  /// A value that is not a member: `set(object, value)` takes a sound one, `get(object)` returns it, or
-  /// nothing if the key is to be left out.
+  /// A value that is not a member: `set(object, value)` stores a valid one, `get(object)` returns
+  /// it, or nothing if the key is left out.
   template <class V, class Set, class Get>
   Record& computed(
       Text key, Text meaning, bool is_required, const Value<V>& value, Set set, Get get) {

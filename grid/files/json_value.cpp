@@ -34,7 +34,7 @@ std::string quoted_choice(const std::vector<std::string>& names) {
   return quoted.size() == 1 ? quoted[0] : "one of " + joined(quoted);
 }
 
-/// The word if it is one of `names`; otherwise reports what it is nearest to.
+/// The word if it is one of `names`; otherwise reports the nearest one.
 std::optional<std::string> word_among(const Cursor& at,
                                       const std::vector<std::string>& names,
                                       const std::string& expected) {

@@ -75,7 +75,7 @@ struct Expected {
   Expected(std::string in_words) : words(std::move(in_words)) {}  // NOLINT
   Expected(std::string in_words, std::function<Json()> as_schema)
       : words(std::move(in_words)), schema(std::move(as_schema)) {}
-  operator const std::string&() const { return words; }  // NOLINT: messages take the words
+  operator const std::string&() const { return words; }  // NOLINT: messages use the words
 
   std::string words;
   std::function<Json()> schema = [] { return Json::object(); };
@@ -129,7 +129,7 @@ struct Value;
 [[nodiscard]] Value<std::string> text();
 
 /// A codec with its type. `expected` may be replaced for a custom field. Ranges and records
-/// (json_reader.hpp) stand for the values that they describe.
+/// (json_reader.hpp) may be given for the values that they describe.
 template <class V>
 struct Value {
   Value(const Range& range)  // NOLINT: tables name the range alone
@@ -244,7 +244,7 @@ template <class V>
 /// The schema, with null allowed.
 [[nodiscard]] Json schema_or_null(Json schema);
 
-/// Empty where the file has null.
+/// Empty if the file has null.
 template <class V>
 [[nodiscard]] Value<std::optional<V>> or_null(const Value<V>& value) {
   return {[value](const Cursor& at) {

@@ -48,7 +48,7 @@ struct StraightChains {
   model::ChainLengths longer_mm;
 };
 
-/// Over the map's domain. Fails where the map has no answer somewhere, or straight chains from there do not meet.
+/// Over the map's domain. Fails if the map has no answer somewhere, or straight chains from there do not meet.
 [[nodiscard]] tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(
     const LengthMap& map,
     const StraightChains& straight,

@@ -31,7 +31,7 @@ double interpolated(const LengthTable& table, double column, double row, std::si
   return between(along_y, row - k);
 }
 
-/// A length as a source holds it, with five digits after the point.
+/// A length as written to the source, with five digits after the point.
 double as_written(double length_mm) { return 1e-5 * std::round(1e5 * length_mm); }
 
 tl::expected<LengthTable, MapFailure> tabulated(const LengthMap& map, double spacing_mm) {

@@ -21,7 +21,7 @@ struct Unit {
   std::string_view word;
   double mm;
 };
-/// Longer words first where one ends in another.
+/// Longer words first if one ends in another.
 constexpr Unit kUnits[] = {{"mm", 1.0},
                            {"cm", 10.0},
                            {"m", 1000.0},
@@ -32,7 +32,7 @@ constexpr Unit kUnits[] = {{"mm", 1.0},
                            {"''", kMmPerInch},
                            {kDoublePrime, kMmPerInch}};
 
-/// Takes the unit off the text's end.
+/// Removes the unit from the text's end.
 std::optional<double> take_unit(std::string_view& text) {
   for (const Unit& unit : kUnits) {
     if (!text.ends_with(unit.word)) continue;
@@ -66,7 +66,7 @@ std::optional<double> fraction(std::string_view text) {
   return before + *above / *below;
 }
 
-/// Takes feet off the text's front; what follows them is inches.
+/// Removes feet from the text's front; the rest is inches.
 std::optional<double> take_feet(std::string_view& text) {
   for (const std::string_view word : {"'", "\xE2\x80\xB2", "feet", "ft"}) {
     const std::size_t at = text.find(word);

@@ -13,7 +13,7 @@ namespace chaintrue::grid::files {
 /// sled can hang, or where the chains would need more pull than motors have.
 void check_geometry(const model::Machine& machine, Problems& problems);
 
-/// The longest chain that any place of the bed takes, from the sprocket to the sled. \pre a machine
+/// The longest chain that any place of the bed needs, from the sprocket to the sled. \pre a machine
 /// without problems.
 [[nodiscard]] double longest_chain_mm(const model::Machine& machine);
 

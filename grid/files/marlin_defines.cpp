@@ -313,7 +313,7 @@ class Defines {
         .value();
   }
 
-  /// Null where it is not defined, or is reported.
+  /// Null if it is not defined or has been reported.
   const SettingText* find(const std::string& name) {
     const auto own = defined_.find(name);
     if (own == defined_.end()) return nullptr;

@@ -23,7 +23,7 @@ using model::kBelts;
 
 std::string line_words(std::size_t line) { return fmt::format("line {}", line); }
 
-/// Medians of single readings; empty where a belt has none, or where they disagree.
+/// Medians of single readings; empty if a belt has none or they disagree.
 std::optional<model::PerBelt<double>> agreed(
     const model::PerBelt<std::vector<double>>& readings_mm) {
   constexpr double kAgreeMm = 10.0;

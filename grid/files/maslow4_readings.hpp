@@ -25,7 +25,7 @@ struct ScannedReading {
   bool from_single_readings = false;
 };
 
-/// Takes lines in their order. A reading may continue on the next lines.
+/// Reads lines in order. A reading may continue on the next lines.
 class ReadingReader {
  public:
   explicit ReadingReader(std::string file) : file_(std::move(file)) {}

@@ -34,9 +34,9 @@ struct ScannedRun {
 
 struct ScannedLog {
   std::vector<ScannedRun> runs;       ///< with a reading that can be read, or that cannot
-  std::optional<RunStopped> stopped;  ///< how the last run ended, where it did not come to its end
-  std::optional<SettingsRefused> refused;  ///< the first setting that the controller did not take
-  std::optional<std::size_t> first_passed_over;  ///< the first line of which nothing is read
+  std::optional<RunStopped> stopped;  ///< how the last run ended, if it did not finish
+  std::optional<SettingsRefused> refused;  ///< the first setting that the controller rejected
+  std::optional<std::size_t> first_passed_over;  ///< the first line from which nothing is read
   bool list_has_end = true;           ///< false: the log ends in the middle of a list
 };
 /// `file` is the name used in messages.

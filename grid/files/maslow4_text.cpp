@@ -12,7 +12,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// The length of a colour code at `at` ("\x1b[0;32m", or "[0;32m" where a clipboard lost the first
-/// character); 0 where there is none.
+/// character); 0 if there is none.
 std::size_t colour_code(std::string_view text, std::size_t at) {
   const bool has_escape = text[at] == '\x1b';
   std::size_t next = at + (has_escape ? 1 : 0);

@@ -20,9 +20,9 @@ struct LogLine {
 
 /// Without blanks and quotation marks at either end.
 [[nodiscard]] std::string_view unquoted(std::string_view text);
-/// The number that follows a word, blanks skipped; empty where there is none.
+/// The number that follows a word, blanks skipped; empty if there is none.
 [[nodiscard]] std::optional<double> number_after(std::string_view line, std::string_view word);
-/// The number of a waypoint; empty where a line that looks like a message contains none.
+/// The number of a waypoint; empty if a line that looks like a message contains none.
 [[nodiscard]] std::optional<int> waypoint_of(std::optional<double> number);
 /// True for a line that the machine or a terminal prints between others: a message, a status report,
 /// an answer to a command.

@@ -14,7 +14,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// parse_double takes no plus sign.
+/// parse_double accepts no plus sign.
 std::string_view without_plus(std::string_view text) {
   return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
 }

@@ -39,7 +39,7 @@ struct Range {
 
 /// True for `12,5` and `-1.200,5`: a number written with a decimal comma.
 [[nodiscard]] bool looks_like_decimal_comma(std::string_view text);
-/// For a text that stands where a number within a range is expected.
+/// For a text in place of a number within a range.
 [[nodiscard]] ProblemKind kind_of_bad_number(std::string_view text);
 
 /// The number in its range; otherwise reports it at `place` and returns nothing. `name` is the name

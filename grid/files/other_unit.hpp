@@ -15,7 +15,7 @@ struct OtherUnit {
   constexpr double kWidestInInches = 145.0;
   return bed_width <= kWidestInInches ? OtherUnit{"inches", 25.4} : OtherUnit{"centimetres", 10.0};
 }
-/// The widest bed in centimetres, and one of which half a metre remains in mm.
+/// The widest bed in centimetres, and one that remains half a metre in mm.
 inline constexpr double kWidestOfOtherUnit = 370.0;
 
 }  // namespace chaintrue::grid::files

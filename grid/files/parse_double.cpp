@@ -25,7 +25,7 @@ ParsedDouble parse_double(const char* first, const char* last, double& value, Nu
 
 namespace {
 
-/// fast_float returns infinity or zero where the standard requires out of range: infinity for a
+/// fast_float returns infinity or zero if the standard requires out of range: infinity for a
 /// text of digits, zero for a text whose mantissa is not zero.
 bool is_out_of_range(const char* first, const char* end, double value) {
   if (std::isinf(value)) return std::any_of(first, end, is_digit);

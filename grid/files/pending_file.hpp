@@ -51,7 +51,7 @@ class PendingFile {
   void discard();
 
   std::filesystem::path path_;
-  std::filesystem::path target_;  ///< empty where held in memory
+  std::filesystem::path target_;  ///< empty if held in memory
   std::string temporary_;
   std::string held_;
   int descriptor_ = -1;

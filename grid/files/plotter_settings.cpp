@@ -319,7 +319,7 @@ model::BedPoint polargraph_home(SettingReader& settings,
   return {0.5 * width, kUsualDownMm};
 }
 
-/// The page and the home lie on the machine.
+/// The page and the home are on the machine.
 void check_within(double width,
                   std::optional<double> height,
                   model::BedPoint home,

@@ -30,7 +30,7 @@ class Problems {
   void add(std::string place, const model::MachineProblem& problem) {
     add(std::move(place), problem.value, problem.expected, ProblemKind::impossible);
   }
-  /// A recognised mistake: `sentence` says what it is and what to do.
+  /// A recognised mistake: `sentence` describes it and what to do.
   void explain(std::string place, ProblemKind kind, std::string sentence);
   void warn(std::string place,
             std::string sentence,

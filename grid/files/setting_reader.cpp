@@ -27,8 +27,7 @@ constexpr std::size_t kMostNamed = 60;
 
 std::string line_place(std::size_t number) { return fmt::format("line {}", number); }
 
-/// \param places where each key stands so far
-/// \return false, and reported, if it stands there already
+/// \param places of the keys so far \return false, and reports it, if the key is already there
 bool is_first(std::map<std::string, std::string>& places,
               const std::string& key,
               const std::string& place,

@@ -25,7 +25,7 @@ std::uint32_t word_at(const unsigned char* bytes) {
          std::uint32_t{bytes[2]} << 8U | std::uint32_t{bytes[3]};
 }
 
-/// By 1 to 31 bits. std::rotr takes an int in one standard library and an unsigned in another.
+/// By 1 to 31 bits. std::rotr has an int parameter in one standard library and an unsigned one in another.
 std::uint32_t rotated(std::uint32_t x, unsigned bits) { return x >> bits | x << (32U - bits); }
 
 std::uint32_t sum(std::uint32_t x, unsigned first, unsigned second, unsigned third) {

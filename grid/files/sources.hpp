@@ -27,7 +27,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] std::vector<SourceFile> sources_read();
 /// For a file that is read in another way.
 void note_source(SourceFile source);
-/// Begins anew, on a thread that does more than one piece of work; files_read() is empty then, too.
+/// Starts again, on a thread that does several pieces of work; files_read() is empty then, too.
 void forget_sources();
 /// What sources_read() says from now on, until forget_sources(): the files that are read on this thread
 /// were written for a piece of work, of what these held.

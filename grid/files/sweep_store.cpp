@@ -47,7 +47,7 @@ std::string line_of(std::uint64_t cell, const CellResult& r) {
   return fmt::format("{},{}\n", line, check_of(line));
 }
 
-/// Takes a line into the cells, unless it is torn or damaged.
+/// Adds a line to the cells, unless it is incomplete or damaged.
 void take_line(std::string_view line, FinishedCells& cells) {
   const std::size_t check = line.rfind(',');
   if (check == std::string_view::npos || line.substr(check + 1) != check_of(line.substr(0, check)))

@@ -19,7 +19,7 @@
 
 namespace chaintrue::grid::files {
 
-/// By number; empty where a cell is not finished.
+/// By number; empty if a cell is not finished.
 using FinishedCells = std::vector<std::optional<sweep::CellResult>>;
 
 /// Those of every part of the folder; a folder that is not there has none. \throws InputError for parts of

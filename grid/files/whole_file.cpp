@@ -101,7 +101,7 @@ void put_utf8(std::uint32_t code, std::string& text) {
   put(0x80 | (code & 0x3F));
 }
 
-/// What Excel saves as "Unicode text" begins with a byte order mark of UTF-16; other text is as it is.
+/// What Excel saves as "Unicode text" begins with a byte order mark of UTF-16; other text is unchanged.
 std::string utf8_of(std::string text) {
   const bool is_little = text.starts_with("\xFF\xFE");
   if (!is_little && !text.starts_with("\xFE\xFF")) return text;

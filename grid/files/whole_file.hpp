@@ -13,9 +13,9 @@ namespace chaintrue::grid::files {
 
 /// A path's name in messages: itself, or "standard input" for "-".
 [[nodiscard]] std::string name_in_messages(const std::filesystem::path& path);
-/// \throws InputError where the path cannot be opened, is a directory, or reading fails half-way.
+/// \throws InputError if the path cannot be opened, is a directory, or reading fails half-way.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
-/// \throws InputError where the path is a directory, its directory is missing, or it cannot be
+/// \throws InputError if the path is a directory, its directory is missing, or it cannot be
 /// written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 

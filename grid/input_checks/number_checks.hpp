@@ -10,7 +10,7 @@ namespace chaintrue::grid::input_checks {
 
 inline constexpr double kMmPerInch = 25.4;
 inline constexpr double kMmPerFoot = 304.8;
-/// Where a tape is held without its hook.
+/// The mark at which a tape is held without its hook.
 inline constexpr double kTapeMarkMm = 100.0;
 
 struct NumberError {

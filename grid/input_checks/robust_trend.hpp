@@ -19,7 +19,7 @@ struct RobustTrend {
   double scale_mm = 0.0;          ///< s
   double log_likelihood = 0.0;    ///< at the maximum of (1), with the prior's factor relative to beta = 0
   double prior_chi_square = 0.0;  ///< sum_j (beta_j / sigma_j)^2
-  /// For the rows that are not missing; infinity where all are.
+  /// For the rows that are not missing; infinity if all are.
   [[nodiscard]] double median_residual_mm() const;
 };
 

@@ -79,7 +79,7 @@ struct Check {
   std::vector<CheckResidual> residuals;
   std::vector<CheckUnit> units;  ///< in the order of the file
   std::string sentence;
-  /// What these readings cannot distinguish; empty if nothing.
+  /// Hypotheses that these readings cannot distinguish; may be empty.
   std::string not_separable;
   /// Sentences: the corrections of the readings, and those that could not be made.
   std::vector<std::string> notes;

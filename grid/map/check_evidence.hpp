@@ -52,7 +52,7 @@ struct CheckReadings {
   std::vector<std::string> notes;  ///< corrections of the readings, and those that failed
 };
 
-/// In this order: nothing, the mechanism's changes, an unknown change, each unit bad by itself.
+/// In this order: nothing, the mechanism's changes, an unknown change, and each unit as a single bad one.
 [[nodiscard]] std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings);
 
 }  // namespace chaintrue::grid

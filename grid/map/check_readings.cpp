@@ -181,7 +181,7 @@ class Gathered {
   Eigen::Index shared_columns_ = 0;
 };
 
-/// `of` tells files apart where there are several: "", or " of holes.json".
+/// `of` distinguishes several files: "", or " of holes.json".
 void name_rows(const CheckedPart& part, const std::string& of, CheckReadings& readings) {
   const auto add = [&readings](std::string name, std::size_t rows) {
     readings.units.push_back(

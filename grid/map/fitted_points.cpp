@@ -17,8 +17,8 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
   return -(mark_jacobian.inverse() * chain_mm);
 }
 
-/// On the sheet. The controller believes neither the stated machine nor the catenary: a machine that reaches its
-/// commanded places is right.
+/// On the sheet. The controller uses neither the stated machine nor the catenary; a machine that
+/// reaches its commanded places is right.
 Eigen::Vector2d landed_minus_sent(model::BedPoint commanded,
                             const model::SheetPlacement& sheet,
                             model::MarkPoint mark) {

@@ -30,7 +30,7 @@ struct LatticeResidual {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;
   model::PerSide<Eigen::MatrixXd> values_mm;  ///< (ix, iy)
-  /// One sigma of a node's value beyond the readings' noise: zero where it was measured.
+  /// One sigma of a node's value beyond the readings' noise; zero if it was measured.
   Eigen::MatrixXd doubt_mm;
   /// One sigma between the nodes, from predictions of left-out nodes by their lines.
   double interpolation_sigma_mm = 0.0;
@@ -39,7 +39,7 @@ struct LatticeResidual {
 /// Answers for a LatticeResidual. Immutable, thread safe.
 class LatticeSplines {
  public:
-  /// \throws std::invalid_argument where the shapes do not fit the nodes or the nodes do not rise.
+  /// \throws std::invalid_argument if the shapes do not fit the nodes or the nodes do not rise.
   explicit LatticeSplines(const LatticeResidual& residual);
 
   [[nodiscard]] model::PerSide<interp::ValueGradient> at(model::MarkPoint mark) const;

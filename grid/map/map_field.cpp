@@ -228,7 +228,7 @@ std::shared_ptr<MapField> field_of(const MapContents& contents) {
   return std::make_shared<ModelField>(surface);
 }
 
-/// In the order of Outside. The search for the inverse may step where there is no answer.
+/// In the order of Outside. The search for the inverse may step outside the domain.
 constexpr std::array<interp::OutsidePolicy, 5> kPolicies = {interp::OutsidePolicy::linear,
                                                             interp::OutsidePolicy::linear,
                                                             interp::OutsidePolicy::fade,

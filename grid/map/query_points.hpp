@@ -22,7 +22,7 @@ using MapAnswerOrFailure = tl::expected<MapAnswer, MapFailure>;
 using MapLengthsOrFailure = tl::expected<MapLengths, MapFailure>;
 
 /// answers[k] = map.query(marks[k]); nothing is allocated.
-/// \throws std::invalid_argument where the spans differ in length.
+/// \throws std::invalid_argument if the spans differ in length.
 inline void query(const CompensationMap& map,
                   std::span<const model::MarkPoint> marks,
                   std::span<MapAnswerOrFailure> answers) {

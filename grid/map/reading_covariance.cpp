@@ -10,7 +10,7 @@
 namespace chaintrue::grid {
 namespace {
 
-/// L^-1 of a unit. Throws with the noise where it is not positive.
+/// L^-1 of a unit. Throws if the noise is not positive.
 Eigen::MatrixXd whitening_of_unit(const Eigen::MatrixXd& own) {
   const linear::Cholesky factor(own);
   if (own.size() == 0 || !factor.is_positive_definite()) {

@@ -24,7 +24,7 @@
 
 namespace chaintrue::grid {
 
-/// Whether both anchors have to be equally high.
+/// Whether both anchors must have the same height.
 enum class Anchors { free, level };
 
 struct StraightSettings {

@@ -15,7 +15,7 @@ namespace chaintrue::grid {
 struct MeasuredPoint {
   /// Where the tool stood, in the marks' frame (the bed's, unless the sheet was placed by hand).
   model::MarkPoint mark;
-  /// Absent where the point gives a command instead.
+  /// Absent if the point gives a command instead.
   std::optional<model::ChainLengths> lengths;
   std::optional<model::BedPoint> commanded;
   /// Number of the visit; all points have it, distinct, or none.

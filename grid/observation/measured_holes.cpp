@@ -51,7 +51,7 @@ double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance) {
 
 std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {
   constexpr std::size_t kFewest = 3;
-  constexpr double kLeastMm = 8.0;  // tapes are held to a hook or a mark at 10 mm or more
+  constexpr double kLeastMm = 8.0;  // tapes are held by the hook or at a mark of 10 mm or more
   std::vector<double> excess;
   std::vector<double> ratio;
   std::vector<double> commanded;

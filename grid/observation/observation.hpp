@@ -47,7 +47,7 @@ struct Kind {
   std::string_view id;        ///< of the .def and of files
   std::string_view unit;      ///< "point", "distance": the unit for outliers
   std::string_view units;     ///< "points"
-  std::string_view place;     ///< "point", "hole"; empty where the tool stood nowhere
+  std::string_view place;     ///< "point", "hole"; empty if the tool stood nowhere
   bool reads_chains = false;  ///< lengths were read at a place, not paid out by a controller
 };
 

@@ -189,7 +189,7 @@ double tape_factor(const model::Machine& machine) {
 }
 
 SheetPrior sheet_measured(const MeasuredHoles& set) {
-  // Two readings to upright edges, from holes this far apart in height, tell the turn.
+  // Two readings to upright edges, from holes this far apart in height, determine the rotation.
   constexpr double kApartMm = 100.0;
   SheetPrior measured{kSheetShiftMm, kSheetTurnRad, false, false, false};
   for (const HoleDistance& a : set.distances) {

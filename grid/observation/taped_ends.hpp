@@ -37,7 +37,7 @@ struct AtFixedPoint {
 };
 struct AtHole {
   Eigen::VectorXd lengths_mm;  ///< paid out
-  std::vector<bool> deciding;  ///< two lengths that say where the tool goes
+  std::vector<bool> deciding;  ///< two lengths that determine the tool's position
   model::ToolPosition meant;   ///< the commanded position
 };
 using TapeEnd = std::variant<AtPlace, AtFixedPoint, AtHole>;
@@ -49,7 +49,7 @@ struct TapedDistance {
   double sigma_mm = 1.0;  ///< of the tape and its ends
 };
 
-/// (1) and its derivatives: by the positions of its ends, where they are places, and by theta.
+/// (1) and its derivatives: by the positions of its ends, if they are places, and by theta.
 struct DistanceLine {
   double predicted_mm = 0.0;
   std::array<Eigen::RowVector2d, 2> by_end;

@@ -33,7 +33,7 @@ std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
     for (int ix = 0; ix < kCheckColumns; ++ix) {
       const double across = 2.0 * ix / (kCheckColumns - 1) - 1.0;
       const double up = 1.0 - 2.0 * iy / (kCheckRows - 1);
-      // Whole millimetres, as they are typed and marked.
+      // Whole millimetres, because they are typed and marked by hand.
       const MarkPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
                            std::trunc((0.5 * bed.height_mm - margin_mm) * up)};
       if (map.status(mark) != MapStatus::extrapolated && map.query(mark)) places.push_back(mark);

@@ -43,7 +43,7 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
   std::vector<PlannedPlace> result;
   for (int iy = 0; iy < kRows; ++iy) {
     for (int ix = 0; ix < kColumns; ++ix) {
-      // Whole millimetres, as they are typed and drilled.
+      // Whole millimetres, because they are typed by hand.
       const MarkPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
                             std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
       if (const auto planned = planned_place(model, place)) result.push_back(*planned);

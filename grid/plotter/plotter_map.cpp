@@ -111,7 +111,7 @@ Fitted fitted_of(const KnownPlotter& plotter) {
   const PlacedMechanism best{found,
                              std::make_shared<const Page>(middle, middle_of(drawn), 0.0)};
   MechanismSpread spread{best, {}};
-  // Each plotter one sigma away has its page where the crosses of the fit lie nearest to its own.
+  // The page of each plotter one sigma away is placed so that its crosses best match those of the fit.
   const linear::SymmetricEigen parts(plotter.found->covariance());
   std::vector<model::ChainLengths> of_fit;
   std::vector<BedPoint> on_page;

@@ -78,13 +78,13 @@ inline constexpr double kRulerSigmaMm = 0.5;
 [[nodiscard]] TestDrawing planned_drawing(const model::PlotterMachine& machine,
                                           model::PlotterFirmware firmware);
 
-/// The drawing as readings: each cross with what the controller paid out for it. Fails where the
+/// The drawing as readings: each cross with what the controller paid out for it. Fails if the
 /// controller cannot hold a cross, with its place among the crosses.
 using CrossFailure = Failure<model::PlotterReason, std::size_t>;
 [[nodiscard]] tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
     const TestDrawing& drawing);
 
-/// The first cross for which the controller would let out more belt than it has; empty where there is none.
+/// The first cross for which the controller would let out more belt than it has; empty if there is none.
 [[nodiscard]] std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing);
 
 /// "the length A-B", "the bow of A-B at E".

@@ -47,8 +47,8 @@ struct EffectsLevel {
   std::vector<model::AppliedEffect> effects;
 };
 
-/// The machine that the map is used on: the one that was measured, with more effects (wear), or
-/// another one of the same build (its settings drawn anew).
+/// The machine that the map is used on: the measured one with more effects (wear), or another one of
+/// the same build, with newly drawn settings.
 struct UseLevel {
   std::string name;
   std::vector<model::AppliedEffect> effects;

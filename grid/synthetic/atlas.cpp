@@ -36,7 +36,7 @@ struct SetAndActual {
   int first_visit = 0;
 };
 
-/// Makes the machine with a cause at a size; empty where there is none.
+/// Makes the machine with a cause at a size; empty if there is none.
 using WithSize = std::function<std::optional<SetAndActual>(double)>;
 
 // Margin of the lattice inside the area, so that a cause may shift it.

@@ -42,7 +42,7 @@ struct AtlasLine {
 
 struct AtlasFrame {
   double size = 0.0;  ///< of the cause's first size, in its own unit; of a setting, true less set
-  /// As AtlasLine::points; empty where the machine cannot hold the tool.
+  /// As AtlasLine::points; empty if the machine cannot hold the tool.
   std::vector<std::vector<std::optional<model::ToolPosition>>> lines;
 };
 

@@ -44,7 +44,7 @@ struct Mark {
   int row = 0;
 };
 
-/// The marks, row by row from the bottom left. Empty where the region leaves none.
+/// The marks, row by row from the bottom left. Empty if the region leaves none.
 /// \throws std::invalid_argument for fewer than 2 columns or rows, fewer than 1 random point, or a
 /// margin that leaves no bed.
 [[nodiscard]] std::vector<Mark> marks(const model::Bed& bed, const Design& design, Random& random);

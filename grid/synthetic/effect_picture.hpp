@@ -51,7 +51,7 @@ struct EffectPicture {
 };
 
 /// `values` in the order of the effect's parameters.
-/// \throws std::invalid_argument where the effect cannot act on the machine or the machine cannot
+/// \throws std::invalid_argument if the effect cannot act on the machine or the machine cannot
 /// reach its own bed.
 [[nodiscard]] EffectPicture picture_effect(const model::Machine& machine,
                                            const model::effects::Effect& effect,

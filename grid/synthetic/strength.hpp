@@ -53,7 +53,7 @@ struct SessionSignature {
   [[nodiscard]] std::vector<Eigen::Vector2d> tool_shift_mm() const;
 };
 
-/// \throws std::invalid_argument where a visit cannot be reached.
+/// \throws std::invalid_argument if a visit cannot be reached.
 [[nodiscard]] SessionSignature signature(const model::Machine& stated,
                                          const std::vector<model::AppliedEffect>& effects,
                                          const std::vector<model::Visit>& visits);
@@ -83,7 +83,7 @@ struct EffectStrength {
 /// The signatures of the whole catalogue over one session.
 class StrengthTable {
  public:
-  /// \throws std::invalid_argument where a visit cannot be reached or a noise is not above 0.
+  /// \throws std::invalid_argument if a visit cannot be reached or a noise is not above 0.
   StrengthTable(const model::Machine& stated,
                 std::vector<model::Visit> visits,
                 const StatedNoise& noise);

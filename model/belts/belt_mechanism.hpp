@@ -23,7 +23,7 @@ namespace chaintrue::model {
 /// Prior of the logarithm of the scale, which is the last parameter if present: a taped distance is
 /// exp(log_scale) times the modelled one. Belt lengths alone do not determine it.
 struct BeltScaleKnowledge {
-  std::optional<double> sigma;  ///< about 0; empty: nothing
+  std::optional<double> sigma;  ///< about 0; may be empty
 };
 
 class BeltMechanism final : public MechanismBase {

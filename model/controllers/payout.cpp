@@ -100,7 +100,7 @@ std::unique_ptr<const Kinematics> believed_kinematics(const Machine& machine) {
     case ControllerKind::ideal:
       return make_kinematics(equilibrium_parameters(machine), Model::elastic);
     case ControllerKind::maslow_classic:
-      // Its quadrilateral has neither sag nor tolerances.
+      // The firmware's quadrilateral has neither sag nor tolerances.
       if (!std::holds_alternative<Ring>(p.attachment)) return make_kinematics(p, Model::firmware);
       return std::make_unique<FormulaKinematics>(p, Formula::firmware, tolerance);
     case ControllerKind::holey:

@@ -18,7 +18,7 @@ namespace chaintrue::model::effects {
 
 /// Every effect of chains/chain_effects.cpp.
 [[nodiscard]] EffectTable catalogue();
-/// Null where no effect of the catalogue has this name.
+/// Null if no effect of the catalogue has this name.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 
 /// The catalogue, then the effects declared for a machine. A declared effect that replaces one of

@@ -48,7 +48,7 @@ struct DeclaredParameter {
   friend bool operator==(const DeclaredParameter&, const DeclaredParameter&) = default;
 };
 
-/// The content of a file. Texts of formulas are empty where they are not stated.
+/// The content of a file. Texts of missing formulas are empty.
 struct Declaration {
   std::string id;
   /// The effect of the catalogue that it replaces; empty: it is added to the catalogue.
@@ -82,7 +82,7 @@ struct DeclarationProblem {
 /// a unit that formulas do not know, such as "_deg".
 [[nodiscard]] std::optional<FormulaUnit> unit_of_name(std::string_view name);
 
-/// All problems of a declaration by itself.
+/// All problems of a declaration, without a machine.
 [[nodiscard]] std::vector<DeclarationProblem> problems_of(const Declaration& declaration);
 /// Whether its formulas are finite, and null at null, on the bed of this machine. Precondition:
 /// problems_of(declaration) is empty.

@@ -50,7 +50,7 @@ inline constexpr std::array kFormulas = {
 
 class DeclaredLaw {
  public:
-  /// \throws std::invalid_argument where a formula has a problem.
+  /// \throws std::invalid_argument if a formula has a problem.
   explicit DeclaredLaw(const Declaration& declaration);
   DeclaredLaw(const DeclaredLaw&) = delete;
   DeclaredLaw& operator=(const DeclaredLaw&) = delete;

@@ -124,7 +124,7 @@ struct LengthState {
   double turn_mm = 0.0;         ///< what one turn of the sprocket, pulley or spool pays out
   double tooth_mm = 0.0;        ///< for a chain, its nominal pitch
   double side = 1.0;            ///< 1 for the left one, -1 for the right
-  double direction = 1.0;       ///< 1 where it was paid out to its length, -1 where it was taken in
+  double direction = 1.0;       ///< 1 if it was paid out to its length, -1 if it was taken in
   int order = 0;                ///< n
 };
 /// Of a chain in equilibrium, without a visit.

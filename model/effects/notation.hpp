@@ -62,7 +62,7 @@ constexpr EffectParameter mirrored(EffectParameter parameter) {
   return parameter;
 }
 
-/// The number of a visit; ten stands for any.
+/// The number of a visit; ten is a placeholder.
 constexpr EffectParameter visit(std::string_view name, std::string_view meaning) {
   return whole(place(name, "m", meaning, 10.0, 0.0, 1e6, 10.0));
 }

@@ -29,7 +29,7 @@ namespace chaintrue::model {
 enum class MotorPlace { wall, gondola };
 [[nodiscard]] std::string_view name(MotorPlace place);
 
-/// The hanging body. With `spacing_mm` 0 both cords end at the pen and nothing tilts.
+/// The hanging body. With `spacing_mm` 0 both cords end at the pen and the body cannot tilt.
 struct Gondola {
   /// Between the points where the cords hold the body: axles of its pulleys, or eyelets.
   double spacing_mm = 0.0;
@@ -59,7 +59,7 @@ struct DrawingArea {
   double bottom_mm = -1100.0;
 };
 
-/// One sigma of each setting as it is stated.
+/// One sigma of each stated setting.
 struct PlotterUncertainty {
   double pin_spacing_mm = 3.0;
   double pin_rise_mm = 3.0;

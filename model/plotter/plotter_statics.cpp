@@ -62,7 +62,7 @@ auto equations_at(const Statics& m, const Placed<T>& at) {
   return [&m, at](const Unknowns<T>& q) { return residual(m, q, at); };
 }
 
-/// At a place without derivatives of its own.
+/// At a place where derivatives are not computed.
 auto equations_of_unknowns(const Statics& m, const Placed<double>& at) {
   return equations_at(m, Placed<Dual<kUnknowns>>{at.x, at.y, at.pin_spacing, at.pin_rise});
 }

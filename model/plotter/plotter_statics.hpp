@@ -21,7 +21,7 @@
 namespace chaintrue::model {
 
 enum class PlotterReason {
-  above_the_pins,     ///< the gondola is not below both points that its cords come from
+  above_the_pins,     ///< the gondola is not below both points where its cords are attached
   outside_the_pins,   ///< a cord would have to push: the gondola is not between them
   slack,              ///< the side force is more than the cords hold against
   cords_do_not_meet,  ///< no position has these lengths

@@ -49,7 +49,7 @@ class Option {
   Option shows_default(const std::string& text) const;
   /// The word for a value in the help.
   Option value_word(const std::string& word) const;
-  /// `fault` returns what is wrong with a value; empty if nothing.
+  /// `fault` returns what is wrong with a value; empty if it is valid.
   Option refuses(std::function<std::string(const std::string&)> fault) const;
   /// The option has an effect if one of these holds; `otherwise` states what is expected if none
   /// does: "to be left out of holes: ...". A value that states the default behaviour is `harmless`

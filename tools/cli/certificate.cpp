@@ -14,8 +14,8 @@
 namespace chaintrue::cli {
 namespace {
 
-/// Within this many times the root of the summed variances lie 95 % of cuts, where x and y err
-/// equally: sqrt(-2 ln 0.05) / sqrt(2).
+/// 95 % of cuts are within this many times the root of the summed variances, if x and y have equal
+/// errors: sqrt(-2 ln 0.05) / sqrt(2).
 constexpr double k95PerCent = 1.7308;
 
 Section measured_section(const CompensationMap& map) {

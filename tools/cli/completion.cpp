@@ -17,7 +17,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// A verb as it is typed, and its options.
+/// A verb as typed, and its options.
 struct Command {
   std::vector<std::string> words;  ///< {"gcode", "verify"}; none: chaintrue itself
   const CLI::App* app = nullptr;
@@ -181,7 +181,7 @@ std::string fish(const std::vector<Command>& commands) {
   return text;
 }
 
-/// troff takes a backslash, and a dot or a quote that begins a line, for its own.
+/// troff interprets a backslash, and a dot or a quote at the start of a line.
 std::string troff(const std::string& text) {
   std::string out;
   bool begins = true;

@@ -31,13 +31,13 @@ struct DiagnoseCommand {
   bool json = false;
 };
 
-// Each throws Failed where there is no diagnosis.
+// Each throws Failed if there is no diagnosis.
 
 /// Grids and holes; an order that was assumed is put into `measured`.
 [[nodiscard]] Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured);
 /// Belts are diagnosed by themselves, on the machine in their own file.
 [[nodiscard]] Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file);
-/// A test drawing is diagnosed by itself, on the plotter in its own file.
+/// A test drawing is diagnosed alone, with the plotter in its file.
 [[nodiscard]] Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file);
 
 /// Without its folders.

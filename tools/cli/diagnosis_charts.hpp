@@ -34,7 +34,7 @@ namespace chaintrue::cli {
 
 /// Arrows of the tool before and after, at one scale, and after again if it is much smaller.
 [[nodiscard]] std::vector<ChartRow> arrow_charts(const Diagnosis& found);
-/// Measured, best cause, rival, remainder: one chart a chain. Empty where no cause is named.
+/// Measured, best cause, rival, remainder: one chart a chain. Empty if no cause is named.
 [[nodiscard]] std::vector<Chart> strip_charts(const Diagnosis& found);
 /// The likeliest law's curve among the points' partial residuals, and its best rival's. Precondition of this
 /// and the next: the law has points.

@@ -9,7 +9,7 @@
 
 namespace chaintrue::cli {
 
-/// The settings as they are set and as they are found with the causes at work.
+/// The settings in force and as estimated with the causes.
 [[nodiscard]] Section drawn_settings_section(const Diagnosis& found);
 /// The measures, and their prediction by settings and causes.
 [[nodiscard]] Section drawn_measures_section(const Diagnosis& found);

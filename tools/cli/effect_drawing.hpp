@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The picture of an effect as a drawing (SVG): arrows over the bed before and after calibration,
-/// and the two squares as they are cut, both with their scale printed.
+/// and the two squares as cut, both with their scale printed.
 #pragma once
 
 #include <string>

@@ -117,7 +117,7 @@ void describe(const Effect& effect) {
   fmt::print("  source        {}\n", effect.source);
 }
 
-// The arrow's glyph for a shift, a dot where it is below a hundredth of a millimetre.
+// The arrow's glyph for a shift, a dot if it is below a hundredth of a millimetre.
 std::string_view glyph(const Eigen::Vector2d& shift) {
   constexpr double kNothingMm = 0.005;
   constexpr std::string_view kArrows[] = {"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};

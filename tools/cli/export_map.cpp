@@ -66,7 +66,7 @@ WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
           module->piece_mm)};
 }
 
-/// The component has the name of its file, from which halcompile takes it.
+/// The component is named after its file, as halcompile requires.
 std::string module_name(const std::string& output) {
   return output == "-" ? "chaintrue_kins" : std::filesystem::path(output).stem().string();
 }

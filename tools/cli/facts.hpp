@@ -56,7 +56,7 @@ inline constexpr Facts causes = 1U << 24;
 inline constexpr Facts table = 1U << 28;
 /// fit and diagnose: a V-plotter's test drawing, alone.
 inline constexpr Facts drawing = 1U << 29;
-/// Everything but a test drawing that fit and diagnose take.
+/// Every input of fit and diagnose except a test drawing.
 inline constexpr Facts no_drawing = grid | holes | belts | belt_holes;
 /// Instead of a map: a V-plotter with a measured drawing.
 inline constexpr Facts plotter = 1U << 30;

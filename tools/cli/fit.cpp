@@ -146,7 +146,7 @@ int finish(Verb verb,
   return kDone;
 }
 
-/// The tables of distances, each under its file's name where there are several.
+/// The tables of distances, each under its file's name if there are several.
 std::vector<Section> distances_of(const grid::Measured& measured, const grid::JointFit& fit) {
   const std::vector<grid::MeasuredFile>& files = measured.files();
   std::vector<Section> sections;

@@ -18,7 +18,7 @@ struct DrawingFitCommand {
   bool json = false;
 };
 
-/// \throws InputError for a drawing with a slip, which is reported; nothing is written then.
+/// \throws InputError for a drawing with a mistake, which is reported; nothing is written then.
 int fit_the_drawing(const DrawingFitCommand& command);
 
 }  // namespace chaintrue::cli

@@ -72,7 +72,7 @@ void print_survey(const gcode::Survey& survey, bool json) {
 /// Largest useful table of lengths: 2 GB.
 constexpr double kMostRows = 2e7;
 
-/// About how many rows the table will have. \throws InputError where it would be longer; a program
+/// About how many rows the table will have. \throws InputError if it would be longer; a program
 /// that cannot be read to its end has none; its problem is reported elsewhere.
 double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open({"the length of the path", 1, 2});

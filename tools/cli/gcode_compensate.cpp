@@ -25,7 +25,7 @@ namespace {
 
 /// The result of running the output on the simulated controller and machine.
 struct Proof {
-  std::string fault;  ///< empty where it holds
+  std::string fault;  ///< empty if it holds
   double largest_mm = 0.0;
 };
 

@@ -78,7 +78,7 @@ struct GcodeTarget {
 struct GcodeController {
   std::unique_ptr<const model::ControllerKinematics> kinematics;
   const gcode::Firmware* firmware;
-  /// Empty where it does not clamp.
+  /// Empty if it does not clamp.
   std::optional<gcode::ClampBox> clamp_box;
   /// The area for programs: the bed, the frame of the anchors of four belts, a plotter's drawing
   /// area.

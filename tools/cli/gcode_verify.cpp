@@ -118,8 +118,8 @@ std::optional<gcode::Note> assumed_unit(const GcodeText& program, const GcodeOpt
   return unit.note();
 }
 
-/// The map and the program as they are now. Taken before the file that is run, which may come through
-/// a pipe as well.
+/// The current map and program, read before the file that is run because that may come through a
+/// pipe too.
 std::vector<grid::SourceFile> made_from(const GcodeOptions& options, const GcodeText& original) {
   std::vector<grid::SourceFile> sources = files::sources_read();
   const std::string map = files::name_without_folders(options.map);

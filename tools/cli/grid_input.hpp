@@ -41,12 +41,12 @@ void add_effects_option(Verb verb, GridInput& input);
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
 void add_tape_options(Verb verb, files::TapeOptions& input);
 
-/// Adds --without to a verb that takes belts.
+/// Adds --without to a verb that reads belts.
 void add_without_option(Verb verb, std::string& without);
 /// Its points, from 1. \throws InputError.
 [[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
 
-/// For a verb that takes only holes of two chains but gets those of four belts.
+/// For a verb that reads only holes of two chains but gets those of four belts.
 inline constexpr const char* kBeltHolesAreFitted =
     "holes cut by four belts are fitted together with belt lengths: chaintrue fit belts.json "
     "--with FILE";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Loads the input files of a verb: detects their kind once, refuses kinds that the verb does not
-/// take, and reports assumptions on standard error.
+/// read, and reports assumptions on standard error.
 ///
 /// \code
 ///   const InputFile file = open_input(command.map);
@@ -32,7 +32,7 @@ struct InputFile {
   FileKind kind = FileKind::other;
 };
 
-/// "-" is standard input. \throws InputError where it cannot be read, or is JSON that ends
+/// "-" is standard input. \throws InputError if it cannot be read, or is JSON that ends
 /// before its type.
 [[nodiscard]] InputFile open_input(const std::string& path);
 

@@ -33,8 +33,8 @@ int report_bad_input(const grid::files::InputError& error) {
   return kBadInput;
 }
 
-/// A closed stream's number would go to the next file that is opened; occupy it with a descriptor
-/// that can be neither read nor written.
+/// The next opened file would get the number of a closed stream; occupy it with a descriptor that
+/// can be neither read nor written.
 void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;

@@ -64,7 +64,7 @@ std::string place_of(const fs::path& path) {
 }
 
 std::string beginning_of(const fs::path& path) {
-  // The longest file of which more than the beginning is read to recognise it.
+  // The longest file that is read beyond its beginning to recognise it.
   constexpr std::size_t kMost = std::size_t{64} << 20U;
   std::ifstream file(path, std::ios::binary);
   std::string text;

@@ -21,7 +21,7 @@ struct PlanOutputs {
   bool json = false;
 };
 
-/// The list, and the page, the program and the answer where they are wanted.
+/// The list and, if requested, the page, the program and the answer.
 /// \param expected as for add_answer
 [[nodiscard]] std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
                                                            const Machine& machine,

@@ -21,7 +21,7 @@
 namespace chaintrue::cli {
 namespace {
 
-/// --quiet and --threads may stand behind the verb as well.
+/// --quiet and --threads may also follow the verb.
 void let_verbs_pass_on(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
     // A group of options has no name and belongs to its verb.
@@ -55,7 +55,7 @@ int run_command(const std::vector<std::string>& typed, const Guard& guard) {
   let_verbs_pass_on(app);
   const std::vector<std::string> words = words_of(typed);
   try {
-    // The parser takes its words from the end.
+    // The parser reads its words from the end.
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
     // An unknown word is reported alone: the parser's other complaints follow from it.

@@ -140,7 +140,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   if (sheet.of == SheetOf::places) {
     std::vector<DrillPlace> places;
     for (const SheetVisit& visit : visits_of(sheet)) {
-      // A comment in brackets holds no further brackets.
+      // A comment in brackets cannot contain further brackets.
       places.push_back({visit.again == 0
                             ? fmt::format("mark {}", visit.number)
                             : fmt::format("mark {}: next to mark {}", visit.number, visit.again),

@@ -31,7 +31,7 @@ class SquarePicture {
       const BedPoint e = error(i);
       largest = std::max(largest, std::hypot(e.x_mm, e.y_mm));
     }
-    // A round number of times; a perfect square (rounding alone) is drawn as it is.
+    // A round factor; a perfect square, up to rounding, is not magnified.
     constexpr double kRoundingMm = 1e-6;
     magnification_ = 1.0;
     if (largest > kRoundingMm) {

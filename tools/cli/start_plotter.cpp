@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using model::PlotterFirmware;
 
-/// A mural and a Polargraph take a picture, the others a program.
+/// A mural and a Polargraph read a picture, the others a program.
 FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
   if (drawing.firmware == PlotterFirmware::mural || drawing.firmware == PlotterFirmware::polargraph)
     return {"page.svg", grid::drawing_svg(drawing), Origin::drawing};

@@ -40,7 +40,7 @@ class BedView {
   double half_width_mm_, half_height_mm_, left_, top_, wide_;
 };
 
-/// Texts are escaped; a `look` is attributes as they stand in an element.
+/// Texts are escaped; a `look` is a list of attributes as written in an element.
 class Svg {
  public:
   /// \param look of the whole: its font and other attributes that all elements share

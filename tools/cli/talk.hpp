@@ -23,14 +23,14 @@ void set_called_as(std::string_view name);
 /// if necessary. Prints nothing if one of the words is "-": the pipeline continues.
 void say_next(const std::vector<std::string>& words);
 
-/// Messages under --quiet: held back, and printed if the verb fails.
+/// Messages under --quiet: stored, and printed if the verb fails.
 class QuietTalk {
  public:
   explicit QuietTalk(bool is_quiet);
   ~QuietTalk();
   QuietTalk(const QuietTalk&) = delete;
   QuietTalk& operator=(const QuietTalk&) = delete;
-  /// Messages are printed again; those held back are printed first if `is_to_be_reported`.
+  /// Messages are printed again; stored ones are printed first if `is_to_be_reported`.
   void end(bool is_to_be_reported);
 
  private:

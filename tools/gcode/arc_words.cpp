@@ -120,7 +120,7 @@ double swept(double from, double to, int turns) {
 }  // namespace
 
 Circle circle_of(const ArcRequest& request, const Block& block) {
-  // Across the plane zero means nothing; FreeCAD writes it with every arc.
+  // A zero across the plane has no effect; FreeCAD writes it with every arc.
   const char across = centre_word(request.normal_axis);
   if (block.find(across).value_or(0.0) != 0.0) {
     refuse(bad_arc,

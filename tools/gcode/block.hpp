@@ -168,7 +168,7 @@ struct Block {
   refuse(problem, block.start(), std::move(sentence));
 }
 
-/// Whether a text holds several moves, by its words G0 to G3 and X with a number.
+/// Whether a text has several moves, judged by its words G0 to G3 and X with a number.
 [[nodiscard]] bool holds_moves(std::string_view text);
 
 /// Reads the words after `reader` to the end of the line.

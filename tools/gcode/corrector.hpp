@@ -28,9 +28,9 @@ enum class CorrectionReason {
   not_converged,
   controller,  ///< out of reach of the controller's own kinematics
 };
-/// A clause: "lies outside the map", ...
+/// A clause: "is outside the map", ...
 [[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
-/// For `unreachable` and `controller` with the cause, where it is known.
+/// For `unreachable` and `controller` with the cause, if known.
 using CorrectionFailure = Failure<CorrectionReason>;
 template <class T>
 using Corrected = tl::expected<T, CorrectionFailure>;
@@ -47,7 +47,7 @@ struct ChainDirections {
   friend bool operator==(const ChainDirections&, const ChainDirections&) = default;
 };
 
-/// Half the width of the machine's direction_hysteresis, per chain; zero where it has none.
+/// Half the width of the machine's direction_hysteresis, per chain; zero if it has none.
 [[nodiscard]] model::ChainLengths half_play_mm(const model::Machine& machine);
 
 class Corrector {

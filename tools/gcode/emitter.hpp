@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Writes G-code that all controllers of such machines read in the same way: G21 G90, G0 and G1
-/// only, X and Y always together, no dotted codes, no exponents, no moves of zero length, at most
-/// 60 characters a line.
+/// only, X and Y always together, no codes with a decimal point, no exponents, no moves of zero length, at
+/// most 60 characters per line.
 ///
 /// The head of the file says where it comes from, in comments:
 ///
@@ -55,12 +55,12 @@ void refuse_compensated(const Comment& comment);
 class Emitter {
  public:
   /// \param decimals 1 to 6.
-  /// \param semicolons comments stand behind semicolons, and one code on a line.
+  /// \param semicolons comments follow semicolons, and each line has one code.
   Emitter(ByteSink out, int decimals, bool semicolons = false);
 
-  /// Comments of the head, each line by itself; then the modes.
+  /// Comments of the head, one per line; then the modes.
   void header(const std::vector<std::string>& comments);
-  /// One straight command. XY is empty for a move in Z alone, z if the height does not change. A
+  /// One straight command. XY is empty for a move only in Z, z if the height does not change. A
   /// command that changes nothing after rounding is left out.
   void command(const Move& move,
                std::optional<model::BedPoint> xy,

@@ -63,8 +63,8 @@ struct Move {
   Point to;
   std::optional<Arc> arc;  ///< for MoveKind::arc
   FeedRate feed;           ///< meaningless for rapids
-  /// Whether the program itself states X or Y, and Z. A first move that does not leaves the axis
-  /// where it is.
+  /// Whether the program gives X or Y, and Z. A first move without one leaves that axis where it
+  /// is.
   bool names_xy = false;
   bool names_z = false;
   /// Rotation of A, B and C in degrees; a two-chain router has no such axes.
@@ -84,7 +84,7 @@ struct Code {
 /// ...), or a motion in the machine's own frame (G53, G28, G30).
 struct PassedWord {
   std::size_t line = 0;
-  /// `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` holds for that line alone.
+  /// `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` applies to that line only.
   std::string text;
   std::optional<Code> code{};  ///< empty for S and T
   bool moves_itself = false;   ///< in the machine's frame

@@ -98,7 +98,7 @@ struct Firmware {
   ArcRule arcs = ArcRule::exact;
   /// A move of zero length goes to another position.
   bool phantom_moves = false;
-  /// A comment begins with a semicolon, and one code stands on a line.
+  /// A comment begins with a semicolon, and a line has one code.
   bool semicolon_comments = false;
   /// False: it is sent pictures.
   bool reads_gcode = true;

@@ -71,7 +71,7 @@ class Flow {
     LineSource::Position return_to;
     LineSource::Position body;
     long remaining = 1;
-    bool program = false;    // M98, without arguments of its own
+    bool program = false;    // M98, without arguments
     std::size_t blocks = 0;  // open when it was called
   };
 
@@ -100,7 +100,7 @@ class Flow {
     LineSource::Position before;
   };
   std::optional<Found> find(const std::string& label, std::initializer_list<Keyword> keywords);
-  /// The same, where it has to stand.
+  /// The same, but required.
   Found skip_to(const std::string& label, std::initializer_list<Keyword> keywords, Place from);
   void open_block(OpenBlock block, Place place);
   void push_call(OpenCall call, Place place);

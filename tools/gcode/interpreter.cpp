@@ -184,7 +184,7 @@ void Interpreter::comments(const std::vector<CommentText>& texts) {
   for (const CommentText& text : texts) {
     if (text.semicolon && holds_moves(text.text)) {
       sink_.note({block_.line, "line_ends_lost", kLineEndsLost, line_ends_lost});
-      moves_ = true;  // which one problem says
+      moves_ = true;  // which is reported by one problem
     }
     Comment comment{block_.line, text.text, false};
     std::string_view body = text.text;

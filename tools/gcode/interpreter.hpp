@@ -28,7 +28,7 @@ struct Dialect {
   std::array<double, 2> home_mm{};
   /// Lines that begin with a slash are skipped, as with the controller's block delete switch on.
   bool skip_deletable_blocks = false;
-  /// The tool table holds zeros, so that G41 and G42 have no effect. Otherwise they are rejected.
+  /// The tool table has zeros, so G41 and G42 have no effect. Otherwise they are rejected.
   bool tools_have_no_diameter = false;
   /// A line with one of a plotter's own codes (plotter_codes.hpp) is passed on; otherwise it is rejected.
   bool passes_plotter_codes = false;
@@ -61,7 +61,7 @@ struct AfterBlock {
 
 class Interpreter {
  public:
-  /// Keeps references: to the block that each execute() takes, and to the sink.
+  /// Keeps references to the block passed to each execute() and to the sink.
   Interpreter(const Dialect& dialect, const Block& block, Sink& sink);
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
@@ -70,7 +70,7 @@ class Interpreter {
 
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
-  /// A plotter's own code, or M0 with a text, which is passed on as it is.
+  /// A plotter's own code, or M0 with a text, which is passed on unchanged.
   void pass_line(const std::vector<CommentText>& comments, Code code, std::string_view words);
   /// Notes on the program as a whole, at its end.
   void note_whole(std::size_t last_line);

@@ -107,7 +107,7 @@ void Interpreter::check_start(int motion) {
   }
 }
 
-/// Passed as it is: only the machine knows where that is in the work's frame.
+/// Passed unchanged, because only the machine knows where that is in the work's frame.
 void Interpreter::pass_height(std::string text, Code code) {
   moves_ = z_unknown_ = z_is_machine_ = true;
   sink_.word({block_.line, std::move(text), code, true});
@@ -227,7 +227,7 @@ void Interpreter::arc(bool clockwise) {
   request.turns = static_cast<int>(clockwise ? -count : count);
   request.absolute_centre = modes_.absolute_centres;
   request.mm_per_unit = mm_per_unit();
-  // LinuxCNC takes absolute centres in the program's frame, offsets included.
+  // LinuxCNC reads absolute centres in the program's frame, including offsets.
   const auto found = attempt([&] { return circle_of(request, block_); });
   if (!found) {
     if (!sink_.goes_on_after(found.error())) throw Refusal(found.error());

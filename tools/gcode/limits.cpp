@@ -17,7 +17,7 @@ namespace {
 /// Between nearer points rounding dominates the slope.
 constexpr double kSlopeBaseMm = 1.0;
 
-/// As many to a line as it holds, each line by itself.
+/// As many per line as fit, each line separately.
 std::vector<std::string> settings_lines(const std::vector<std::string>& settings) {
   constexpr std::string_view kHead = "(settings";
   std::vector<std::string> lines;

@@ -60,7 +60,7 @@ class Limits {
   Limits(const Corrector& corrector, const CompensateOptions& options, ByteSink out);
 
   void header(double home_x_mm, double home_y_mm);
-  /// The command that ends at this sample. \throws Refusal where it cannot be written
+  /// The command that ends at this sample. \throws Refusal if it cannot be written
   void command(const Move& move, double feed_mm_per_min, const PathSample& sample);
   /// A move in Z alone.
   void height(const Move& move, double feed_mm_per_min);

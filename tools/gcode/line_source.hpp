@@ -84,7 +84,7 @@ struct CleanLine {
   }
 };
 
-/// A word's letter as messages show it, and as the reader knows it; any other character as it is.
+/// A word's letter as messages show it and as the reader knows it; any other character unchanged.
 [[nodiscard]] char upper(char letter);
 [[nodiscard]] char lower(char letter);
 /// Where a run of digits from `at` on ends.

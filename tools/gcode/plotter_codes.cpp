@@ -35,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-/// -1 where the text holds more than digits, or too many.
+/// -1 if the text has other characters than digits, or too many.
 int number_of(std::string_view text) {
   constexpr int kLargest = 9999;
   int number = -1;

@@ -85,7 +85,7 @@ struct ProgramEvent {
   Kind kind = Kind::end;
   std::size_t line = 0;
   Move move;
-  PassedWord word;  ///< of Kind::end the one that ends the program; empty where none does
+  PassedWord word;  ///< of Kind::end the one that ends the program; empty if none does
 };
 
 class ProgramStream final : private Sink {

@@ -78,7 +78,7 @@ class Surveyor final : public Sink {
       take(at(move, t), move.line);
     }
   }
-  /// Home does not matter as long as it is not used.
+  /// Home does not matter until it is used.
   void note(const Note& note) override {
     const bool only_home = note.problem == unknown_home;
     findings_.add(only_home ? Note{note.line, note.name, note.sentence} : note);

@@ -2,7 +2,7 @@
 /// \file
 /// A simulated controller and machine: the tool's track for the moves of a program.
 ///
-/// Numbers are converted to the controller's own format; its path between two commands and its
+/// Numbers are converted to the controller's format; its path between two commands and its
 /// treatment of arcs are those of firmware.hpp; the machine is the inverse of the map, with play if
 /// there is any. Nothing that the compensation computes is used.
 #pragma once

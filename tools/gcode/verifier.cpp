@@ -311,7 +311,7 @@ class Verification {
     const std::size_t line = event.line;
     intended_.pop();
     if (found.word.leaves_xy) {
-      // Both start anew, from where the machine's own frame has brought them.
+      // Both restart where the move in machine coordinates has taken them.
       homed_ = true;
       started_ = heights_done_ = false;
       static_cast<void>(matcher_.begin({0.0, {}, {}, line, found.line}));

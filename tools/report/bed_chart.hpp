@@ -25,9 +25,9 @@ struct Outline {
 };
 
 /// The colours of every chart, page and sheet, from Okabe and Ito's palette, which is
-/// distinguishable with every colour vision. tests/report holds the chart specifications, the
-/// page's style and Python to this list.
-inline constexpr const char* kBeforeColor = "#d55e00";  ///< as it is, too long, a bad reading
+/// distinguishable with every colour vision. tests/report checks the chart specifications, the
+/// page's style and Python against this list.
+inline constexpr const char* kBeforeColor = "#d55e00";  ///< correct, too long, a bad reading
 inline constexpr const char* kAfterColor = "#0072b2";   ///< with the map or the causes, too short
 inline constexpr const char* kThirdColor =
     "#009e73";  ///< another way of reading: an edge, chain paid out
@@ -78,7 +78,7 @@ struct ArrowWords {
   /// Preceded by the magnification of the arrows.
   std::string close_caption{};
 };
-/// Before and after at one scale, and after once more if it is much smaller; before alone if there
+/// Before and after at one scale, and after once more if it is much smaller; only before if there
 /// is nothing after.
 [[nodiscard]] std::vector<ChartRow> arrow_rows(const Outline& sheet,
                                                const std::vector<Arrow>& before,

@@ -109,7 +109,7 @@ struct Table {
   std::vector<Row> rows{};
   /// Below the table, on the page.
   std::string caption{};
-  /// On the terminal the section's heading takes the place of the first column's.
+  /// On the terminal the section's heading replaces the first column's.
   bool is_headed = false;
   /// On the terminal: width of the first heading; 0: as wide as its column.
   int head_width = 0;
@@ -146,7 +146,7 @@ using Block = std::variant<Paragraph, List, Figures, Table, Chart, ChartRow>;
 struct Section {
   std::string title{};
   std::vector<Block> blocks{};
-  /// On the page: after the open ones, only its title until it is opened; printed only where it is open.
+  /// On the page: after the open ones, only its title until it is opened; printed only if it is open.
   bool is_folded = false;
   Detail detail = Detail::always;
   /// Whether the terminal shows the title, with the blocks indented below it.
@@ -178,12 +178,12 @@ struct Document {
   std::string provenance{};
 };
 
-/// The document as a page. \throws std::invalid_argument where a number is not finite, a row has
+/// The document as a page. \throws std::invalid_argument if a number is not finite, a row has
 /// more cells than its table has columns, or a chart specification does not exist.
 [[nodiscard]] std::string render_html(const Document& document);
 
 /// The document as lines for a terminal, with the details of `detail` (always or verbose). \throws
-/// std::invalid_argument where a number is not finite or a row has too many cells.
+/// std::invalid_argument if a number is not finite or a row has too many cells.
 [[nodiscard]] std::string render_text(const Document& document, Detail detail = Detail::always);
 
 }  // namespace chaintrue::report

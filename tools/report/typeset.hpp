@@ -16,7 +16,7 @@ namespace chaintrue::report {
 /// Fixed digits with a true minus sign, never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits);
 /// The number of a column, with an ASCII sign; never "-0.00".
-/// \throws std::invalid_argument where it is not finite.
+/// \throws std::invalid_argument if it is not finite.
 [[nodiscard]] std::string number_of(double value, const Column& column);
 /// A row's cells, at most as many as the table has columns. \throws std::invalid_argument for more.
 void check_row(const Table& table, const Row& row);

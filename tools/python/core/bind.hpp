@@ -4,7 +4,7 @@
 /// tools/python; what a user sees is the package's Python.
 ///
 /// Verbs run as the command runs them (run.cpp). Beside them are the readers, and what takes and gives arrays.
-/// Everything that has a file is the text of this file, both ways. Arrays are float64 of shape (n, 2); NaN where there is
+/// Everything that has a file is the text of this file, both ways. Arrays are float64 of shape (n, 2); NaN if there is
 /// no answer, which Python masks.
 #pragma once
 

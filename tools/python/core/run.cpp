@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A verb of the command, run in this process: what goes wrong arrives as an exception, what it prints
-/// as text.
+/// A verb of the command, run in this process: errors become exceptions, printed text is returned.
 #include "tools/cli/run_command.hpp"
 
 #include <cstdio>
