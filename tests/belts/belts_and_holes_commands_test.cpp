@@ -152,7 +152,7 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsOnly) {
   const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;
   // The same error, and the same of the scale, from the commands that look at a program.
-  const std::string words = "That is in the belts' own millimetres";
+  const std::string words = "That is in millimetres of belt";
   EXPECT_THAT(made.err, HasSubstr(words));
   const Outcome verified = run("gcode verify part.nc part.true.nc --map anchors.json");
   EXPECT_EQ(verified.code, 0) << verified.err;

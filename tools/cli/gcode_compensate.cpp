@@ -58,13 +58,14 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
            "Run gcode verify before cutting.";
   }
   if (!proof.fault.empty()) {
-    return fmt::format("Not safe to run, and not written: on a simulated {} controller, {}.",
+    return fmt::format("Not safe to run and not written: on a simulated {} controller, {}.",
                        controller,
                        proof.fault);
   }
   return fmt::format(
       "The file is safe to run: on a simulated {} controller the tool stays within {:.3f} mm of "
-      "the path (tolerance {:g} mm), at the intended feeds, with every word in its place.",
+      "the path (tolerance {:g} mm), at the intended feeds, with every other word in the right "
+      "place.",
       controller,
       proof.largest_mm,
       options.tolerance_mm);
@@ -236,7 +237,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
       picture.figures.insert(
           picture.figures.begin(),
           {fmt::format("{:.2f} mm", *expected),
-           promised.is_without_scale ? "expected error of the tool but for the scale, one sigma"
+           promised.is_without_scale ? "expected error of the tool without that of the scale, one "
+                                       "sigma"
                                      : "expected error of the tool, one sigma"});
     }
     Document document = report::page_of(picture);
@@ -261,9 +263,9 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   if (!holds) {
     fmt::print(
         stderr,
-        "{}: run on a simulated {} controller, the compensated program is not within {} mm: {}\n"
-        "the program is not written; try another --tolerance-mm, or --no-verify for a look at that "
-        "line\n",
+        "{}: run on a simulated {} controller, the compensated program is not within {} mm: "
+        "{}\nthe program is not written; try another --tolerance-mm, or --no-verify to inspect "
+        "that line\n",
         files::name_in_messages(options.program),
         machine.corrector().firmware().name,
         options.tolerance_mm,

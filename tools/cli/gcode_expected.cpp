@@ -50,7 +50,7 @@ std::string in_words(const PromisedError& error) {
   if (const auto outside = error.outside_mm()) {
     const ErrorAlong& along = error.map->outside;
     words += fmt::format(
-        "{:.1f} m of cuts lie outside the measured part: expect those within about {} mm ({} at "
+        "{:.1f} m of cuts are outside the measured part: expect those within about {} mm ({} at "
         "worst, in line {}).\n",
         along.length_mm / 1000.0,
         about_mm(*outside),
@@ -59,8 +59,8 @@ std::string in_words(const PromisedError& error) {
   }
   if (error.is_without_scale && !words.empty()) {
     words +=
-        "That is in the belts' own millimetres. Their error of scale comes on top, in proportion "
-        "to the part: 1 mm in a metre for each tenth of a per cent.\n";
+        "That is in millimetres of belt. The error of the belts' scale is additional and in "
+        "proportion to the part: 1 mm per metre for each tenth of a per cent.\n";
   }
   return words;
 }

@@ -51,7 +51,7 @@ Section before_after_section(const MapPictures& report) {
             "tap a point for its values.",
             "After: with the map, same scale",
             "The residual at the points that the map was made from.",
-            " Random directions are noise; neighbours that point the same way would be something "
+            " Random directions are noise; neighbours that point the same way would mean an error "
             "that the map has missed."})) {
     section.blocks.emplace_back(std::move(row));
   }
@@ -60,7 +60,7 @@ Section before_after_section(const MapPictures& report) {
 
 Section steps_section(const MapPictures& report) {
   static constexpr const char* kColorOfKind[] = {kBeforeColor, kAfterColor, kNeutralColor};
-  Section section{"What each step gains", {}};
+  Section section{"Improvement with each step", {}};
   Chart chart{.specification = "error_steps", .title = "Error at the tool, rms"};
   DataTable steps{"steps", {"what", "rms_mm", "max_text", "color"}, {}};
   Table table{
@@ -113,12 +113,12 @@ HeldOut held_out_of(const MapPictures& report) {
 Chart target_chart(const MapPictures& report, const HeldOut& held_out) {
   Chart chart{
       .specification = "held_out_target",
-      .title = "Each point as the others predict it",
+      .title = "Each point predicted from the others",
       .caption =
           "Each dot is one point's error at the tool, as a hit on a target. A cloud around the "
           "middle is noise; a cloud off the middle would be a shift of the whole sheet."};
   if (held_out.has_bad)
-    chart.caption += " Crosses were left out; those off the target stand at its rim.";
+    chart.caption += " Crosses were left out; those off the target are drawn at its rim.";
   DataTable hits{"hits", {"name", "dx_mm", "dy_mm", "is_bad"}, {}};
   for (const ReportPoint& point : report.points) {
     if (point.held_out)
@@ -179,7 +179,7 @@ Chart error_map_chart(const MapPictures& report) {
         return cell.coverage != "inside";
       })) {
     chart.caption +=
-        " Cells with a stroke lie at or beyond the edge of the measured points: trust them less.";
+        " Cells with a stroke are at or beyond the edge of the measured points and less reliable.";
   }
   DataTable points{"points", {"x_mm", "y_mm"}, {}};
   for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});

@@ -169,10 +169,9 @@ Document page_of(const PathReport& report) {
   Chart chart{.specification = "gcode_path"};
   chart.title = "The path before and after";
   chart.caption = fmt::format(
-      "Grey: where the tool should go, as the program commanded before. Coloured: what is "
-      "commanded now, its distance from the grey path drawn {:g} times as large. Dashed: rapids. "
-      "The picture shows the cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the "
-      "sheet is tinted.{}",
+      "Grey: the intended path, as the program commanded it. Coloured: the compensated path, with "
+      "its distance from the grey one drawn {:g} times as large. Dashed: rapids. The picture shows "
+      "the cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the sheet is tinted.{}",
       magnification,
       view.x_min_mm,
       view.x_max_mm,
