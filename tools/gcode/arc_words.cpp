@@ -53,9 +53,9 @@ PlanePoint by_radius(const ArcRequest& request, const Block& block) {
   if (half_chord - magnitude > tolerance) {
     refuse(bad_arc,
            block.place('r'),
-           fmt::format("the radius {} is too small: the arc's ends are {} apart",
-                       in_units(magnitude, request),
-                       in_units(2.0 * half_chord, request)));
+           "the radius {} is too small: the arc's ends are {} apart",
+           in_units(magnitude, request),
+           in_units(2.0 * half_chord, request));
   }
   magnitude = half_chord / magnitude > 1.0 - kTiny ? half_chord : magnitude;
   const double to_centre =
@@ -74,10 +74,11 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
   const char first = centre_word(request.first_axis);
   const char second = centre_word(request.second_axis);
   if (request.absolute_centre && !(block.has(first) && block.has(second))) {
-    refuse(
-        bad_arc,
-        block,
-        fmt::format("absolute centres (G90.1) need both {} and {}", upper(first), upper(second)));
+    refuse(bad_arc,
+           block,
+           "absolute centres (G90.1) need both {} and {}",
+           upper(first),
+           upper(second));
   }
   const PlanePoint base = request.absolute_centre ? PlanePoint{} : request.start;
   const PlanePoint centre{base.first_mm + block.find(first).value_or(0.0) * request.mm_per_unit,
@@ -96,10 +97,10 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
     refuse(bad_arc,
            block,
-           fmt::format("the arc's end is not on its circle: the radius is {} at the start and {} "
-                       "at the end",
-                       in_units(from_start, request),
-                       in_units(from_end, request)));
+           "the arc's end is not on its circle: the radius is {} at the start and {} "
+           "at the end",
+           in_units(from_start, request),
+           in_units(from_end, request));
   }
   return centre;
 }
@@ -123,9 +124,8 @@ Circle circle_of(const ArcRequest& request, const Block& block) {
   // A zero across the plane has no effect; FreeCAD writes it with every arc.
   const char across = centre_word(request.normal_axis);
   if (block.find(across).value_or(0.0) != 0.0) {
-    refuse(bad_arc,
-           block.place(across),
-           fmt::format("{} has no meaning for an arc of this plane", upper(across)));
+    refuse(
+        bad_arc, block.place(across), "{} has no meaning for an arc of this plane", upper(across));
   }
   const bool has_centre =
       block.has(centre_word(request.first_axis)) || block.has(centre_word(request.second_axis));

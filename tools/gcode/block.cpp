@@ -3,8 +3,6 @@
 /// Words of a block: letters, values, modal groups.
 #include "tools/gcode/block.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,17 +42,15 @@ constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
 void read_code(Code code, Place place, Block& block, bool tools_have_no_diameter) {
   const KnownCode* known = find(code);
-  if (known == nullptr) refuse(unknown_code, place, fmt::format("{} is unknown", name(code)));
+  if (known == nullptr) refuse(unknown_code, place, "{} is unknown", name(code));
   const bool harmless =
       tools_have_no_diameter && (code == g::cutter_left || code == g::cutter_right);
   if (known->refusal != nullptr && !harmless) {
-    refuse(unsupported_code, place, fmt::format("{}: {}", name(code), known->refusal));
+    refuse(unsupported_code, place, "{}: {}", name(code), known->refusal);
   }
   const KnownCode*& slot = block.codes[static_cast<std::size_t>(known->group)];
   if (slot != nullptr) {
-    refuse(modal_conflict,
-           place,
-           fmt::format("{} and {} cannot be on the same line", name(*slot), name(code)));
+    refuse(modal_conflict, place, "{} and {} cannot be on the same line", name(*slot), name(code));
   }
   slot = known;
 }
@@ -66,15 +62,14 @@ Code read_g(ValueReader& reader) {
   const double tenths = 10.0 * value;
   const double rounded = std::round(tenths);
   if (value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0)
-    refuse(unknown_code, place, fmt::format("G{} is not a code", value));
+    refuse(unknown_code, place, "G{} is not a code", value);
   return {'G', static_cast<int>(rounded)};
 }
 
 Code read_m(ValueReader& reader) {
   const Place place = reader.place();
   const long number = reader.integer();
-  if (number < 0 || number > 9999)
-    refuse(unknown_code, place, fmt::format("M{} is unknown", number));
+  if (number < 0 || number > 9999) refuse(unknown_code, place, "M{} is unknown", number);
   return m(static_cast<int>(number));
 }
 
@@ -86,7 +81,7 @@ void read_assignment(ValueReader& reader, Block& block) {
   } else {
     const long index = reader.integer();
     if (index < 1 || index >= parameter::kCount) {
-      refuse(bad_parameter, assignment.place, fmt::format("#{} does not exist", index));
+      refuse(bad_parameter, assignment.place, "#{} does not exist", index);
     }
     assignment.index = static_cast<int>(index);
   }
@@ -101,14 +96,14 @@ void read_assignment(ValueReader& reader, Block& block) {
 
 void read_word(char letter, Place place, ValueReader& reader, Block& block) {
   if (kPlainLetters.find(letter) == std::string_view::npos) {
-    refuse(bad_character, place, fmt::format("no word starts with '{}'", upper(letter)));
+    refuse(bad_character, place, "no word starts with '{}'", upper(letter));
   }
   if (block.has(letter)) {
-    refuse(repeated_word, place, fmt::format("a second {} word on the line", upper(letter)));
+    refuse(repeated_word, place, "a second {} word on the line", upper(letter));
   }
   const double value = reader.real();
   if (std::fabs(value) > 1e9) {
-    refuse(number_out_of_range, place, fmt::format("{}{} is out of range", upper(letter), value));
+    refuse(number_out_of_range, place, "{}{} is out of range", upper(letter), value);
   }
   block.put(letter, value, place);
 }

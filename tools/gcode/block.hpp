@@ -136,7 +136,7 @@ struct Block {
     return has(letter) ? std::optional(value(letter)) : std::nullopt;
   }
   [[nodiscard]] Place place(char letter) const { return {line, columns_[slot(letter)]}; }
-  [[nodiscard]] Place start() const { return {line}; }
+  [[nodiscard]] operator Place() const { return {line}; }
   [[nodiscard]] const KnownCode* code(Group group) const {
     return codes[static_cast<std::size_t>(group)];
   }
@@ -162,11 +162,6 @@ struct Block {
   std::array<double, 28> values_{};
   std::array<std::size_t, 28> columns_{};
 };
-
-/// Of the block as a whole.
-[[noreturn]] inline void refuse(ProblemName problem, const Block& block, std::string sentence) {
-  refuse(problem, block.start(), std::move(sentence));
-}
 
 /// Whether a text has several moves, judged by its words G0 to G3 and X with a number.
 [[nodiscard]] bool holds_moves(std::string_view text);

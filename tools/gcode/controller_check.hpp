@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tools/gcode/firmware.hpp"
 
@@ -24,25 +25,28 @@ class ControllerCheck final : public Sink {
   [[nodiscard]] bool goes_on_after(const Problem&) override { return true; }
 
  private:
-  void arc(const Move& move);
-
+  /// In the order in which they are reported.
+  enum class Kind {
+    unknown_code,
+    misread_code,
+    straight_arc,
+    upright_arc,
+    arc_turns,
+    no_length,
+    short_tick,
+    short_plan,
+  };
   struct Occurrences {
     std::size_t line = 0;
     std::size_t count = 0;
     double worst = 0.0;
-    void add(std::size_t where, double size = 0.0);
   };
+  void add(Kind kind, std::size_t line, double size = 0.0, std::string codes = {});
+  void arc(const Move& move);
 
   const Firmware& firmware_;
   Findings& findings_;
-  std::map<std::string, Occurrences> unknown_;
-  std::map<std::string, Occurrences> misread_;
-  Occurrences straight_arcs_;
-  Occurrences upright_arcs_;
-  Occurrences arc_turns_;
-  Occurrences no_length_;
-  Occurrences short_ticks_;
-  Occurrences short_plans_;
+  std::map<std::pair<Kind, std::string>, Occurrences> observed_;
 };
 
 }  // namespace chaintrue::gcode

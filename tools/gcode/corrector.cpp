@@ -3,8 +3,6 @@
 /// Map and controller in series.
 #include "tools/gcode/corrector.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

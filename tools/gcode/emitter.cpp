@@ -157,8 +157,9 @@ void Emitter::command(const Move& move,
   const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
-    refuse(
-        not_emittable, {move.line}, "a coordinate or feed rate of this move is not a usable number");
+    refuse(not_emittable,
+           {move.line},
+           "a coordinate or feed rate of this move is not a usable number");
   }
   text_.assign(rapid ? "G0" : "G1");
   bool moves = false;
@@ -199,16 +200,14 @@ void Emitter::command(const Move& move,
 void Emitter::word(const PassedWord& word) {
   std::string_view text = word.text;
   if (word.code && word.code->letter == 'G' && word.code->tenths % 10 != 0) {
-    refuse(
-        not_emittable,
-        {word.line},
-        fmt::format("{} cannot be written, because some controllers read only the part before the "
-                    "decimal point",
-                    name(*word.code)));
+    refuse(not_emittable,
+           {word.line},
+           "{} cannot be written, because some controllers read only the part before the "
+           "decimal point",
+           name(*word.code));
   }
   if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
-    refuse(
-        not_emittable, {word.line}, "this line has more characters than a controller accepts");
+    refuse(not_emittable, {word.line}, "this line has more characters than a controller accepts");
   }
   const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
                      ((waiting_word_.front() == 'T' && text == "M6") ||

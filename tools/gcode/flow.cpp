@@ -129,7 +129,7 @@ Flow::Found Flow::skip_to(const std::string& label,
                           Place from) {
   auto found = find(label, keywords);
   if (found) return std::move(*found);
-  refuse(bad_flow, from, fmt::format("the file has no end of o{}", label));
+  refuse(bad_flow, from, "the file has no end of o{}", label);
 }
 
 void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
@@ -137,8 +137,9 @@ void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
   if (!fresh && known->second != line.number) {
     refuse(bad_flow,
            line.place(0),
-           fmt::format(
-               "the subroutine o{} is already defined on line {}", control.label, known->second));
+           "the subroutine o{} is already defined on line {}",
+           control.label,
+           known->second);
   }
   bodies_.insert_or_assign(control.label, source_.position());
   skip_to(control.label, {Keyword::endsub}, line.place(0));
@@ -158,17 +159,13 @@ LineSource::Position Flow::find_body(const std::string& label, Place place) {
     source_.seek(here);
     return body;
   }
-  refuse(bad_flow,
-         place,
-         fmt::format("the subroutine o{} is not in this file; other files are not read",
-                     label));
+  refuse(
+      bad_flow, place, "the subroutine o{} is not in this file; other files are not read", label);
 }
 
 void Flow::push_call(OpenCall call, Place place) {
   if (calls_.size() >= kDeepestCall) {
-    refuse(bad_flow,
-           place,
-           fmt::format("subroutines call each other more than {} levels deep", kDeepestCall));
+    refuse(bad_flow, place, "subroutines call each other more than {} levels deep", kDeepestCall);
   }
   interpreter_.step(place);
   call.blocks = blocks_.size();
@@ -202,9 +199,7 @@ void Flow::call(const CleanLine& line, const ControlLine& control) {
 
 void Flow::return_from(const CleanLine& line, const ControlLine& control) {
   if (calls_.empty() || calls_.back().program || calls_.back().label != control.label) {
-    refuse(bad_flow,
-           line.place(0),
-           fmt::format("the subroutine o{} has not been called", control.label));
+    refuse(bad_flow, line.place(0), "the subroutine o{} has not been called", control.label);
   }
   const bool returns = control.rest < line.text.size();
   const double result = returns ? value(line, control.rest) : 0.0;
@@ -251,14 +246,13 @@ Flow::OpenBlock* Flow::innermost(const std::string& label) {
 
 void Flow::finish(Place place) const {
   if (!calls_.empty()) {
-    refuse(bad_flow,
-           place,
-           fmt::format("the file ends inside the subroutine o{}", calls_.back().label));
+    refuse(bad_flow, place, "the file ends inside the subroutine o{}", calls_.back().label);
   }
   if (!blocks_.empty()) {
     refuse(bad_flow,
            {blocks_.back().line, 0},
-           fmt::format("the loop or condition o{} has no end", blocks_.back().label));
+           "the loop or condition o{} has no end",
+           blocks_.back().label);
   }
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Loops and conditions: while, do, repeat, if, and the ways out of them.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -35,9 +33,8 @@ void Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
     block.start = source_.position();
     // An expression may differ from a whole number by rounding.
     if (std::fabs(count - std::round(count)) > 0.0001) {
-      refuse(bad_flow,
-             line.place(control.rest),
-             fmt::format("a loop count must be a whole number, not {}", count));
+      refuse(
+          bad_flow, line.place(control.rest), "a loop count must be a whole number, not {}", count);
     }
     block.remaining = static_cast<long>(std::clamp(std::round(count), -1.0, 1e15));
     if (block.remaining <= 0) {
@@ -66,9 +63,7 @@ void Flow::end_loop(const CleanLine& line, const ControlLine& control) {
   const Keyword kind = control.keyword == Keyword::endwhile ? Keyword::while_ : Keyword::repeat;
   OpenBlock* open = innermost(control.label);
   if (open == nullptr || open->kind != kind) {
-    refuse(bad_flow,
-           line.place(0),
-           fmt::format("o{} ends a loop that does not begin here", control.label));
+    refuse(bad_flow, line.place(0), "o{} ends a loop that does not begin here", control.label);
   }
   interpreter_.step(line.place(0));
   const LineSource::Position start = open->start;
@@ -88,7 +83,8 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
   if (!begins && (open == nullptr || open->kind != Keyword::if_)) {
     refuse(bad_flow,
            line.place(0),
-           fmt::format("o{} continues a condition that does not begin here", control.label));
+           "o{} continues a condition that does not begin here",
+           control.label);
   }
   if (!begins) {  // the executed branch is over
     blocks_.resize(static_cast<std::size_t>(open - blocks_.data()));
@@ -110,9 +106,7 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
 void Flow::jump_out(const CleanLine& line, const ControlLine& control) {
   OpenBlock* open = innermost(control.label);
   if (open == nullptr || open->kind == Keyword::if_) {
-    refuse(bad_flow,
-           line.place(0),
-           fmt::format("o{} is not a loop that could be left here", control.label));
+    refuse(bad_flow, line.place(0), "o{} is not a loop that could be left here", control.label);
   }
   const OpenBlock loop = *open;
   const auto index = static_cast<std::size_t>(open - blocks_.data());

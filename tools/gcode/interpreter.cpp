@@ -22,25 +22,33 @@ void Interpreter::step(Place place) {
   if (++steps_ <= dialect_.step_budget) return;
   refuse(step_budget,
          place,
-         fmt::format("the program has taken {} steps in loops, subroutines and cycles without "
-                     "reaching its end",
-                     dialect_.step_budget));
+         "the program has taken {} steps in loops, subroutines and cycles without "
+         "reaching its end",
+         dialect_.step_budget);
 }
 
-void Interpreter::note_once(Note note) {
-  if (noted_.insert(note.name).second) sink_.note(note);
+void Interpreter::note(std::string_view name,
+                       std::string sentence,
+                       std::optional<ProblemName> problem) const {
+  sink_.note({block_.line, name, std::move(sentence), problem});
+}
+
+void Interpreter::note_once(std::string_view name,
+                            std::string sentence,
+                            std::optional<ProblemName> problem) {
+  if (noted_.insert(name).second) note(name, std::move(sentence), problem);
 }
 
 void Interpreter::note_deletable() {
   if (!block_.deletable) return;
-  note_once({block_.line,
-             "deletable_line",
-             "a line begins with a slash; it is executed, as with the block delete switch off"});
+  note_once("deletable_line",
+            "a line begins with a slash; it is executed, as with the block delete switch off");
 }
 
 void Interpreter::note_whole(std::size_t last_line) {
   if (!moves_) {
-    return sink_.note({last_line, "moves_nothing", "the program does not move the tool", moves_nothing});
+    return sink_.note(
+        {last_line, "moves_nothing", "the program does not move the tool", moves_nothing});
   }
   if (long_arcs_ > 1 && long_arcs_ == arcs_) {
     sink_.note(
@@ -98,9 +106,7 @@ AfterBlock Interpreter::execute(const std::vector<CommentText>& texts) {
   once();
   if (motion >= 0) {
     if (!std::exchange(units_stated_, true)) {
-      sink_.note({block_.line,
-                  "units_assumed",
-                  "the program moves before G20 or G21; millimetres are assumed"});
+      note("units_assumed", "the program moves before G20 or G21; millimetres are assumed");
     }
     move(motion);
   }
@@ -183,7 +189,7 @@ std::string Interpreter::written_out(std::string_view text) const {
 void Interpreter::comments(const std::vector<CommentText>& texts) {
   for (const CommentText& text : texts) {
     if (text.semicolon && holds_moves(text.text)) {
-      sink_.note({block_.line, "line_ends_lost", kLineEndsLost, line_ends_lost});
+      note("line_ends_lost", kLineEndsLost, line_ends_lost);
       moves_ = true;  // which is reported by one problem
     }
     Comment comment{block_.line, text.text, false};
@@ -216,10 +222,9 @@ void Interpreter::set_feed(int motion) {
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
   if (block_.has('f')) {
     if (block_.code(Group::units) != nullptr && block_.is(g::inches) != modes_.inches && !inverse) {
-      sink_.note({block_.line,
-                  "feed_before_units",
-                  "F and a change of units are on one line: F is read in the old unit here, but "
-                  "other controllers use the new one"});
+      note("feed_before_units",
+           "F and a change of units are on one line: F is read in the old unit here, but "
+           "other controllers use the new one");
     }
     modes_.feed = inverse ? block_.value('f') : length('f');
   }
@@ -251,10 +256,9 @@ void Interpreter::set_modes() {
   if (const KnownCode* centres = block_.code(Group::arc_distance)) {
     modes_.absolute_centres = centres->tenths == g::absolute_centres;
     note_once(
-        {block_.line,
-         "dotted_code",
-         "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
-         "has neither"});
+        "dotted_code",
+        "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
+        "has neither");
   }
   if (block_.is(g::no_motion)) modes_.motion = g::no_motion;
   if (const KnownCode* retract = block_.code(Group::retract))

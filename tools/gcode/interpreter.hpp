@@ -123,7 +123,13 @@ class Interpreter {
   AfterBlock after() const;
   void assign();
   /// Remarks of one name are made once a program.
-  void note_once(Note note);
+  /// At the block.
+  void note(std::string_view name,
+            std::string sentence,
+            std::optional<ProblemName> problem = {}) const;
+  void note_once(std::string_view name,
+                 std::string sentence,
+                 std::optional<ProblemName> problem = {});
   void note_deletable();
   void check_assignments() const;
   [[nodiscard]] std::string written_out(std::string_view text) const;

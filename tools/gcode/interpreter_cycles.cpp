@@ -52,7 +52,7 @@ Axes Interpreter::Cycle::at(double height) const {
 }
 
 void Interpreter::Cycle::go(MoveKind kind, double height) const {
-  interpreter.step(interpreter.block_.start());
+  interpreter.step(interpreter.block_);
   const Axes machine = at(height);
   Move move = interpreter.basic_move(kind, machine);
   move.names_xy = true;

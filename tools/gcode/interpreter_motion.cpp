@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// G0, G1, G2, G3 and probing: from words to moves in the machine frame.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -96,12 +94,11 @@ void Interpreter::check_start(int motion) {
   for (const std::size_t axis : {0U, 1U}) {
     if (!block_.has(kAxisLetters[axis]) && !block_.has_polar() && !is_arc(motion)) continue;
     if (modes_.incremental && !placed_[axis]) {
-      note_once({block_.line,
-                 "start_relative",
-                 "the program is relative (G91) before its first absolute position, so where it "
-                 "cuts depends on where the tool happens to be; add a first line that moves to its "
-                 "start on the sheet, such as G90 G0 X0 Y0",
-                 unknown_start});
+      note_once("start_relative",
+                "the program is relative (G91) before its first absolute position, so where it "
+                "cuts depends on where the tool happens to be; add a first line that moves to its "
+                "start on the sheet, such as G90 G0 X0 Y0",
+                unknown_start);
     }
     placed_[axis] = true;
   }
@@ -202,7 +199,8 @@ void Interpreter::arc(bool clockwise) {
     if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
       refuse(bad_arc,
              block_.place('p'),
-             fmt::format("P, the number of turns, must be a whole number from 1 to {}", kMostTurns));
+             "P, the number of turns, must be a whole number from 1 to {}",
+             kMostTurns);
     }
   }
   if (block_.is(g::machine_frame)) {

@@ -2,9 +2,9 @@
 /// \file
 /// The position of the program's zero: work coordinate systems, G10, G52, G92, and the homes of G28
 /// and G30.
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string_view>
 
@@ -26,29 +26,32 @@ Turn turn(double degrees) {
 
 Turn back(Turn by) { return {by.cosine, -by.sine}; }
 
-void rotate(Axes& axes, Turn by) {
+Axes rotated(Axes axes, Turn by) {
   const double x = axes[0];
   const double y = axes[1];
   axes[0] = x * by.cosine - y * by.sine;
   axes[1] = x * by.sine + y * by.cosine;
+  return axes;
+}
+
+Axes operator+(Axes a, const Axes& b) {
+  std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus<>());
+  return a;
+}
+
+Axes operator-(Axes a, const Axes& b) {
+  std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::minus<>());
+  return a;
 }
 
 }  // namespace
 
 Axes Interpreter::to_machine(const Axes& program) const {
-  Axes result;
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = program[i] + frame_.offset[i];
-  rotate(result, frame_.turn);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] += frame_.origin[i];
-  return result;
+  return rotated(program + frame_.offset, frame_.turn) + frame_.origin;
 }
 
 Axes Interpreter::to_program(const Axes& machine) const {
-  Axes result;
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = machine[i] - frame_.origin[i];
-  rotate(result, back(frame_.turn));
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] -= frame_.offset[i];
-  return result;
+  return rotated(machine - frame_.origin, back(frame_.turn)) - frame_.offset;
 }
 
 Axes Interpreter::stored(int first) const {
@@ -139,9 +142,7 @@ void Interpreter::set_system() {
   Axes origin = stored(first_parameter(system));
   const Turn by = turn(parameters_.stored(rotation_parameter(system)));
   // The machine's position in that system.
-  Axes here{};
-  for (std::size_t i = 0; i < here.size(); ++i) here[i] = machine_[i] - origin[i];
-  rotate(here, back(by));
+  const Axes here = rotated(machine_ - origin, back(by));
   // The change of the origin, in the system's directions, with which the machine's position has the
   // given coordinates.
   Axes shift{};
@@ -155,9 +156,7 @@ void Interpreter::set_system() {
       origin[i] = value;
     }
   }
-  rotate(shift, by);
-  for (std::size_t i = 0; i < origin.size(); ++i) origin[i] += shift[i];
-  store(first_parameter(system), origin);
+  store(first_parameter(system), origin + rotated(shift, by));
   if (system == modes_.system) refresh_frame();
 }
 
@@ -200,9 +199,7 @@ void Interpreter::store_home(int first) {
   home_known_[first == parameter::kHome ? 0 : 1] = true;
 }
 
-void Interpreter::note_home(const char* sentence) {
-  sink_.note({block_.line, "home_assumed", sentence, unknown_home});
-}
+void Interpreter::note_home(const char* sentence) { note("home_assumed", sentence, unknown_home); }
 
 /// Through the point of the axis words, then home with those axes; with all if none is given.
 void Interpreter::go_home(int first) {

@@ -35,12 +35,11 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
   const auto look = [&](const KnownCode* code) {
     if (code == nullptr || !uses(*code, letter)) return;
     if (user != nullptr) {
-      refuse(
-          bad_word_value,
-          block.place(letter),
-          fmt::format("the {} word could belong to two codes on this line; write each on a "
-                      "separate line",
-                      upper(letter)));
+      refuse(bad_word_value,
+             block.place(letter),
+             "the {} word could belong to two codes on this line; write each on a "
+             "separate line",
+             upper(letter));
     }
     user = code;
   };
@@ -56,9 +55,9 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
   }
   refuse(unused_word,
          block.place(letter),
-         fmt::format("nothing on the line uses the {} word; it belongs to {}",
-                     upper(letter),
-                     users_of(letter)));
+         "nothing on the line uses the {} word; it belongs to {}",
+         upper(letter),
+         users_of(letter));
 }
 
 void check_whole(const Block& block, char letter, std::string_view whose) {
@@ -66,16 +65,16 @@ void check_whole(const Block& block, char letter, std::string_view whose) {
   if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) return;
   refuse(bad_word_value,
          block.place(letter),
-         fmt::format("{}{} must be a whole number of at least 0; here it is {}",
-                     upper(letter),
-                     whose,
-                     with_value("", value)));
+         "{}{} must be a whole number of at least 0; here it is {}",
+         upper(letter),
+         whose,
+         with_value("", value));
 }
 
 void check_complete(const Block& block, const KnownCode& code) {
   for (const char letter : code.words) {
     if (!block.has(lower(letter)))
-      refuse(missing_word, block, fmt::format("{} needs {}", name(code), upper(letter)));
+      refuse(missing_word, block, "{} needs {}", name(code), upper(letter));
   }
 }
 
@@ -86,9 +85,7 @@ long whole(double value) { return std::lround(value); }
 void Interpreter::check_words(int motion) const {
   for (const char letter : {'u', 'v', 'w'}) {
     if (block_.has(letter)) {
-      refuse(unsupported_axis,
-             block_.place(letter),
-             fmt::format("the axis {} is not supported", upper(letter)));
+      refuse(unsupported_axis, block_.place(letter), "the axis {} is not supported", upper(letter));
     }
   }
   for (const char letter : std::string_view("dehijklpqr")) {
@@ -105,7 +102,7 @@ void Interpreter::check_words(int motion) const {
   }
   for (const char letter : {'s', 't', 'f'}) {
     if (block_.has(letter) && block_.value(letter) < 0.0) {
-      refuse(bad_word_value, block_.place(letter), fmt::format("{} is negative", upper(letter)));
+      refuse(bad_word_value, block_.place(letter), "{} is negative", upper(letter));
     }
   }
   if (block_.has('t')) check_whole(block_, 't', ", a tool's number,");
@@ -157,11 +154,9 @@ void Interpreter::dwell() {
   if (!block_.is(g::dwell)) return;
   if (!block_.has('p') || block_.value('p') < 0.0)
     refuse(missing_word, block_, "G4 needs a time P of at least 0");
-  note_once(
-      {block_.line,
-       "dwell_unit",
-       "G4 P is in seconds here but in milliseconds on the classic Maslow firmware; P is not "
-       "changed"});
+  note_once("dwell_unit",
+            "G4 P is in seconds here but in milliseconds on the classic Maslow firmware; P is not "
+            "changed");
   pass(g::dwell, with_value(" P", block_.value('p')));
 }
 
@@ -171,8 +166,10 @@ void Interpreter::tool_length() {
   if (block_.is(g::tool_length_stated)) {
     if (block_.has('x') || block_.has('y') || block_.has('a') || block_.has('b') ||
         block_.has('c')) {
-      refuse(unsupported_code, block_, "a tool offset (G43.1) in an axis other than Z moves the "
-                                       "path");
+      refuse(unsupported_code,
+             block_,
+             "a tool offset (G43.1) in an axis other than Z moves the "
+             "path");
     }
     pass(g::tool_length_stated, block_.has('z') ? with_value(" Z", length('z')) : std::string());
   } else if (const KnownCode* code = block_.code(Group::tool_length)) {

@@ -76,22 +76,21 @@ void Limits::word(const PassedWord& word) {
   const Firmware& firmware = corrector_.firmware();
   const bool is_length = word.code == g::tool_length || word.code == g::tool_length_stated;
   if (is_length && !firmware.tool_lengths) {
-    refuse(
-        not_emittable,
-        {word.line},
-        fmt::format("{}: {} stores no tool lengths, so every height after it could be wrong; "
-                    "remove G43 and set Z to zero with each tool",
-                    word.text,
-                    firmware.name));
+    refuse(not_emittable,
+           {word.line},
+           "{}: {} stores no tool lengths, so every height after it could be wrong; "
+           "remove G43 and set Z to zero with each tool",
+           word.text,
+           firmware.name);
   }
   if (word.moves_itself && !knows_code(firmware, *word.code)) {
     refuse(not_emittable,
            {word.line},
-           fmt::format("{}: {} does not support {} and would read the height as one above the "
-                       "work; write a safe height above the work (G0 Z...)",
-                       word.text,
-                       firmware.name,
-                       name(*word.code)));
+           "{}: {} does not support {} and would read the height as one above the "
+           "work; write a safe height above the work (G0 Z...)",
+           word.text,
+           firmware.name,
+           name(*word.code));
   }
   if (word.leaves_xy) here_.reset();
   note_unknown(word);
@@ -123,12 +122,11 @@ void Limits::examine(const Move& move, const PathSample& sample) {
     findings_.add(Problem{name, {move.line}, std::move(sentence)});
   };
   if (size > options_.largest_correction_mm) {
-    object_to(
-        correction_too_large,
-        fmt::format("{} would be corrected by {:.2f} mm, more than the {} mm allowed",
-                    in_xy(sample.target),
-                    size,
-                    options_.largest_correction_mm));
+    object_to(correction_too_large,
+              fmt::format("{} would be corrected by {:.2f} mm, more than the {} mm allowed",
+                          in_xy(sample.target),
+                          size,
+                          options_.largest_correction_mm));
   }
   if (const auto& box = options_.clamp_box) {
     const double beyond = std::max(std::fabs(sample.command.x_mm) - box->half_width_mm,

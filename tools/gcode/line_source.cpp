@@ -65,9 +65,7 @@ class Cleaner {
   void character(char c) {
     const auto byte = static_cast<unsigned char>(c);
     if (!is_blank(c) && (byte < 0x20 || byte >= 0x7F)) {
-      refuse(bad_character,
-             here(),
-             fmt::format("{} is not allowed in G-code outside a comment", printable(c)));
+      refuse(bad_character, here(), "{} is not allowed in G-code outside a comment", printable(c));
     }
     if (c == ')') refuse(bad_character, here(), "')' has no matching '('");
     if (c == '[') ++depth_;
@@ -98,9 +96,7 @@ class Cleaner {
       refuse(bad_checksum, place, "there is text after the checksum");
     }
     if (stated != sum) {
-      refuse(bad_checksum,
-             place,
-             fmt::format("the checksum is {}, but that of the line is {}", stated, sum));
+      refuse(bad_checksum, place, "the checksum is {}, but that of the line is {}", stated, sum);
     }
     at_ = rest;
   }
@@ -180,9 +176,9 @@ bool LineSource::next(SourceLine& line) {
   if (end - begin_ > kMaxLineLength) {
     refuse(line_too_long,
            {lines_before_ + 1, 0},
-           fmt::format("the line is longer than {} characters: the line ends are lost, or this is "
-                       "not a program",
-                       kMaxLineLength));
+           "the line is longer than {} characters: the line ends are lost, or this is "
+           "not a program",
+           kMaxLineLength);
   }
   if (end == buffer_.size() && end == begin_) return false;
   line.text = std::string_view(buffer_).substr(begin_, end - begin_);

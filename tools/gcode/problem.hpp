@@ -6,6 +6,8 @@
 /// Result.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <exception>
 #include <string>
@@ -56,6 +58,15 @@ class Refusal final : public std::exception {
 
 /// \throws Refusal
 [[noreturn]] void refuse(ProblemName problem, Place place, std::string sentence);
+
+/// With the sentence's values.
+template <class... Values>
+requires(sizeof...(Values) > 0) [[noreturn]] void refuse(ProblemName problem,
+                                                         Place place,
+                                                         fmt::format_string<Values...> sentence,
+                                                         Values&&... values) {
+  refuse(problem, place, fmt::format(sentence, std::forward<Values>(values)...));
+}
 
 template <class T>
 using Result = tl::expected<T, Problem>;

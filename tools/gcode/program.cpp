@@ -137,9 +137,9 @@ void Program::follow(const AfterBlock& after) {
     case AfterBlock::Flow::end:
       return end(block_.line, after.end_word);
     case AfterBlock::Flow::call_program:
-      return flow_.call_program(after.program, after.repeats, block_.start());
+      return flow_.call_program(after.program, after.repeats, block_);
     case AfterBlock::Flow::leave_program:
-      return flow_.leave_program(block_.start());
+      return flow_.leave_program(block_);
   }
 }
 

@@ -3,8 +3,6 @@
 /// Straight commands, pieces that are linear in chain length, arcs as cut by the firmwares.
 #include "tools/gcode/simulated_machine.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,7 +30,9 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
   const bool controller = failure.reason == CorrectionReason::controller;
   refuse(controller ? outside_controller : outside_map,
          {line},
-         fmt::format("{}: the tool's position {}", in_xy(command), failure.sentence()));
+         "{}: the tool's position {}",
+         in_xy(command),
+         failure.sentence());
 }
 
 }  // namespace

@@ -211,10 +211,10 @@ double ValueReader::number() {
     refuse(bad_number, start, "a number was expected here");
   }
   if (stop != digits.data() + digits.size()) {
-    refuse(bad_number, start, fmt::format("'{}' is not a number", digits));
+    refuse(bad_number, start, "'{}' is not a number", digits);
   }
   if (error != std::errc{} || !std::isfinite(value)) {
-    refuse(number_out_of_range, start, fmt::format("'{}' is out of range", digits));
+    refuse(number_out_of_range, start, "'{}' is out of range", digits);
   }
   at_ = end;
   return value;
@@ -225,7 +225,7 @@ long ValueReader::integer() {
   const auto value = real();
   const double rounded = std::round(value);
   if (std::fabs(value - rounded) > 0.0001 || std::fabs(rounded) > 1e9) {
-    refuse(bad_number, start, fmt::format("a whole number was expected, found {}", value));
+    refuse(bad_number, start, "a whole number was expected, found {}", value);
   }
   return static_cast<long>(rounded);
 }
@@ -248,15 +248,15 @@ double ValueReader::parameter() {
   if (peek() == '<') {
     const auto name = angle_name();
     if (const auto value = parameters_.get(name)) return *value;
-    refuse(bad_parameter, start, fmt::format("#<{}> has no value yet", name));
+    refuse(bad_parameter, start, "#<{}> has no value yet", name);
   }
   const auto index = integer();
   if (index < 1 || index >= parameter::kCount) {
-    refuse(
-        bad_parameter,
-        start,
-        fmt::format(
-            "#{} does not exist: parameters are numbered 1 to {}", index, parameter::kCount - 1));
+    refuse(bad_parameter,
+           start,
+           "#{} does not exist: parameters are numbered 1 to {}",
+           index,
+           parameter::kCount - 1);
   }
   return parameters_.get(static_cast<int>(index));
 }
