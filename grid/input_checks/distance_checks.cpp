@@ -267,8 +267,8 @@ struct DistanceRows {
     constexpr double kFewer = 1.4;
     constexpr double kTwice = 0.7;
     const double d = written.distance_mm;
-    value(0.5 * d, fmt::format("is it twice the distance, {:.10g} mm?", 0.5 * d), kTwice);
-    value(2.0 * d, fmt::format("is it half of the distance, {:.10g} mm?", 2.0 * d), kTwice);
+    value(0.5 * d, fmt::format("is it double the true {:.10g} mm?", 0.5 * d), kTwice);
+    value(2.0 * d, fmt::format("is it half of the true {:.10g} mm?", 2.0 * d), kTwice);
     for (const NumberError& slip : number_errors(d, false))
       value(slip.value, slip.question, slip.penalty - kFewer);
     others(written, weigh);
