@@ -97,111 +97,132 @@ Pose pose_of(const EquilibriumConstants& m,
   return pose;
 }
 
-template <bool kRotates>
-PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
-  if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
-  Unknowns<double> q;
-  const int iterations =
-      converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
-        return converge_inverse<kRotates>(m_, p, at);
-      });
-  if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
-  return pose_of(m_, q, point, iterations);
-}
+namespace {
 
+/// \tparam kRotates brackets: the sled's rotation is an unknown.
 template <bool kRotates>
-PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const {
-  const DomainLimits limits = limits_of(m_);
-  const CircleGuess guess = circle_guess(limits, lengths);
-  if (guess.hopeless || !guess.circles_meet) return forward_by_inverse(*this, limits, lengths);
-  Unknowns<double> q = straight_start(m_, guess.point);
-  const double span = m_.motors.right.x_mm - m_.motors.left.x_mm;
-  const double rise = m_.motors.left.y_mm - m_.motors.right.y_mm;
-  for (int n = 1; n <= hanging::kMostSteps; ++n) {
-    const PerSide<ChainTerms> t = terms_of(m_, q);
-    Attachments a;
-    if constexpr (kRotates) a = attachments(m_, q[kTurn]);
-    // Each chain's S follows from its length: S + wrap(phi) = L, linearised.
-    struct Row {
-      double u_h, u_v, y_h, y_v, u, y, s_h, s_v, s;
-    };
-    const auto row = [this](const ChainTerms& c, double s, double length) {
-      const double per = 1.0 / (1.0 + m_.sg * m_.r * c.phi_s);
-      Row r{};
-      r.s = -(s + m_.wrap(std::atan2(c.vb, c.h)) - length) * per;
-      r.s_h = -m_.sg * m_.r * c.phi_h * per;
-      r.s_v = -m_.sg * m_.r * c.phi_v * per;
-      r.u_h = c.u_h + c.u_s * r.s_h;
-      r.u_v = c.u_v + c.u_s * r.s_v;
-      r.y_h = c.y_h + c.y_s * r.s_h;
-      r.y_v = c.y_v + c.y_s * r.s_v;
-      r.u = c.tip_u + c.u_s * r.s;
-      r.y = c.tip_y + c.y_s * r.s;
-      return r;
-    };
-    const Row l = row(t.left, q[kSLeft], lengths.left_mm);
-    const Row r = row(t.right, q[kSRight], lengths.right_mm);
-    // Both chains end at the same sled, across and in height.
-    const double cx = l.u + r.u - a.left_x + a.right_x - span;
-    const double cy = l.y - r.y + a.left_y - a.right_y - rise;
-    SledRow moment;
-    if constexpr (kRotates)
-      moment = moment_row(m_, a, t, q[kTurn], moment_about_bit(m_, a, t, q[kTurn]));
-    Unknowns<double> step =
-        solve_sled<kRotates>({l.u_h + r.u_h, l.u_v - r.u_v, a.left_y - a.right_y, cx},
-                             {l.y_h - r.y_h, l.y_v + r.y_v, a.left_x - a.right_x, cy},
-                             moment);
-    step[kSLeft] = l.s + l.s_h * step[kH] + l.s_v * step[kV];
-    step[kSRight] = r.s + r.s_h * step[kH] - r.s_v * step[kV];
-    if (!hanging::are_finite(step)) break;
-    if (!hanging::advance({m_.W, m_.f}, step, q)) continue;
-    const PerSide<ChainTerms> end = terms_of(m_, q);
-    if constexpr (kRotates) a = attachments(m_, q[kTurn]);
-    // Left and right are equal to rounding; their mean keeps the mirror symmetry exact.
-    const BedPoint p{0.5 * (m_.motors.left.x_mm + end.left.tip_u - a.left_x +
-                            (m_.motors.right.x_mm - end.right.tip_u - a.right_x)),
-                     0.5 * (m_.motors.left.y_mm - end.left.tip_y - a.left_y +
-                            (m_.motors.right.y_mm - end.right.tip_y - a.right_y))};
-    if (domain_failure(limits, p)) break;
-    return pose_of(m_, q, p, n);
+class EquilibriumKinematics final : public Kinematics {
+ public:
+  EquilibriumKinematics(const EquilibriumParameters& parameters, const NotModelled& not_modelled)
+      : m_(equilibrium_constants(parameters)), not_modelled_(not_modelled) {}
+
+  [[nodiscard]] PoseResult inverse(BedPoint point) const override {
+    if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
+    Unknowns<double> q;
+    const int iterations =
+        converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
+          return converge_inverse<kRotates>(m_, p, at);
+        });
+    if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
+    return pose_of(m_, q, point, iterations);
   }
-  return forward_by_inverse(*this, limits, lengths);
-}
 
-template <bool kRotates>
-PerSide<ChainNumbers<2>> EquilibriumKinematics<kRotates>::by_place(const Pose& pose) const {
-  EquilibriumLoad by_x, by_y;
-  by_x.u = {-1.0, 1.0};
-  by_y.y = {1.0, 1.0};
-  return moved_chains<kRotates, 2>(
-      m_, pose, inputs_by_place(m_, pose.position), std::array{by_x, by_y});
-}
-
-template <bool kRotates>
-PerSide<ChainNumbers<1>> EquilibriumKinematics<kRotates>::by_parameter(const Pose& pose,
-                                                                       Parameter parameter) const {
-  const bool neglected =
-      (parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
-      (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
-      (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance);
-  const ChainInputs<Dual<1>> inputs = inputs_by_parameter(m_, pose.position, parameter, !neglected);
-  EquilibriumLoad load;
-  if (parameter <= Parameter::motor_right_y_mm) {
-    // A motor's place enters (1) directly.
-    for (const Side side : kSides) {
-      const auto motor = inputs.to_motor(side);
-      load.u[side] = -motor[0].d[0];
-      load.y[side] = -motor[1].d[0];
+  [[nodiscard]] PoseResult forward(ChainLengths lengths) const override {
+    const DomainLimits limits = limits_of(m_);
+    const CircleGuess guess = circle_guess(limits, lengths);
+    if (guess.hopeless || !guess.circles_meet) return forward_by_inverse(*this, limits, lengths);
+    Unknowns<double> q = straight_start(m_, guess.point);
+    const double span = m_.motors.right.x_mm - m_.motors.left.x_mm;
+    const double rise = m_.motors.left.y_mm - m_.motors.right.y_mm;
+    for (int n = 1; n <= hanging::kMostSteps; ++n) {
+      const PerSide<ChainTerms> t = terms_of(m_, q);
+      Attachments a;
+      if constexpr (kRotates) a = attachments(m_, q[kTurn]);
+      // Each chain's S follows from its length: S + wrap(phi) = L, linearised.
+      struct Row {
+        double u_h, u_v, y_h, y_v, u, y, s_h, s_v, s;
+      };
+      const auto row = [this](const ChainTerms& c, double s, double length) {
+        const double per = 1.0 / (1.0 + m_.sg * m_.r * c.phi_s);
+        Row r{};
+        r.s = -(s + m_.wrap(std::atan2(c.vb, c.h)) - length) * per;
+        r.s_h = -m_.sg * m_.r * c.phi_h * per;
+        r.s_v = -m_.sg * m_.r * c.phi_v * per;
+        r.u_h = c.u_h + c.u_s * r.s_h;
+        r.u_v = c.u_v + c.u_s * r.s_v;
+        r.y_h = c.y_h + c.y_s * r.s_h;
+        r.y_v = c.y_v + c.y_s * r.s_v;
+        r.u = c.tip_u + c.u_s * r.s;
+        r.y = c.tip_y + c.y_s * r.s;
+        return r;
+      };
+      const Row l = row(t.left, q[kSLeft], lengths.left_mm);
+      const Row r = row(t.right, q[kSRight], lengths.right_mm);
+      // Both chains end at the same sled, across and in height.
+      const double cx = l.u + r.u - a.left_x + a.right_x - span;
+      const double cy = l.y - r.y + a.left_y - a.right_y - rise;
+      SledRow moment;
+      if constexpr (kRotates)
+        moment = moment_row(m_, a, t, q[kTurn], moment_about_bit(m_, a, t, q[kTurn]));
+      Unknowns<double> step =
+          solve_sled<kRotates>({l.u_h + r.u_h, l.u_v - r.u_v, a.left_y - a.right_y, cx},
+                               {l.y_h - r.y_h, l.y_v + r.y_v, a.left_x - a.right_x, cy},
+                               moment);
+      step[kSLeft] = l.s + l.s_h * step[kH] + l.s_v * step[kV];
+      step[kSRight] = r.s + r.s_h * step[kH] - r.s_v * step[kV];
+      if (!hanging::are_finite(step)) break;
+      if (!hanging::advance({m_.W, m_.f}, step, q)) continue;
+      const PerSide<ChainTerms> end = terms_of(m_, q);
+      if constexpr (kRotates) a = attachments(m_, q[kTurn]);
+      // Left and right are equal to rounding; their mean keeps the mirror symmetry exact.
+      const BedPoint p{0.5 * (m_.motors.left.x_mm + end.left.tip_u - a.left_x +
+                              (m_.motors.right.x_mm - end.right.tip_u - a.right_x)),
+                       0.5 * (m_.motors.left.y_mm - end.left.tip_y - a.left_y +
+                              (m_.motors.right.y_mm - end.right.tip_y - a.right_y))};
+      if (domain_failure(limits, p)) break;
+      return pose_of(m_, q, p, n);
     }
-  } else {
-    const auto left =
-        hanging::slopes_of(residual(m_, inputs, hanging::fixed<1>(unknowns_of(pose))));
-    load = {{left[0], left[3]}, {left[1], left[4]}, left[6]};
+    return forward_by_inverse(*this, limits, lengths);
   }
-  return moved_chains<kRotates, 1>(m_, pose, inputs, std::array{load});
-}
 
-template class EquilibriumKinematics<false>;
-template class EquilibriumKinematics<true>;
+  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
+    EquilibriumLoad by_x, by_y;
+    by_x.u = {-1.0, 1.0};
+    by_y.y = {1.0, 1.0};
+    return moved_chains<kRotates, 2>(
+        m_, pose, inputs_by_place(m_, pose.position), std::array{by_x, by_y});
+  }
+
+  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
+                                                      Parameter parameter) const override {
+    const bool neglected =
+        (parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
+        (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
+        (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance);
+    const ChainInputs<Dual<1>> inputs =
+        inputs_by_parameter(m_, pose.position, parameter, !neglected);
+    EquilibriumLoad load;
+    if (parameter <= Parameter::motor_right_y_mm) {
+      // A motor's place enters (1) directly.
+      for (const Side side : kSides) {
+        const auto motor = inputs.to_motor(side);
+        load.u[side] = -motor[0].d[0];
+        load.y[side] = -motor[1].d[0];
+      }
+    } else {
+      const auto left =
+          hanging::slopes_of(residual(m_, inputs, hanging::fixed<1>(unknowns_of(pose))));
+      load = {{left[0], left[3]}, {left[1], left[4]}, left[6]};
+    }
+    return moved_chains<kRotates, 1>(m_, pose, inputs, std::array{load});
+  }
+
+ private:
+  EquilibriumConstants m_;
+  NotModelled not_modelled_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Kinematics> make_equilibrium_kinematics(EquilibriumParameters p,
+                                                              const NotModelled& not_modelled) {
+  if (not_modelled.sprocket) p.sprocket_radius_mm = 0.0;
+  if (not_modelled.chain_weight) p.chain_weight_n_per_mm = 0.0;
+  if (not_modelled.compliance) p.chain_compliance_per_n = 0.0;
+  if (std::holds_alternative<Ring>(p.attachment)) {
+    return std::make_unique<EquilibriumKinematics<false>>(p, not_modelled);
+  }
+  return std::make_unique<EquilibriumKinematics<true>>(p, not_modelled);
+}
 
 }  // namespace chaintrue::model

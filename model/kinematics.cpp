@@ -56,24 +56,13 @@ void require_sound(const EquilibriumParameters& p) {
   require("sag_correction", p.sag_correction, -kInfinity, kInfinity);
 }
 
-std::unique_ptr<const Kinematics> equilibrium(EquilibriumParameters p,
-                                              const NotModelled& not_modelled = {}) {
-  if (not_modelled.sprocket) p.sprocket_radius_mm = 0.0;
-  if (not_modelled.chain_weight) p.chain_weight_n_per_mm = 0.0;
-  if (not_modelled.compliance) p.chain_compliance_per_n = 0.0;
-  if (std::holds_alternative<Ring>(p.attachment)) {
-    return std::make_unique<EquilibriumKinematics<false>>(p, not_modelled);
-  }
-  return std::make_unique<EquilibriumKinematics<true>>(p, not_modelled);
-}
-
 /// The weightless limit: where the beam yields or the sled rotates there is no closed form, and the
 /// equilibrium is solved with weightless inextensible chains.
 std::unique_ptr<const Kinematics> weightless(const EquilibriumParameters& p, Formula formula) {
   const bool closed =
       std::holds_alternative<Ring>(p.attachment) && p.beam_flexibility_mm_per_n == 0.0;
-  if (closed) return std::make_unique<FormulaKinematics>(p, formula);
-  return equilibrium(
+  if (closed) return make_formula_kinematics(p, formula);
+  return make_equilibrium_kinematics(
       p, {.sprocket = formula == Formula::straight, .chain_weight = true, .compliance = true});
 }
 
@@ -117,11 +106,6 @@ Eigen::Matrix2d Kinematics::jacobian(const Pose& pose) const {
   return j;
 }
 
-Eigen::Vector2d Kinematics::sensitivity(const Pose& pose, Parameter parameter) const {
-  const PerSide<ChainNumbers<1>> chains = by_parameter(pose, parameter);
-  return {chains.left.length_mm.d[0], chains.right.length_mm.d[0]};
-}
-
 std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& parameters,
                                                   Model model) {
   require_sound(parameters);
@@ -134,17 +118,17 @@ std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& p
     // The firmware's quadrilateral has neither sag nor stretch: it is the weightless model.
     case Model::firmware:
       if (!ring) return weightless(parameters, Formula::wrap);
-      return std::make_unique<FormulaKinematics>(parameters, Formula::firmware);
+      return make_formula_kinematics(parameters, Formula::firmware);
     case Model::one_shot:
-      return std::make_unique<FormulaKinematics>(parameters, Formula::one_shot);
+      return make_formula_kinematics(parameters, Formula::one_shot);
     case Model::inextensible:
-      return equilibrium(parameters, {.compliance = true});
+      return make_equilibrium_kinematics(parameters, {.compliance = true});
     case Model::elastic:
-      return equilibrium(parameters);
+      return make_equilibrium_kinematics(parameters);
     case Model::elastic_3d:
       break;
   }
-  return std::make_unique<SpatialKinematics>(parameters);
+  return make_spatial_kinematics(parameters);
 }
 
 }  // namespace chaintrue::model

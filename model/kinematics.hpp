@@ -125,8 +125,6 @@ class Kinematics {
                                                               Parameter parameter) const = 0;
   /// d(left, right)/d(x, y)
   [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const;
-  /// d(left, right)/d(parameter)
-  [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const;
 };
 
 /// \throws std::invalid_argument if a parameter is not finite or out of its range, with its name

@@ -26,17 +26,17 @@ void check_motors(const Machine& machine, RangeChecks& check) {
   if (spacing <= 0.0) {
     check.add(
         "/motors/left/x_mm",
-        fmt::format("{}", l.x_mm),
+        l.x_mm,
         fmt::format("the left motor left of the right one, whose x_mm is {}; were they swapped?",
                     r.x_mm));
   } else if (spacing < 300.0) {
     check.add("/motors/right/x_mm",
-              fmt::format("{}", r.x_mm),
+              r.x_mm,
               fmt::format("motors at least 300 mm apart, not {}; {}", spacing, kInches));
   } else if (std::abs(l.y_mm - r.y_mm) > 0.2 * spacing) {
     check.add(
         "/motors/right/y_mm",
-        fmt::format("{}", r.y_mm),
+        r.y_mm,
         fmt::format(
             "a beam that rises less than a fifth of its length, but the left motor's y_mm is {}",
             l.y_mm));
@@ -48,7 +48,7 @@ void check_motors(const Machine& machine, RangeChecks& check) {
     if (y > top) continue;
     const char* place = side == Side::left ? "/motors/left/y_mm" : "/motors/right/y_mm";
     check.add(place,
-              fmt::format("{}", y),
+              y,
               fmt::format("a motor above the bed's top edge at y_mm = {} (y points up, the origin "
                           "is the bed's centre)",
                           top));
@@ -60,7 +60,7 @@ void check_attachment(const Attachment& attachment, RangeChecks& check) {
     check.range("/attachment/radius_mm", ring->radius_mm, 0, 1000, "mm");
     if (ring->radius_mm > 0 && ring->radius_mm < 20) {
       check.add("/attachment/radius_mm",
-                fmt::format("{}", ring->radius_mm),
+                ring->radius_mm,
                 fmt::format("0 (chains to the bit) or at least 20 mm; {}", kInches));
     }
     return;
@@ -87,7 +87,11 @@ constexpr ControllerRange kControllerRanges[] = {
     {"sledwidth", &ControllerSettings::sled_width_mm, 20, 2000, "mm"},
     {"sledheight", &ControllerSettings::sled_height_mm, 0, 2000, "mm"},
     {"sledcg", &ControllerSettings::sled_cg_mm, 0, 2000, "mm"},
-    {"chainsagcorrection", &ControllerSettings::chain_sag_correction, -1000, 1000, "(1e-12 / mm^2)"},
+    {"chainsagcorrection",
+     &ControllerSettings::chain_sag_correction,
+     -1000,
+     1000,
+     "(1e-12 / mm^2)"},
     {"leftchaintolerance", &ControllerSettings::left_chain_tolerance_percent, -10, 10, "percent"},
     {"rightchaintolerance", &ControllerSettings::right_chain_tolerance_percent, -10, 10, "percent"},
     {"topbeamtilt", &ControllerSettings::top_beam_tilt_deg, -20, 20, "degrees"},
@@ -144,9 +148,7 @@ void check_machine(const Machine& machine, RangeChecks& check) {
   for (std::size_t i = 0; i < machine.effects.size(); ++i) {
     for (const auto& [key, value] : machine.effects[i].parameters) {
       if (std::isfinite(value)) continue;
-      check.add(fmt::format("/effects/{}/parameters/{}", i, key),
-                fmt::format("{}", value),
-                "a finite number");
+      check.add(fmt::format("/effects/{}/parameters/{}", i, key), value, "a finite number");
     }
   }
 }
@@ -164,11 +166,7 @@ void RangeChecks::range(std::string_view place,
   std::string expected = fmt::format("a number from {} to {} {}", least, most, unit);
   while (expected.back() == ' ') expected.pop_back();
   if (std::isfinite(value) && !slip.empty()) expected += fmt::format("; {}", slip);
-  add(place, fmt::format("{}", value), std::move(expected));
-}
-
-void RangeChecks::add(std::string_view place, std::string value, std::string expected) {
-  problems_.push_back({std::string(place), std::move(value), std::move(expected)});
+  add(place, value, std::move(expected));
 }
 
 double Sprocket::effective_radius_mm() const {
@@ -191,8 +189,7 @@ std::vector<MachineProblem> problems_of(const Machine& machine) {
 std::vector<MachineRange> machine_ranges() {
   Machine machine;
   machine.sprocket.radius_mm = machine.sprocket.effective_radius_mm();
-  for (const ControllerRange& own : kControllerRanges)
-    machine.controller.settings.*own.value = 0.0;
+  for (const ControllerRange& own : kControllerRanges) machine.controller.settings.*own.value = 0.0;
   std::vector<MachineRange> ranges;
   RangeChecks with_ring(&ranges);
   check_machine(machine, with_ring);

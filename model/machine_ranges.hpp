@@ -3,6 +3,8 @@
 /// Ranges of a machine's numbers: how they are checked, and as a list for reference pages and editors.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +33,10 @@ class RangeChecks {
              double most,
              std::string_view unit = "",
              std::string_view slip = "");
-  void add(std::string_view place, std::string value, std::string expected);
+  template <class Value>
+  void add(std::string_view place, const Value& value, std::string expected) {
+    problems_.push_back({std::string(place), fmt::format("{}", value), std::move(expected)});
+  }
   [[nodiscard]] bool sound() const { return problems_.empty(); }
   [[nodiscard]] std::vector<MachineProblem> take() { return std::move(problems_); }
 

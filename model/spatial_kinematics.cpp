@@ -31,36 +31,43 @@ PerSide<ChainNumbers<N>> moved_chains_in_space(const EquilibriumConstants& m,
                                    unknowns_of(pose)));
 }
 
+class SpatialKinematics final : public Kinematics {
+ public:
+  explicit SpatialKinematics(const EquilibriumParameters& parameters)
+      : m_(equilibrium_constants(parameters)) {
+    m_.cos_tilt = std::cos(parameters.tilt_rad);
+    m_.sin_tilt = std::sin(parameters.tilt_rad);
+  }
+
+  [[nodiscard]] PoseResult inverse(BedPoint point) const override {
+    if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
+    Unknowns<double> q;
+    const int iterations =
+        converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
+          return converge_inverse(m_, p, at);
+        });
+    if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
+    return pose_of(m_, q, point, iterations);
+  }
+  [[nodiscard]] PoseResult forward(ChainLengths lengths) const override {
+    return forward_by_inverse(*this, limits_of(m_), lengths);
+  }
+  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
+    return moved_chains_in_space(m_, pose, inputs_by_place(m_, pose.position));
+  }
+  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
+                                                      Parameter parameter) const override {
+    return moved_chains_in_space(m_, pose, inputs_by_parameter(m_, pose.position, parameter));
+  }
+
+ private:
+  EquilibriumConstants m_;
+};
+
 }  // namespace
 
-SpatialKinematics::SpatialKinematics(const EquilibriumParameters& parameters)
-    : m_(equilibrium_constants(parameters)) {
-  m_.cos_tilt = std::cos(parameters.tilt_rad);
-  m_.sin_tilt = std::sin(parameters.tilt_rad);
-}
-
-PoseResult SpatialKinematics::inverse(BedPoint point) const {
-  if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
-  Unknowns<double> q;
-  const int iterations =
-      converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
-        return converge_inverse(m_, p, at);
-      });
-  if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
-  return pose_of(m_, q, point, iterations);
-}
-
-PoseResult SpatialKinematics::forward(ChainLengths lengths) const {
-  return forward_by_inverse(*this, limits_of(m_), lengths);
-}
-
-PerSide<ChainNumbers<2>> SpatialKinematics::by_place(const Pose& pose) const {
-  return moved_chains_in_space(m_, pose, inputs_by_place(m_, pose.position));
-}
-
-PerSide<ChainNumbers<1>> SpatialKinematics::by_parameter(const Pose& pose,
-                                                         Parameter parameter) const {
-  return moved_chains_in_space(m_, pose, inputs_by_parameter(m_, pose.position, parameter));
+std::unique_ptr<const Kinematics> make_spatial_kinematics(const EquilibriumParameters& parameters) {
+  return std::make_unique<SpatialKinematics>(parameters);
 }
 
 }  // namespace chaintrue::model

@@ -3,10 +3,15 @@
 
 namespace chaintrue::model {
 
+namespace {
+
+/// The equivalent failure of a two-chain pose.
 PoseFailure pose_failure(const BeltFailure& failure) {
   return failure == BeltReason::inside_the_arm ? PoseReason::link_does_not_fit
                                                : PoseReason::too_short;
 }
+
+}  // namespace
 
 BeltController::BeltController(const BeltMachine& machine)
     : machine_(machine), centre_(centre_of(machine)) {

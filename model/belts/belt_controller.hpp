@@ -34,7 +34,4 @@ class BeltController final : public ControllerKinematics {
   FramePoint centre_;
 };
 
-/// The equivalent failure of a two-chain pose.
-[[nodiscard]] PoseFailure pose_failure(const BeltFailure& failure);
-
 }  // namespace chaintrue::model

@@ -13,7 +13,6 @@ using namespace effects;  // NOLINT(google-build-using-namespace): the words of 
 // machine: moving all four anchors alike moves the whole frame and changes no length
 constinit const Effect anchor_moved{
     .id = "anchor_moved",
-    .station = Station::machine,
     .sides = kOneBeltOrAll,
     .parameters = {size("distance_mm", "d", "how far the anchor moved", 3.0, 0.0, 100.0),
                    place("direction_rad", "a", "direction, from x towards y", 0.0, -3.2, 3.2, 1.8),
@@ -26,6 +25,7 @@ constinit const Effect anchor_moved{
     .not_modelled = "an anchor that creeps; use drift for it",
     .typical = "1 to 10 mm",
     .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
     .remedy = "fasten that anchor and let the machine find its anchors again",
     .alter_anchor =
         [](Anchor& anchor, int order, Values v) {
@@ -40,7 +40,6 @@ constinit const Effect anchor_moved{
 
 constinit const Effect anchor_height{
     .id = "anchor_height",
-    .station = Station::machine,
     .sides = kOneBelt,
     .parameters = {size("offset_mm", "h", "height of the anchor above its setting", 20.0, -300.0,
                         300.0)},
@@ -51,7 +50,6 @@ constinit const Effect anchor_height{
     .source = "kinematics: L^2 = B^2 + c^2",
     .not_modelled = "a sled that tilts on uneven heights",
     .typical = "10 to 40 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure the anchors' heights over the bed and enter them (tlZ, trZ, blZ, brZ)",
     .alter_anchor = [](Anchor& anchor, int, Values v) { anchor.z_mm += v[0]; },
 };
@@ -60,7 +58,6 @@ constinit const Effect anchor_height{
 constinit const Effect belt_stretch{
     .id = "belt_stretch",
     .station = Station::chain,
-    .sides = kNoSide,
     .parameters = {size("elongation", "e", "stretch of a belt at the pull of the motors", 0.002, 0.0,
                         0.03)},
     .cause = "belts, anchors or arms stretch under tension, in proportion to the belt's length",
@@ -75,7 +72,6 @@ constinit const Effect belt_stretch{
         "1060: EA = 178,900 N",
     .not_modelled = "the sled's friction on the sheet; a weight other than 0.3 of the pull",
     .typical = "0.1 to 0.3 %",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy =
         "reduce the calibration current (Maslow_Calibration_Current_Threshold), or fit the stretch "
         "together with the anchors",
@@ -89,7 +85,6 @@ constinit const Effect belt_stretch{
 constinit const Effect anchor_flex{
     .id = "anchor_flex",
     .station = Station::chain,
-    .sides = kNoSide,
     .parameters = {size("give_mm", "g",
                         "movement of an anchor towards the tool at the pull of the motors", 1.0,
                         0.0, 20.0)},
@@ -102,6 +97,7 @@ constinit const Effect anchor_flex{
     .not_modelled =
         "anchors that yield unequally or sideways; the sled's friction on the sheet",
     .typical = "0.5 to 2 mm",
+    .remedy_kind = RemedyKind::repair,
     .remedy = "brace the frame and the anchors; reduce the calibration current",
     .add = [](const LengthState& belt, Values v) { return -v[0] * belt.tension; },
     .by_tension = true,
@@ -122,6 +118,7 @@ constinit const Effect belt_scale{
     .source = "an encoder turn is 43.975 mm of belt in the firmware, the same for all four",
     .not_modelled = "a scale common to all four, which only a taped distance shows",
     .typical = "0.1 to 0.3 %",
+    .remedy_kind = RemedyKind::repair,
     .remedy = "inspect that belt's pulley and teeth, or replace the belt",
     .add = [](const LengthState& belt, Values v) { return belt.length_mm / (1.0 + v[0]) - belt.length_mm; },
 };
@@ -142,6 +139,7 @@ constinit const Effect belt_zero{
     .source = "kinematics: arm and extension are added to every belt",
     .not_modelled = "an arm that deflects under load",
     .typical = "1 to 5 mm; 153.4 mm if lengths exclude arm and extension",
+    .remedy_kind = RemedyKind::repair,
     .remedy =
         "retract and extend all belts again; measure arm and extension and enter them; check what "
         "the lengths in the file include",
@@ -162,6 +160,7 @@ constinit const Effect tooth_skip{
     .not_modelled = "a second skip; add another effect",
     .typical = "1 tooth, 2.0 mm; a turn, 44 mm",
     .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
     .remedy =
         "look for a worn belt or a loose encoder magnet; retract and extend all belts and measure "
         "again",
@@ -182,6 +181,7 @@ constinit const Effect drift{
     .not_modelled = "drift that levels off, pauses between visits",
     .typical = "0.01 to 0.05 mm a visit",
     .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
     .remedy = "let the frame stand under tension before measuring, and measure again",
     .add = drifted,
 };
@@ -203,6 +203,7 @@ constinit const Effect zero_shift{
     .not_modelled = "a second shift; add another effect",
     .typical = "1 to 10 mm",
     .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
     .remedy =
         "check the belt's clamp and its retraction; retract and extend all belts and measure again",
     .add = zero_shifted,

@@ -25,7 +25,7 @@ void check_anchors(const BeltMachine& machine, RangeChecks& checks) {
   const auto zero = [&checks](const char* place, double value) {
     if (value == 0.0) return;
     checks.add(place,
-               fmt::format("{}", value),
+               value,
                "0, because the bottom left anchor is the origin and the bottom right one is on the "
                "x axis");
   };

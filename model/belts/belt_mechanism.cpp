@@ -112,9 +112,8 @@ std::vector<FixedPoint> BeltMechanism::fixed_points() const {
   std::vector<FixedPoint> points;
   for (const Belt belt : kBelts) {
     const Anchor& anchor = machine_.anchors[belt];
-    FixedPoint point{kBeltLengths.at(static_cast<std::size_t>(belt)),
-                     {anchor.x_mm, anchor.y_mm},
-                     Eigen::Matrix2Xd::Zero(2, values().size())};
+    FixedPoint point{
+        name(belt), {anchor.x_mm, anchor.y_mm}, Eigen::Matrix2Xd::Zero(2, values().size())};
     for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
       if (kCoordinates[i].belt == belt)
         point.by_parameter(kCoordinates[i].axis, static_cast<Eigen::Index>(i)) = 1.0;
@@ -204,7 +203,7 @@ std::vector<MechanismChange> BeltMechanism::possible_changes() const {
   for (const Belt belt : kBelts) {
     const auto at = static_cast<std::size_t>(belt);
     MechanismChange zero{Change::zero,
-                         std::string(kBeltLengths[at]),
+                         std::string(name(belt)),
                          true,
                          (prior.one_zero + prior.tooth) / static_cast<double>(kBelts.size())};
     zero.quantities.push_back({.lengths = {at}, .sigma = kBeltZeroShiftMm});
@@ -213,10 +212,8 @@ std::vector<MechanismChange> BeltMechanism::possible_changes() const {
   }
   changes.push_back({Change::zero, "", true, prior.both_zeros, {of_all}});
   for (const Belt belt : {Belt::tl, Belt::tr, Belt::br}) {
-    MechanismChange moved{Change::anchor,
-                          std::string(kBeltLengths[static_cast<std::size_t>(belt)]),
-                          false,
-                          (prior.motors + prior.pitch) / 3.0};
+    MechanismChange moved{
+        Change::anchor, std::string(name(belt)), false, (prior.motors + prior.pitch) / 3.0};
     for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
       if (kCoordinates[i].belt != belt) continue;
       moved.quantities.push_back(

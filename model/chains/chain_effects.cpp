@@ -55,7 +55,6 @@ constexpr Effect tape_scale{
 constexpr Effect axes_skew{
     .id = "axes_skew",
     .station = Station::paper,
-    .sides = kNoSide,
     .parameters = {mirrored(size("angle_rad", "g",
                                  "lean of the marks' y axis, positive towards -x",
                                  0.001, -0.05, 0.05))},
@@ -79,8 +78,6 @@ constexpr Effect axes_skew{
 
 constexpr Effect ring_radius{
     .id = "ring_radius",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "d", "true radius minus the file's", 1.0, -50.0, 50.0)},
     .cause = "the ring or linkage is larger or smaller than in the machine file",
     .signature =
@@ -89,7 +86,6 @@ constexpr Effect ring_radius{
     .source = "MaslowCNC forum: 138.14 and 139.82 mm measured, 139.1 mm set",
     .not_modelled = "an out-of-round ring, carriages with play",
     .typical = "1 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure the ring from the bit to the chain's pin and enter that radius",
     .alter =
         [](EquilibriumParameters& p, Values v) {
@@ -100,8 +96,6 @@ constexpr Effect ring_radius{
 
 constexpr Effect sled_width{
     .id = "sled_width",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "w", "true distance minus the file's",
                         5.0, -200.0, 200.0)},
     .cause =
@@ -112,7 +106,6 @@ constexpr Effect sled_width{
     .source = "statics of a sled on two brackets",
     .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "2 to 15 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure between the points where the chains are attached and enter it (sledwidth)",
     .alter = adds_to_brackets<&Brackets::spacing_mm>,
     .part = Part::brackets,
@@ -120,8 +113,6 @@ constexpr Effect sled_width{
 
 constexpr Effect sled_height{
     .id = "sled_height",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "h", "true height minus the file's",
                         5.0, -200.0, 200.0)},
     .cause =
@@ -133,7 +124,6 @@ constexpr Effect sled_height{
     .source = "statics of a sled on two brackets",
     .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "2 to 10 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure from the bit up to the line between the brackets and enter it (sledheight)",
     .alter = adds_to_brackets<&Brackets::height_mm>,
     .part = Part::brackets,
@@ -141,8 +131,6 @@ constexpr Effect sled_height{
 
 constexpr Effect sled_cg{
     .id = "sled_cg",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "g",
                         "true distance below the bit minus the file's",
                         10.0, -500.0, 500.0)},
@@ -153,7 +141,6 @@ constexpr Effect sled_cg{
     .source = "statics of a sled on two brackets",
     .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "5 to 30 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "balance the sled on an edge, measure from there to the bit and enter the distance "
               "(sledcg)",
     .alter = adds_to_brackets<&Brackets::cg_below_bit_mm>,
@@ -162,8 +149,6 @@ constexpr Effect sled_cg{
 
 constexpr Effect sprocket_radius{
     .id = "sprocket_radius",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "d", "true radius minus the file's", 0.17,
                         -3.0, 3.0)},
     .cause = "the chain lies on the sprockets at a different radius than in the machine file",
@@ -174,15 +159,12 @@ constexpr Effect sprocket_radius{
         "are in use",
     .not_modelled = "the chain paid out by one turn, which is always teeth times pitch",
     .typical = "0.17 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "enter the radius in the machine file",
     .alter = adds_to<&EquilibriumParameters::sprocket_radius_mm>,
 };
 
 constexpr Effect chain_sag{
     .id = "chain_sag",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("relative_weight", "q", "true chain mass over the file's, minus one", 0.3,
                         -0.95, 5.0)},
     .cause =
@@ -194,15 +176,12 @@ constexpr Effect chain_sag{
         "statics of two chains; masses of 0.125 to 0.141 kg/m are in use",
     .not_modelled = "dirt or oil on part of a chain",
     .typical = "30 %",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "weigh a metre of chain and enter its mass",
     .alter = [](EquilibriumParameters& p, Values v) { p.chain_weight_n_per_mm *= 1.0 + v[0]; },
 };
 
 constexpr Effect chain_stretch{
     .id = "chain_stretch",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("compliance_per_n", "k", "compliance beyond the file's", 6e-6, 0.0,
                         1e-4)},
     .cause = "the chain stretches more under tension than in the machine file",
@@ -212,15 +191,12 @@ constexpr Effect chain_stretch{
         "MaslowCNC Firmware $45 5.1685e-6 /N; Tsubaki RS25: 2.6 mm/m at 640 N gives 4.1e-6 /N",
     .not_modelled = "creep, uneven stretch",
     .typical = "4e-6 to 8e-6 per N: 1 mm on 3 m at 60 N",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "enter the compliance in the machine file",
     .alter = adds_to<&EquilibriumParameters::chain_compliance_per_n>,
 };
 
 constexpr Effect beam_flex{
     .id = "beam_flex",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("flexibility_mm_per_n", "k",
                         "movement of a motor's axis along its chain, per newton", 0.01, 0.0,
                         0.1)},
@@ -232,7 +208,6 @@ constexpr Effect beam_flex{
     .not_modelled =
         "stiffness that depends on place or direction; the effect of the other chain on this motor",
     .typical = "0.003 to 0.02 mm/N: 0.5 to 3 mm at the bed's top",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "brace the beam, or enter its flexibility in the machine file",
     // Solved together with the equilibrium.
     .alter = adds_to<&EquilibriumParameters::beam_flexibility_mm_per_n>,
@@ -240,8 +215,6 @@ constexpr Effect beam_flex{
 
 constexpr Effect side_pull{
     .id = "side_pull",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {mirrored(size("force_n", "f", "force on the sled towards +x", 3.0, -10.0, 10.0))},
     .cause = "a hose or a cord pulls the sled to one side",
     .signature =
@@ -292,7 +265,6 @@ constexpr Effect chain_pitch_error{
         "GroundControl's chain tolerances; worn roller chain is replaced at 2 to 3 %",
     .not_modelled = "uneven wear along the chain",
     .typical = "0.05 to 0.15 %: 1.5 to 4.5 mm on 3 m",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy =
         "measure 100 links under load and enter the elongation in the machine file, or replace the "
         "chain",

@@ -88,27 +88,24 @@ EquilibriumParameters believed_parameters(const Machine& machine) {
   return p;
 }
 
-PerSide<double> believed_tolerances(const ControllerSettings& s) {
-  return {s.left_chain_tolerance_percent.value_or(0.0),
-          s.right_chain_tolerance_percent.value_or(0.0)};
-}
-
 std::unique_ptr<const Kinematics> believed_kinematics(const Machine& machine) {
   const EquilibriumParameters p = believed_parameters(machine);
-  const PerSide<double> tolerance = believed_tolerances(machine.controller.settings);
+  const ControllerSettings& s = machine.controller.settings;
+  const PerSide<double> tolerance{s.left_chain_tolerance_percent.value_or(0.0),
+                                  s.right_chain_tolerance_percent.value_or(0.0)};
   switch (machine.controller.kind) {
     case ControllerKind::ideal:
       return make_kinematics(equilibrium_parameters(machine), Model::elastic);
     case ControllerKind::maslow_classic:
       // The firmware's quadrilateral has neither sag nor tolerances.
       if (!std::holds_alternative<Ring>(p.attachment)) return make_kinematics(p, Model::firmware);
-      return std::make_unique<FormulaKinematics>(p, Formula::firmware, tolerance);
+      return make_formula_kinematics(p, Formula::firmware, tolerance);
     case ControllerKind::holey:
-      return std::make_unique<FormulaKinematics>(p, Formula::one_shot, tolerance);
+      return make_formula_kinematics(p, Formula::one_shot, tolerance);
     case ControllerKind::fluidnc_wallplotter:
       break;
   }
-  return std::make_unique<FormulaKinematics>(p, Formula::straight);
+  return make_formula_kinematics(p, Formula::straight);
 }
 
 }  // namespace

@@ -119,10 +119,10 @@ class FormulaOnBed {
   [[nodiscard]] double value(const Trial& trial, const std::vector<double>& values) const {
     return formula_.evaluate(std::span<const Number>(values_of(trial, values))).value;
   }
-  [[nodiscard]] DeclarationProblem at(std::size_t offset,
-                                      std::string value,
-                                      std::string expected) const {
-    return {place_, offset, std::move(value), std::move(expected)};
+  [[nodiscard]] DeclarationProblem at(std::string value,
+                                      std::string expected,
+                                      std::size_t offset = 0) const {
+    return {place_, std::move(value), std::move(expected), offset};
   }
 
   [[nodiscard]] std::optional<DeclarationProblem> not_finite(
@@ -134,12 +134,12 @@ class FormulaOnBed {
       if (is_finite(formula_.evaluate(given)) && !shortened) continue;
       const std::size_t offset = shortened ? 0 : formula_.first_not_finite(given);
       return at(
-          offset,
           shortened ? "a chain without length" : "not finite",
           fmt::format("a formula that is finite, with its slopes, over the bed of the machine "
                       "between the bounds; this one is not{} with {}",
                       at_words(trial),
-                      words_of(own_, values)));
+                      words_of(own_, values)),
+          offset);
     }
     return std::nullopt;
   }
@@ -149,8 +149,7 @@ class FormulaOnBed {
     for (const Trial& trial : trials_) {
       const double left = value(trial, values);
       if (std::abs(left) <= kNothingMm) continue;
-      return at(0,
-                fmt::format("{:g}", left),
+      return at(fmt::format("{:g}", left),
                 fmt::format("a formula that is 0 at null; this one is {:g}{} with {}",
                             left,
                             at_words(trial),
@@ -167,8 +166,8 @@ class FormulaOnBed {
         const double one = value(trial, values);
         values.front() = 2.0;
         if (std::abs(value(trial, values) - 2.0 * one) <= kNothingMm) continue;
-        return at(
-            0, own_.parameters.front().name, "a formula in proportion to a size in whole numbers");
+        return at(own_.parameters.front().name,
+                  "a formula in proportion to a size in whole numbers");
       }
     }
     return std::nullopt;
@@ -183,7 +182,6 @@ class FormulaOnBed {
         // A slope of 0.05 over 1220 mm is rounded to 1e-13; 1e-7 is far above and far below a tape.
         if (std::abs(value(trial, values) - line) <= 1e-7) continue;
         return at(
-            0,
             fmt::format("not in proportion{}", at_words(trial)),
             "a formula linear in x and y, like a tape's scale or a skew; an effect on a chain may "
             "use x and y in any way");

@@ -30,11 +30,10 @@ bool can_be_written(const Effect& effect) { return effect.station != Station::ma
 void check_names(const Declaration& own, Problems& problems) {
   if (!is_identifier(own.id)) {
     problems.push_back(
-        {"/id", {}, own.id, "a name of small letters, digits and _, such as second_harmonic"});
+        {"/id", own.id, "a name of small letters, digits and _, such as second_harmonic"});
   } else if (find_effect(own.id) != nullptr) {
     problems.push_back(
         {"/id",
-         {},
          own.id,
          "another name, because the catalogue has an effect with this one; to replace it, use "
          "\"instead_of\""});
@@ -43,7 +42,6 @@ void check_names(const Declaration& own, Problems& problems) {
   const Effect* stood = find_effect(own.instead_of);
   if (stood == nullptr || !can_be_written(*stood)) {
     problems.push_back({"/instead_of",
-                        {},
                         own.instead_of,
                         stood == nullptr
                             ? "an effect of the catalogue, as chaintrue effects lists them"
@@ -60,11 +58,9 @@ void check_sides(const Declaration& own, Problems& problems) {
     const bool chain = side == EffectSide::left || side == EffectSide::right;
     if (std::count(own.sides.begin(), own.sides.begin() + static_cast<std::ptrdiff_t>(i), side) >
         0) {
-      problems.push_back(
-          {fmt::format("/sides/{}", i), {}, std::string(name(side)), "each side once"});
+      problems.push_back({fmt::format("/sides/{}", i), std::string(name(side)), "each side once"});
     } else if (paper ? chain : axis) {
       problems.push_back({fmt::format("/sides/{}", i),
-                          {},
                           std::string(name(side)),
                           paper ? "x, y or both, because it acts on the paper"
                                 : "left, right or both, because it acts on a chain"});
@@ -74,13 +70,12 @@ void check_sides(const Declaration& own, Problems& problems) {
 
 void check_range(const DeclaredParameter& p, const std::string& at, Problems& problems) {
   if (!(p.lower < p.upper)) {
-    problems.push_back({at + "/lower", {}, fmt::format("{}", p.lower), "a number below \"upper\""});
+    problems.push_back({at + "/lower", fmt::format("{}", p.lower), "a number below \"upper\""});
     return;
   }
   const auto within = [&](double value, std::string_view key) {
     if (value >= p.lower && value <= p.upper && (!p.integer || value == std::round(value))) return;
     problems.push_back({fmt::format("{}/{}", at, key),
-                        {},
                         fmt::format("{}", value),
                         fmt::format("{} from \"lower\" {} to \"upper\" {}",
                                     p.integer ? "a whole number" : "a number",
@@ -92,7 +87,6 @@ void check_range(const DeclaredParameter& p, const std::string& at, Problems& pr
   within(p.null, "null");
   if (p.nominal == p.null) {
     problems.push_back({at + "/nominal",
-                        {},
                         fmt::format("{}", p.nominal),
                         "the usual size, which is not the value without effect"});
   }
@@ -104,7 +98,6 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
   const bool first = index == 0;
   if ((p.role == ParameterRole::size) != first) {
     problems.push_back({at + "/role",
-                        {},
                         first ? "place" : "size",
                         first
                             ? "a size, because the first parameter is the size of the effect"
@@ -118,25 +111,21 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
   if (!is_identifier(p.name) || taken.contains(p.name)) {
     problems.push_back(
         {at + "/name",
-         {},
          p.name,
          "a name of small letters, digits and _ that nothing else in the formula has"});
   } else if (!unit_of_name(p.name)) {
     problems.push_back(
         {at + "/name",
-         {},
          p.name,
          "a name that ends in a unit: mm, n, rad, visit, one per another as in mm_per_rad, or none "
          "for a plain number"});
   }
   if (!(p.prior_sigma > 0.0)) {
-    problems.push_back(
-        {at + "/prior_sigma", {}, fmt::format("{}", p.prior_sigma), "a number above 0"});
+    problems.push_back({at + "/prior_sigma", fmt::format("{}", p.prior_sigma), "a number above 0"});
   }
   if (p.integer && own.acts_on != ActsOn::reading && own.acts_on != ActsOn::visit) {
     problems.push_back(
         {at + "/whole",
-         {},
          "true",
          "false, because only an effect on readings or on one visit uses whole numbers"});
   }
@@ -146,7 +135,6 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
 void check_parameters(const Declaration& own, Problems& problems) {
   if (own.parameters.empty() || own.parameters.size() > kMostDeclared) {
     problems.push_back({"/parameters",
-                        {},
                         fmt::format("{} parameters", own.parameters.size()),
                         "one size, and at most one place after it"});
     return;
@@ -154,7 +142,6 @@ void check_parameters(const Declaration& own, Problems& problems) {
   for (std::size_t i = 0; i < own.parameters.size(); ++i) check_parameter(own, i, problems);
   if (own.acts_on == ActsOn::visit && (own.parameters.size() < 2 || !own.parameters[1].integer)) {
     problems.push_back({"/parameters",
-                        {},
                         fmt::format("{} parameters", own.parameters.size()),
                         "a size and a place with \"whole\": true, the number of the visit"});
   }
@@ -185,7 +172,6 @@ bool check_keys(const Declaration& own, Problems& problems) {
     ++stated;
     if (!belongs(own.acts_on, one.key)) {
       problems.push_back({fmt::format("/{}", one.name),
-                          {},
                           own.*one.text,
                           fmt::format("{}: it acts on {}",
                                       keys_of(own.acts_on),
@@ -197,7 +183,6 @@ bool check_keys(const Declaration& own, Problems& problems) {
   const bool paper = own.acts_on == ActsOn::paper;
   if (stated == 0 || (stated > 1 && !paper)) {
     problems.push_back({"",
-                        {},
                         stated == 0 ? "no formula" : fmt::format("{} formulas", stated),
                         stated == 0 ? keys_of(own.acts_on) : "one of " + keys_of(own.acts_on)});
   }
@@ -208,9 +193,9 @@ bool check_keys(const Declaration& own, Problems& problems) {
           return side == axis || side == EffectSide::both;
         });
     if (wanted && text->empty())
-      problems.push_back({key, {}, "", fmt::format("a formula: it acts along {}", name(axis))});
+      problems.push_back({key, "", fmt::format("a formula: it acts along {}", name(axis))});
     if (paper && !text->empty() && !acts_along(own, axis))
-      problems.push_back({key, {}, *text, fmt::format("no formula, or the side {}", name(axis))});
+      problems.push_back({key, *text, fmt::format("no formula, or the side {}", name(axis))});
   }
   return problems.size() == before;
 }
@@ -225,7 +210,7 @@ void check_formula(const Declaration& own,
   const auto formula = parsed(own, one);
   if (!formula) {
     const FormulaProblem& problem = formula.error();
-    problems.push_back({place, problem.offset, problem.found, problem.expected});
+    problems.push_back({place, problem.found, problem.expected, problem.offset});
     // The names that it uses are unknown, so unused parameters are not reported.
     used.assign(used.size(), true);
     return;
@@ -243,9 +228,9 @@ void check_formula(const Declaration& own,
   if (direction && state) {
     problems.push_back(
         {place,
-         0,
          "d together with other values of the chain",
-         "d with parameters only; play that changes from place to place cannot be declared"});
+         "d with parameters only; play that changes from place to place cannot be declared",
+         0});
   }
 }
 
@@ -257,7 +242,6 @@ void check_formulas(const Declaration& own, Problems& problems) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) continue;
     problems.push_back({fmt::format("/parameters/{}/name", i),
-                        {},
                         own.parameters[i].name,
                         "a parameter that the formula uses, or none"});
   }

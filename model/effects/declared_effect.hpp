@@ -72,10 +72,10 @@ struct Declaration {
 
 struct DeclarationProblem {
   std::string place;  ///< JSON pointer below the declaration: "/parameters/0/lower"
-  /// For a formula: offset into its text, in bytes.
-  std::optional<std::size_t> offset;
   std::string value;
   std::string expected;
+  /// For a formula: offset into its text, in bytes.
+  std::optional<std::size_t> offset{};
 };
 
 /// The unit that a parameter's name ends in: "amplitude_mm", "slope_mm_per_rad", "share". Empty for

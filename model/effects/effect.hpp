@@ -168,10 +168,14 @@ class EffectFunction<Result(Arguments...)> {
   const DeclaredLaw* law_ = nullptr;
 };
 
+inline constexpr EffectSide kNoSide[] = {EffectSide::none};
+
+/// What an effect does not state is that of most: a fault of the machine without a side, whose
+/// number can be entered.
 struct Effect {
   std::string_view id;
-  Station station = Station::paper;
-  std::span<const EffectSide> sides;
+  Station station = Station::machine;
+  std::span<const EffectSide> sides = kNoSide;
   EffectParameters parameters;
 
   std::string_view cause;      ///< the fault of the machine or the data
@@ -181,7 +185,7 @@ struct Effect {
   std::string_view not_modelled;
   std::string_view typical;  ///< usual size, in workshop units
   DataNeed needs = DataNeed::positions;
-  RemedyKind remedy_kind = RemedyKind::repair;
+  RemedyKind remedy_kind = RemedyKind::change_the_machine;
   std::string_view remedy;  ///< what to do about it
 
   /// The written position of a mark whose true position is given.

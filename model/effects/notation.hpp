@@ -15,7 +15,6 @@
 
 namespace chaintrue::model::effects {
 
-inline constexpr EffectSide kNoSide[] = {EffectSide::none};
 inline constexpr EffectSide kOneChain[] = {EffectSide::left, EffectSide::right};
 inline constexpr EffectSide kAnyChain[] = {EffectSide::left, EffectSide::right, EffectSide::both};
 inline constexpr EffectSide kPaperAxes[] = {EffectSide::x, EffectSide::y, EffectSide::both};

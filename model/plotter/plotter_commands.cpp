@@ -49,8 +49,7 @@ tl::expected<BedPoint, PlotterFailure> newton_below(const PlotterMachine& as_set
   return tl::unexpected(PlotterReason::not_converged);
 }
 
-}  // namespace
-
+/// The equivalent failure of a pose, with the plotter's sentence as its cause.
 PoseFailure pose_failure(const PlotterFailure& failure) {
   const auto reason = [&] {
     switch (failure.reason) {
@@ -69,6 +68,8 @@ PoseFailure pose_failure(const PlotterFailure& failure) {
   }();
   return PoseFailure(reason).because_of(sentence_of(failure.reason));
 }
+
+}  // namespace
 
 tl::expected<ChainLengths, PoseFailure> PlotterController::lengths(BedPoint command) const {
   const auto found = paid_out(

@@ -32,7 +32,4 @@ class PlotterController final : public ControllerKinematics {
   BedPoint pins_middle_;
 };
 
-/// The equivalent failure of a pose, with the plotter's sentence as its cause.
-[[nodiscard]] PoseFailure pose_failure(const PlotterFailure& failure);
-
 }  // namespace chaintrue::model

@@ -21,8 +21,6 @@ void adds_to(Statics& m, EffectSide, const PerSide<double>&, Values v) {
 
 constexpr Effect pen_off_centre{
     .id = "pen_off_centre",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {mirrored(size("offset_mm", "o", "distance of the pen right of its setting", 5.0,
                                  -200.0, 200.0))},
     .cause = "the pen is not in the middle of the gondola",
@@ -32,7 +30,6 @@ constexpr Effect pen_off_centre{
     .source = "a point of a rigid body turns with it",
     .not_modelled = "a pen that wobbles in its holder",
     .typical = "1 to 10 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "centre the pen between the cords, or enter its offset",
     .alter_cords = adds_to<&Statics::pen_right_mm>,
     .part = Part::body,
@@ -40,8 +37,6 @@ constexpr Effect pen_off_centre{
 
 constexpr Effect servo_arm{
     .id = "servo_arm",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {mirrored(size("offset_mm", "o",
                                  "distance of the centre of mass right of its setting", 4.0, -200.0,
                                  200.0))},
@@ -52,7 +47,6 @@ constexpr Effect servo_arm{
     .source = "moments about the middle between the cords",
     .not_modelled = "an arm that moves the mass while it draws",
     .typical = "1 to 10 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "balance the gondola until it hangs level in the middle, with the pen down",
     .alter_cords = adds_to<&Statics::mass_right_mm>,
     .part = Part::body,
@@ -60,8 +54,6 @@ constexpr Effect servo_arm{
 
 constexpr Effect gondola_width{
     .id = "gondola_width",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "w", "true minus set distance", 2.0, -50.0,
                         50.0)},
     .cause = "the gondola's pulleys or eyelets are farther apart than set",
@@ -70,7 +62,6 @@ constexpr Effect gondola_width{
     .source = "statics of a body on two cords",
     .not_modelled = "pulleys at different heights in the gondola",
     .typical = "1 to 3 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure between the axles of the pulleys and enter it",
     .alter_cords = adds_to<&Statics::spacing_mm>,
     .part = Part::body,
@@ -78,8 +69,6 @@ constexpr Effect gondola_width{
 
 constexpr Effect standoff{
     .id = "standoff",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("offset_mm", "d", "true minus set distance from the wall", 10.0,
                         -100.0, 100.0)},
     .cause =
@@ -90,15 +79,12 @@ constexpr Effect standoff{
     .source = "geometry: a cord that slants to the wall",
     .not_modelled = "pins of different depths",
     .typical = "5 to 20 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "measure the distances of pins and pulleys from the wall and enter the difference",
     .alter_cords = adds_to<&Statics::standoff_mm>,
 };
 
 constexpr Effect gondola_mass{
     .id = "gondola_mass",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("relative", "g", "relative excess of its mass", -0.4, -0.9,
                         9.0)},
     .cause = "the gondola is too light to keep its cords straight, or heavier than set",
@@ -109,7 +95,6 @@ constexpr Effect gondola_mass{
     .source = "elastic catenary",
     .not_modelled = "cords that stay curled",
     .typical = "20 to 50 %",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "weigh the gondola and enter it; add weight until the cords hang straight",
     .alter_cords =
         [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.weight_n *= 1.0 + v[0]; },
@@ -117,8 +102,6 @@ constexpr Effect gondola_mass{
 
 constexpr Effect pen_friction{
     .id = "pen_friction",
-    .station = Station::machine,
-    .sides = kNoSide,
     .parameters = {size("force_n", "F", "friction force of the pen", 0.2, 0.0, 5.0)},
     .cause = "the pen is pressed on too hard, or the wall is rough, for so light a gondola",
     .signature = "a line drawn from the other end is displaced",
@@ -127,7 +110,6 @@ constexpr Effect pen_friction{
     .not_modelled = "a force that grows with the pressure on the wall",
     .typical = "0.1 to 0.5 N",
     .needs = DataNeed::order,
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "press the pen less, or add weight to the gondola",
     // A gondola that moves down is held up.
     .alter_cords =
@@ -139,7 +121,6 @@ constexpr Effect pen_friction{
 
 constexpr Effect cord_stretch{
     .id = "cord_stretch",
-    .station = Station::machine,
     .sides = kAnyChain,
     .parameters = {size("compliance_per_n", "c",
                         "additional relative stretch per newton", 2e-4, 0.0,
@@ -152,7 +133,6 @@ constexpr Effect cord_stretch{
     .source = "Hooke; nikivanov/mural sets 5e-5 per N",
     .not_modelled = "creep",
     .typical = "1e-4 to 5e-4 per N",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "use glass-fibre belts, or enter their stretch",
     .alter_cords =
         [](Statics& m, EffectSide side, const PerSide<double>&, Values v) {
@@ -163,7 +143,6 @@ constexpr Effect cord_stretch{
 
 constexpr Effect cord_weight{
     .id = "cord_weight",
-    .station = Station::machine,
     .sides = kAnyChain,
     .parameters = {size("more_g_per_m", "m", "additional mass per metre", 8.0, 0.0, 200.0)},
     .cause = "a cord, chain or belt weighs more than set and sags",
@@ -172,7 +151,6 @@ constexpr Effect cord_weight{
     .source = "elastic catenary (Irvine)",
     .not_modelled = "a cable tied to a cord in places",
     .typical = "5 to 10 g/m",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "weigh a length and enter it, or use a lighter cord or a heavier gondola",
     .alter_cords =
         [](Statics& m, EffectSide side, const PerSide<double>&, Values v) {

@@ -109,7 +109,7 @@ std::vector<MachineProblem> problems_of(const PlotterMachine& machine) {
   // With a body as wide as the pins are apart, the cords hang straight down and fix no position.
   if (!(machine.pin_spacing_mm > 1.5 * machine.gondola.spacing_mm)) {
     checks.add("/pin_spacing_mm",
-               fmt::format("{}", machine.pin_spacing_mm),
+               machine.pin_spacing_mm,
                fmt::format("more than one and a half times the gondola's spacing of {} mm; was it "
                            "given in inches?",
                            machine.gondola.spacing_mm));

@@ -103,10 +103,8 @@ class ToyMechanism final : public Mechanism {
   }
 
  private:
-  static constexpr effects::EffectSide kNoSide[] = {effects::EffectSide::none};
   static constexpr effects::Effect kKnot = {.id = "toy_knot",
                                             .station = effects::Station::chain,
-                                            .sides = kNoSide,
                                             .parameters = {{.name = "knot_mm",
                                                             .symbol = "k",
                                                             .meaning = "what the knots take",
@@ -120,6 +118,7 @@ class ToyMechanism final : public Mechanism {
                                             .source = "a toy",
                                             .not_modelled = "nothing",
                                             .typical = "2 mm",
+                                            .remedy_kind = effects::RemedyKind::repair,
                                             .remedy = "untie the knots"};
 
   Eigen::VectorXd values_;

@@ -12,7 +12,6 @@ namespace chaintrue::model::effects {
 extern constinit const Effect chain_plane_offset{
     .id = "chain_plane_offset",
     .station = Station::chain,
-    .sides = kNoSide,
     .parameters = {size("distance_mm", "z",
                         "distance between the planes of the sprockets and of the chains' ends at "
                         "the sled",
@@ -25,7 +24,6 @@ extern constinit const Effect chain_plane_offset{
     .not_modelled =
         "forces, which remain those of the flat machine",
     .typical = "20 to 40 mm",
-    .remedy_kind = RemedyKind::change_the_machine,
     .remedy = "level the chains with the sheet (spacers under the motors), or enter the distance",
     .add =
         [](const LengthState& chain, Values v) -> Number {
