@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "grid/synthetic/simulated_belts.hpp"
-#include "tests/belts/frame.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -16,20 +15,18 @@ using testing::HasSubstr;
 
 constexpr double kNoiseMm = 0.5;
 
-MeasuredBelts measured(const model::BeltMachine& truth, int columns, int rows, std::uint64_t seed) {
-  synthetic::BeltsSpec spec;
-  spec.columns = columns;
-  spec.rows = rows;
-  spec.width_share = 0.6;
-  spec.height_share = 0.5;
-  spec.noise_mm = kNoiseMm;
-  spec.seed = seed;
-  return synthetic::simulate_belts(testing_support::stated(), truth, spec).value();
+MeasuredBelts measured(int columns, int rows, std::uint64_t seed) {
+  return testing_support::belts_session({.columns = columns,
+                                         .rows = rows,
+                                         .width_share = 0.6,
+                                         .height_share = 0.5,
+                                         .noise_mm = kNoiseMm,
+                                         .seed = seed});
 }
 
 TEST(AnchorsCheck, NamesABeltWithAShiftedZeroAndItsSize) {
-  const auto fit = fit_belts(measured(testing_support::truth(), 6, 6, 1));
-  MeasuredBelts shifted = measured(testing_support::truth(), 3, 2, 501);
+  const auto fit = fit_belts(measured(6, 6, 1));
+  MeasuredBelts shifted = measured(3, 2, 501);
   for (BeltPoint& point : shifted.points) point.lengths_mm.br += 6.0;
   const Check check = check_anchors(*fit, shifted).value();
   EXPECT_EQ(check.hypotheses.front().what, model::Change::zero) << "seeds 1 and 501";
@@ -40,8 +37,8 @@ TEST(AnchorsCheck, NamesABeltWithAShiftedZeroAndItsSize) {
 }
 
 TEST(AnchorsCheck, RefusesUncheckableAnchorsWithASentence) {
-  const auto fit = fit_belts(measured(testing_support::truth(), 6, 6, 1));
-  MeasuredBelts inches = measured(testing_support::truth(), 3, 2, 2);
+  const auto fit = fit_belts(measured(6, 6, 1));
+  MeasuredBelts inches = measured(3, 2, 2);
   for (BeltPoint& point : inches.points) {
     for (const Belt belt : model::kBelts) point.lengths_mm[belt] /= 25.4;
   }

@@ -10,8 +10,7 @@
 
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/synthetic/simulated_belts.hpp"
-#include "tests/belts/frame.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -20,14 +19,12 @@ namespace belts_error_tests {
 constexpr double kShare = 0.5;
 
 MeasuredBelts measured(double noise_mm, std::uint64_t seed) {
-  synthetic::BeltsSpec spec;
-  spec.columns = 6;
-  spec.rows = 6;
-  spec.width_share = spec.height_share = kShare;
-  spec.noise_mm = noise_mm;
-  spec.seed = seed;
-  return synthetic::simulate_belts(testing_support::stated(), testing_support::truth(), spec)
-      .value();
+  return testing_support::belts_session({.columns = 6,
+                                         .rows = 6,
+                                         .width_share = kShare,
+                                         .height_share = kShare,
+                                         .noise_mm = noise_mm,
+                                         .seed = seed});
 }
 
 /// Over the part of the frame that was measured: the tool of `truth` for commands of a controller

@@ -78,36 +78,17 @@ TEST(BeltsFit, InfluencesOnACoordinateAreCompleteAndMirrored) {
   EXPECT_GT(fit->coordinates[2].variance_share.tr, fit->coordinates[2].variance_share.tl);
 }
 
-TEST(BeltsFit, NamesABadReadingByPlaceAndBelt) {
-  for (const int seed : {1, 2}) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
-    SimulatedBelts set = simulate({.seed = static_cast<std::uint64_t>(seed)});
-    const auto point = static_cast<std::size_t>(7 * seed);
-    const Belt belt = model::kBelts[static_cast<std::size_t>(seed)];
-    const double error_mm = seed % 2 == 0 ? 80.0 : -80.0;
-    set.belts.points[point].lengths_mm[belt] += error_mm;
-    const auto fit = fit_belts(set.belts);
-    ASSERT_TRUE(fit);
-    ASSERT_EQ(fit->bad.size(), 1U);
-    EXPECT_EQ(fit->bad[0].point, point);
-    EXPECT_EQ(fit->bad[0].belt, belt);
-    // The prediction by all other readings has a sigma of some noise, 1.5 mm where two belts are
-    // parallel.
-    EXPECT_NEAR(std::abs(fit->bad[0].residual_mm), 80.0, 8.0);
-  }
-}
-
 TEST(BeltsFit, FindsSeveralBadReadings) {
-  SimulatedBelts set = simulate({.seed = 11});
-  set.belts.points[3].lengths_mm.tl += 44.0;
-  set.belts.points[30].lengths_mm.br -= 44.0;
-  set.belts.points[31].lengths_mm.br -= 12.0;
-  set.belts.points[60].lengths_mm.tr += 150.0;
-  const auto fit = fit_belts(set.belts);
+  const auto fit = fit_belts(with_four_bad_readings(11).belts);
   ASSERT_TRUE(fit);
   ASSERT_EQ(fit->bad.size(), 4U);
   EXPECT_EQ(fit->bad[0].point, 60U);
+  EXPECT_EQ(fit->bad[0].belt, Belt::tr);
+  // The prediction by all other readings has a sigma of some noise, 1.5 mm where two belts are
+  // parallel.
+  EXPECT_NEAR(fit->bad[0].residual_mm, 150.0, 8.0);
   EXPECT_EQ(fit->bad[3].point, 31U);
+  EXPECT_EQ(fit->bad[3].belt, Belt::br);
   // 157 checks less four, at 0.5 mm: within four sigmas.
   EXPECT_NEAR(fit->residual_sigma_mm, 0.5, 4.0 * 0.5 / std::sqrt(2.0 * 153.0));
 }

@@ -11,9 +11,8 @@
 
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
-#include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_effects.hpp"
-#include "tests/belts/frame.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -22,26 +21,18 @@ using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 using model::Belt;
 using testing::HasSubstr;
-using testing_support::stated;
-using testing_support::truth;
 
-struct Session {
-  std::vector<model::AppliedEffect> hidden;
-  std::uint64_t seed = 1;
-  double noise_mm = 0.3;
-  int bad_readings = 0;
-};
+constexpr double kNoiseMm = 0.3;
 
-MeasuredBelts measured_in(const Session& session) {
-  synthetic::BeltsSpec spec;
+MeasuredBelts measured_in(std::vector<model::AppliedEffect> hidden,
+                          std::uint64_t seed = 1,
+                          double noise_mm = kNoiseMm) {
   // Wide and high: the usual sizes of all causes are then detectable.
-  spec.width_share = 0.7;
-  spec.height_share = 0.6;
-  spec.noise_mm = session.noise_mm;
-  spec.hidden = session.hidden;
-  spec.seed = session.seed;
-  spec.bad_readings = session.bad_readings;
-  return synthetic::simulate_belts(stated(), truth(), spec).value();
+  return testing_support::belts_session({.width_share = 0.7,
+                                         .height_share = 0.6,
+                                         .noise_mm = noise_mm,
+                                         .hidden = std::move(hidden),
+                                         .seed = seed});
 }
 
 Diagnosis diagnosed(const MeasuredBelts& belts) { return diagnosis::diagnose(belts).value(); }
@@ -84,7 +75,7 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
   if (sets_in) parameters["first_visit"] = 37.0;
   SCOPED_TRACE("seed 1");
   const Diagnosis found =
-      diagnosed(measured_in({.hidden = {{hidden.effect, hidden.side, parameters}}, .seed = 1}));
+      diagnosed(measured_in({{hidden.effect, hidden.side, parameters}}));
   ASSERT_EQ(found.verdict, Verdict::named) << found.sentence;
   const auto& cause = found.causes.front();
   EXPECT_EQ(cause.cause.effect->id, hidden.effect);
@@ -99,15 +90,15 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
 }
 
 TEST(BeltsDiagnosis, NamesNothingOnASoundMachine) {
-  const Diagnosis found = diagnosed(measured_in({.hidden = {}, .seed = 1}));
+  const Diagnosis found = diagnosed(measured_in({}));
   EXPECT_TRUE(found.causes.empty()) << "seed 1: " << found.sentence;
 }
 
 TEST(BeltsDiagnosis, NamesABadReadingByPointAndBelt) {
   for (const bool stretched : {false, true}) {
-    Session session;
-    if (stretched) session.hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
-    MeasuredBelts belts = measured_in(session);
+    std::vector<model::AppliedEffect> hidden;
+    if (stretched) hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
+    MeasuredBelts belts = measured_in(hidden);
     belts.points[17].lengths_mm.tr += 80.0;
     const Diagnosis found = diagnosed(belts);
     ASSERT_EQ(found.outliers.size(), 1U) << found.sentence;
@@ -115,7 +106,7 @@ TEST(BeltsDiagnosis, NamesABadReadingByPointAndBelt) {
     EXPECT_EQ(found.outliers[0].belt, Belt::tr);
     EXPECT_FALSE(found.outliers[0].or_belt);
     // The position of a bad reading is known to about its noise.
-    EXPECT_NEAR(found.outliers[0].residual_mm, 80.0, 5.0 * session.noise_mm);
+    EXPECT_NEAR(found.outliers[0].residual_mm, 80.0, 5.0 * kNoiseMm);
     EXPECT_EQ(found.causes.size(), stretched ? 1U : 0U) << found.sentence;
     EXPECT_THAT(found.sentence + found.what_to_do.back() + found.what_to_do.front() +
                     (found.what_to_do.size() > 1 ? found.what_to_do[1] : ""),
@@ -149,7 +140,7 @@ TEST(BeltsDiagnosis, RejectsAPlaceWithSeveralBadReadings) {
 }
 
 TEST(BeltsDiagnosis, ReportsLengthsThatExcludeTheArms) {
-  MeasuredBelts belts = measured_in({.hidden = {{"belt_zero", "all", {{"offset_mm", -153.4}}}}});
+  MeasuredBelts belts = measured_in({{"belt_zero", "all", {{"offset_mm", -153.4}}}});
   const Diagnosis found = diagnosed(belts);
   ASSERT_FALSE(found.causes.empty()) << found.sentence;
   EXPECT_THAT(found.what_to_do.front(), HasSubstr("exclude arm and extension"));
@@ -172,7 +163,7 @@ TEST(BeltsDiagnosis, UntestableCausesNameTheMeasurementThatTestsThem) {
 
 TEST(BeltsDiagnosis, TheFileHoldsTheWholeDiagnosis) {
   const Diagnosis found =
-      diagnosed(measured_in({.hidden = {{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}}));
+      diagnosed(measured_in({{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}));
   const std::string text = files::write_diagnosis(found);
   EXPECT_THAT(text, HasSubstr("\"observations\": \"belts\""));
   const Diagnosis again = files::parse_diagnosis(text, "belts.json");
@@ -188,9 +179,7 @@ TEST(BeltsDiagnosis, DoesNotCallAPossibleCauseAbsent) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const Diagnosis found = diagnosed(
-        measured_in({.hidden = {{"tooth_skip", "tl", {{"teeth", 1.0}, {"first_visit", 40.0}}}},
-                     .seed = seed,
-                     .noise_mm = 1.2}));
+        measured_in({{"tooth_skip", "tl", {{"teeth", 1.0}, {"first_visit", 40.0}}}}, seed, 1.2));
     for (const auto& hypothesis : found.hypotheses) {
       if (hypothesis.effect != "tooth_skip" || hypothesis.probability < 0.05) continue;
       ++likely;

@@ -5,16 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/files/belts_file.hpp"
-#include "grid/files/maslow4_log.hpp"
-#include "grid/files/whole_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
+#include "tests/belts/published_readings.hpp"
 #include "tests/belts/simulated_belts.hpp"
 
 namespace chaintrue::grid {
@@ -38,11 +36,7 @@ std::vector<NamedSet> simulated_sets() {
     }
   }
   sets.push_back({"few_places", simulate({.seed = 7, .columns = 3, .rows = 2}).belts});
-  NamedSet bad{"bad_readings", simulate({.seed = 11}).belts};
-  bad.belts.points[3].lengths_mm.tl += 44.0;
-  bad.belts.points[30].lengths_mm.br -= 44.0;
-  bad.belts.points[31].lengths_mm.br -= 12.0;
-  bad.belts.points[60].lengths_mm.tr += 150.0;
+  NamedSet bad{"bad_readings", with_four_bad_readings(11).belts};
   bad.belts.points[40].lengths_mm.tl += 60.0;
   bad.belts.points[40].lengths_mm.bl += 35.0;
   sets.push_back(bad);
@@ -75,39 +69,21 @@ std::vector<NamedSet> simulated_sets() {
   return sets;
 }
 
-/// Readings of real machines; empty without the shared data.
-std::vector<NamedSet> real_sets() {
-  std::vector<NamedSet> sets;
-  const std::filesystem::path folder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4";
-  if (!std::filesystem::exists(folder)) return sets;
-  struct Named {
-    const char* file;
-    int run;
-  };
-  for (const Named& set : {Named{"concrete_anchors.txt", 1},
-                           Named{"frame_rebuilt.txt", 1},
-                           Named{"mini_frame.txt", 1},
-                           Named{"ten_runs_1_to_5.txt", 1},
-                           Named{"ten_runs_1_to_5.txt", 2},
-                           Named{"ten_runs_1_to_5.txt", 3},
-                           Named{"ten_runs_1_to_5.txt", 4},
-                           Named{"ten_runs_1_to_5.txt", 5},
-                           Named{"clbm_2026-01.txt", 1}}) {
-    files::Maslow4Options options;
-    options.part = set.run;
-    sets.push_back(
-        {fmt::format("{}_{}", set.file, set.run),
-         files::parse_maslow4(files::read_whole_file(folder / set.file), set.file, options).belts});
-  }
-  return sets;
-}
-
 std::vector<NamedSet> every_set() {
   std::vector<NamedSet> all = simulated_sets();
   all.push_back(
       {"thirty_one",
        files::read_belts(std::string(CHAINTRUE_FIXTURES) + "/belts/lower_belts_short.json").belts});
-  for (NamedSet& set : real_sets()) all.push_back(std::move(set));
+  for (const auto& [file, runs] : {std::pair("concrete_anchors.txt", 1),
+                                   {"frame_rebuilt.txt", 1},
+                                   {"mini_frame.txt", 1},
+                                   {"ten_runs_1_to_5.txt", 5},
+                                   {"clbm_2026-01.txt", 1}}) {
+    for (int run = 1; run <= runs; ++run) {
+      if (const auto read = testing_support::published_readings(file, run))
+        all.push_back({fmt::format("{}_{}", file, run), read->belts});
+    }
+  }
   return all;
 }
 
@@ -218,11 +194,7 @@ TEST(OneEstimator, ConvergesFromACentimetreAway) {
 TEST(OneEstimator, RejectsPlacesWithARejectedReading) {
   for (const std::uint64_t seed : {11, 12}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    SimulatedBelts set = simulate({.seed = seed});
-    set.belts.points[3].lengths_mm.tl += 44.0;
-    set.belts.points[30].lengths_mm.br -= 44.0;
-    set.belts.points[31].lengths_mm.br -= 12.0;
-    set.belts.points[60].lengths_mm.tr += 150.0;
+    const SimulatedBelts set = with_four_bad_readings(seed);
     const auto fit = fit_belts(set.belts);
     ASSERT_TRUE(fit);
     const belts::Counting all(set.belts.points.size(), {true, true, true, true});

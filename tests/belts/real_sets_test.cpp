@@ -4,20 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/repeated_pulls.hpp"
-#include "grid/files/maslow4_log.hpp"
-#include "grid/files/whole_file.hpp"
+#include "tests/belts/published_readings.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
+constexpr const char* kNotHere = "../shared/data/maslow4 is not part of a checkout and is not here";
+
 struct RealSet {
   const char* name;
   const char* file;
-  int run;
   std::size_t places;
   double rms_mm;  ///< of all readings, anchors alone; computed elsewhere, to 0.01
 };
@@ -28,24 +27,19 @@ void PrintTo(const RealSet& set, std::ostream* out) { *out << set.name; }
 class RealBelts : public testing::TestWithParam<RealSet> {
  protected:
   void SetUp() override {
-    const std::filesystem::path folder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4";
-    if (!std::filesystem::exists(folder / GetParam().file)) {
-      GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here: " << folder;
-    }
-    files::Maslow4Options options;
-    options.part = GetParam().run;
-    import_ = files::parse_maslow4(
-        files::read_whole_file(folder / GetParam().file), GetParam().file, options);
+    const auto read = testing_support::published_readings(GetParam().file);
+    if (!read) GTEST_SKIP() << kNotHere;
+    import_ = *read;
   }
   files::Maslow4Import import_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Sets,
                          RealBelts,
-                         testing::Values(RealSet{"concrete", "concrete_anchors.txt", 1, 99, 0.65},
-                                         RealSet{"rebuilt", "frame_rebuilt.txt", 1, 99, 0.88},
-                                         RealSet{"mini", "mini_frame.txt", 1, 46, 0.85},
-                                         RealSet{"run_1", "ten_runs_1_to_5.txt", 1, 100, 1.12}),
+                         testing::Values(RealSet{"concrete", "concrete_anchors.txt", 99, 0.65},
+                                         RealSet{"rebuilt", "frame_rebuilt.txt", 99, 0.88},
+                                         RealSet{"mini", "mini_frame.txt", 46, 0.85},
+                                         RealSet{"run_1", "ten_runs_1_to_5.txt", 100, 1.12}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_P(RealBelts, AnchorsAloneLeaveThePublishedResiduals) {
@@ -71,23 +65,19 @@ TEST_P(RealBelts, TheTwoConventionsOfThePrintDifferByLessThanTheHeights) {
 }
 
 TEST(RealBeltSets, HalfOfARebuiltFramePredictsTheOther) {
-  const std::filesystem::path path =
-      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "frame_rebuilt.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  const auto import = files::parse_maslow4(files::read_whole_file(path), "frame_rebuilt.txt");
-  const auto fit = fit_belts(import.belts);
+  const auto import = testing_support::published_readings("frame_rebuilt.txt");
+  if (!import) GTEST_SKIP() << kNotHere;
+  const auto fit = fit_belts(import->belts);
   ASSERT_TRUE(fit && fit->half_left_out);
   // The other program's figure is 1.92, for one half by the other; here it is for both.
   EXPECT_NEAR(fit->half_left_out->rms_mm, 1.92, 0.05);
 }
 
 TEST(RealBeltSets, SixPlacesAreFittedWithLargeSigmas) {
-  const std::filesystem::path path =
-      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "clbm_2026-01.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  const auto import = files::parse_maslow4(files::read_whole_file(path), "clbm.txt");
-  ASSERT_EQ(import.belts.points.size(), 6U);
-  const auto fit = fit_belts(import.belts);
+  const auto import = testing_support::published_readings("clbm_2026-01.txt");
+  if (!import) GTEST_SKIP() << kNotHere;
+  ASSERT_EQ(import->belts.points.size(), 6U);
+  const auto fit = fit_belts(import->belts);
   ASSERT_TRUE(fit) << fit.error().sentence();
   EXPECT_EQ(fit->checks, 7);
   // Five owners' frames from such a start were 1567 to 1830 mm high.
@@ -95,18 +85,16 @@ TEST(RealBeltSets, SixPlacesAreFittedWithLargeSigmas) {
 }
 
 TEST(RealBeltSets, ATensionTestShowsTheStretchOfEachPull) {
-  const std::filesystem::path path =
-      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "tension_test.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  const auto import = files::parse_maslow4(files::read_whole_file(path), "tension_test.txt");
-  EXPECT_EQ(import.belts.points.size(), 8U);
-  EXPECT_EQ(import.warnings.size(), 2U);  // the lines in brackets, and too few places for a fit
-  const auto fit = fit_belts(import.belts);
+  const auto import = testing_support::published_readings("tension_test.txt");
+  if (!import) GTEST_SKIP() << kNotHere;
+  EXPECT_EQ(import->belts.points.size(), 8U);
+  EXPECT_EQ(import->warnings.size(), 2U);  // the lines in brackets, and too few places for a fit
+  const auto fit = fit_belts(import->belts);
   ASSERT_FALSE(fit);
   // Four positions within 10 mm.
   EXPECT_EQ(fit.error().reason, BeltsFitFailure::Reason::not_determined);
   EXPECT_NE(fit.error().sentence().find("how much the pulled belts stretch"), std::string::npos);
-  const auto pulls = repeated_pulls(import.belts);
+  const auto pulls = repeated_pulls(import->belts);
   ASSERT_EQ(pulls.size(), 4U);
   // 4.38 of 1855.75 and 5.80 of 1855.04 mm, and so on, from the owner's notes; the last pair is his
   // control, without a change of pull.

@@ -45,4 +45,13 @@ SimulatedBelts simulate(const BeltSimulation& simulation) {
   return result;
 }
 
+SimulatedBelts with_four_bad_readings(std::uint64_t seed) {
+  SimulatedBelts set = simulate({.seed = seed});
+  set.belts.points[3].lengths_mm.tl += 44.0;
+  set.belts.points[30].lengths_mm.br -= 44.0;
+  set.belts.points[31].lengths_mm.br -= 12.0;
+  set.belts.points[60].lengths_mm.tr += 150.0;
+  return set;
+}
+
 }  // namespace chaintrue::grid

@@ -6,8 +6,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/anchors_file.hpp"
-#include "grid/synthetic/simulated_belts.hpp"
-#include "tests/belts/frame.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -18,16 +17,15 @@ using testing::Not;
 
 /// Belts that stretch by 0.4 %, and the diagonal of the true frame.
 MeasuredBelts stretched_and_taped() {
-  synthetic::BeltsSpec spec;
-  spec.width_share = 0.7;
-  spec.height_share = 0.6;
-  spec.noise_mm = 0.3;
-  spec.seed = 7;
-  spec.hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
-  const model::BeltMachine truth = testing_support::truth();
-  MeasuredBelts belts = synthetic::simulate_belts(testing_support::stated(), truth, spec).value();
-  const model::Anchor& from = truth.anchors[Belt::tl];
-  const model::Anchor& to = truth.anchors[Belt::br];
+  MeasuredBelts belts = testing_support::belts_session(
+      {.width_share = 0.7,
+       .height_share = 0.6,
+       .noise_mm = 0.3,
+       .hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}},
+       .seed = 7});
+  const auto anchors = testing_support::truth().anchors;
+  const model::Anchor& from = anchors.tl;
+  const model::Anchor& to = anchors.br;
   belts.distances = {{.from = Belt::tl,
                       .to = Belt::br,
                       .distance_mm = std::hypot(from.x_mm - to.x_mm, from.y_mm - to.y_mm, from.z_mm - to.z_mm),

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/diagnosis/diagnose.hpp"
-#include "tests/belts/two_pull_sessions.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid::two_pulls_diagnosed {
 namespace {
@@ -12,12 +12,23 @@ namespace {
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
-using two_pulls::kHarder;
-using two_pulls::measured;
+/// Pull of the second pass over the first.
+constexpr double kHarder = 1.6;
+
+MeasuredBelts measured(std::vector<model::AppliedEffect> hidden,
+                       std::vector<double> pulls,
+                       double noise_mm = 0.5) {
+  return testing_support::belts_session({.columns = 7,
+                                         .rows = 6,
+                                         .noise_mm = noise_mm,
+                                         .pulls = std::move(pulls),
+                                         .hidden = std::move(hidden),
+                                         .seed = 3});
+}
 
 TEST(TwoPulls, APassHasItsPullAndVisitsAreNumberedOn) {
   const MeasuredBelts belts =
-      measured({{"belt_stretch", "", {{"elongation", 0.004}}}}, {1.0, kHarder}, 0.0, 1);
+      measured({{"belt_stretch", "", {{"elongation", 0.004}}}}, {1.0, kHarder}, 0.0);
   ASSERT_EQ(belts.points.size(), 84U);
   EXPECT_EQ(different_pulls(belts), (std::vector<double>{1.0, kHarder}));
   for (std::size_t k = 0; k < 42; ++k) {
@@ -37,9 +48,9 @@ TEST(TwoPulls, APassHasItsPullAndVisitsAreNumberedOn) {
 TEST(TwoPulls, ResolveWhatOnePullLeavesOpen) {
   // Weak enough that other anchors, a belt's scale or the stretch do nearly the same.
   const std::vector<model::AppliedEffect> flex = {{"anchor_flex", "", {{"give_mm", 2.0}}}};
-  const Diagnosis one = diagnosis::diagnose(measured(flex, {}, 0.5, 3)).value();
+  const Diagnosis one = diagnosis::diagnose(measured(flex, {})).value();
   EXPECT_NE(one.verdict, Verdict::named) << one.sentence;
-  const Diagnosis two = diagnosis::diagnose(measured(flex, {1.0, kHarder}, 0.5, 3)).value();
+  const Diagnosis two = diagnosis::diagnose(measured(flex, {1.0, kHarder})).value();
   ASSERT_EQ(two.verdict, Verdict::named) << two.sentence;
   EXPECT_EQ(two.causes.front().cause.effect->id, "anchor_flex") << two.sentence;
   // Sizes are reported at the least pull, to three of their sigmas.
@@ -50,7 +61,7 @@ TEST(TwoPulls, ResolveWhatOnePullLeavesOpen) {
 
 TEST(TwoPulls, ProposesNoThirdPass) {
   const Diagnosis two = diagnosis::diagnose(
-      measured({{"anchor_flex", "", {{"give_mm", 0.2}}}}, {1.0, kHarder}, 0.5, 3)).value();
+      measured({{"anchor_flex", "", {{"give_mm", 0.2}}}}, {1.0, kHarder})).value();
   EXPECT_FALSE(two.belts->second_pass);
 }
 

@@ -6,21 +6,14 @@
 #include <cmath>
 
 #include "model/belts/belt_readings.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::model::belts {
 namespace {
 
 using effects::Effect;
 using effects::EffectSide;
-
-BeltMachine frame(BeltLengths lengths = BeltLengths::span) {
-  BeltMachine machine;
-  machine.anchors_known = true;
-  machine.lengths = lengths;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
-  return machine;
-}
+using testing_support::stated;
 
 double read(const BeltMachine& machine,
             const std::vector<effects::ActingEffect>& effects,
@@ -38,7 +31,7 @@ TEST(BeltEffects, StandAtOneStationAndAreFoundByTheirIds) {
 }
 
 TEST(BeltEffects, EachEquationAgreesWithHandCalculation) {
-  const BeltMachine machine = frame(BeltLengths::belt);
+  const BeltMachine machine = stated(BeltLengths::belt);
   const FramePoint place{900.0, 600.0};
   const double bl = reading_at(machine, Belt::bl, place)->length_mm;
   const auto added =
@@ -77,7 +70,7 @@ TEST(BeltEffects, EachEquationAgreesWithHandCalculation) {
 }
 
 TEST(BeltEffects, HoldingBeltsStretchByTheirTension) {
-  const BeltMachine machine = frame(BeltLengths::belt);
+  const BeltMachine machine = stated(BeltLengths::belt);
   const FramePoint place{900.0, 600.0};
   const auto tension = tensions_of(machine, kLowerBeltsPulled, 1.6, place);
   for (const Belt belt : kBelts) {
@@ -94,7 +87,7 @@ TEST(BeltEffects, HoldingBeltsStretchByTheirTension) {
 }
 
 TEST(BeltEffects, ALevelPrintRemovesTheConfiguredHeights) {
-  const BeltMachine machine = frame(BeltLengths::span);
+  const BeltMachine machine = stated();
   const FramePoint place{900.0, 600.0};
   const BeltVisit visit{Belt::bl, kLowerBeltsPulled, 0};
   const double count = std::hypot(std::hypot(900.0, 600.0) - 153.4, 34.0 + 40.0);

@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "model/belts/belt_kinematics.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::model {
 namespace {
+
+using testing_support::stated;
 
 struct BeltController {
   std::string name;
@@ -20,16 +23,8 @@ struct BeltController {
 
 void PrintTo(const BeltController& kind, std::ostream* out) { *out << kind.name; }
 
-BeltMachine plain() {
-  BeltMachine machine;
-  machine.anchors_known = true;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
-  return machine;
-}
-
 BeltMachine skew() {
-  BeltMachine machine = plain();
+  BeltMachine machine = stated();
   machine.anchors = {
       {-23.0, 2150.0, 110.0}, {3471.0, 2837.0, 40.0}, {0.0, 0.0, -12.0}, {3704.0, 0.0, 90.0}};
   machine.surface_mm = 31.0;
@@ -41,7 +36,7 @@ std::vector<BeltController> belt_controllers() {
   std::vector<BeltController> all;
   for (const BeltLengths lengths :
        {BeltLengths::belt, BeltLengths::belt_and_arm, BeltLengths::span}) {
-    for (const auto& [frame, machine] : {std::pair("plain", plain()), std::pair("skew", skew())}) {
+    for (const auto& [frame, machine] : {std::pair("plain", stated()), std::pair("skew", skew())}) {
       BeltController kind{std::string(name(lengths)) + "_" + frame, machine};
       kind.machine.lengths = lengths;
       all.push_back(kind);
@@ -100,7 +95,7 @@ TEST_P(BeltKinematicsLaws, TheSpanOfALengthIsTheDistanceFromTheAnchor) {
 // With the firmware's names: a and b to the corner, c down to the belt's end, arm and extension
 // subtracted from the horizontal length; before October 2024 from the slanting length.
 TEST(BeltKinematics, LengthsMatchThePublishedFirmware) {
-  BeltMachine machine = plain();
+  BeltMachine machine = stated();
   machine.surface_mm = 18.0;
   const FramePoint place{1000.0, 700.0};
   const double a = 2924.3 - 1000.0;
@@ -136,7 +131,7 @@ TEST(BeltKinematics, CommandsCountFromWhereTheDiagonalsCross) {
 }
 
 TEST(BeltKinematics, NamesImpossiblePlaces) {
-  BeltMachine machine = plain();
+  BeltMachine machine = stated();
   machine.lengths = BeltLengths::belt;
   EXPECT_EQ(lengths_at(machine, {-27.6, 2000.0}).error(), BeltReason::inside_the_arm);
   EXPECT_EQ(lengths_at(machine, {-27.6, 2064.9}).error(), BeltReason::inside_the_arm);
@@ -149,19 +144,19 @@ TEST(BeltKinematics, NamesImpossiblePlaces) {
 
 TEST(BeltMachine, EverySlipIsReported) {
   EXPECT_TRUE(problems_of(BeltMachine{}).empty());
-  EXPECT_TRUE(problems_of(plain()).empty());
+  EXPECT_TRUE(problems_of(stated()).empty());
   EXPECT_TRUE(problems_of(skew()).empty());
-  BeltMachine inches = plain();
+  BeltMachine inches = stated();
   for (const Belt belt : kBelts) {
     inches.anchors[belt].x_mm /= 25.4;
     inches.anchors[belt].y_mm /= 25.4;
   }
   EXPECT_EQ(problems_of(inches).size(), 2U);
-  BeltMachine swapped = plain();
+  BeltMachine swapped = stated();
   std::swap(swapped.anchors.tl, swapped.anchors.tr);
   ASSERT_EQ(problems_of(swapped).size(), 1U);
   EXPECT_EQ(problems_of(swapped).front().parameter, "/anchors");
-  BeltMachine wrong = plain();
+  BeltMachine wrong = stated();
   wrong.anchors.bl.x_mm = 3.0;
   wrong.arm_mm = -1.0;
   wrong.scale_y = 0.0;

@@ -6,15 +6,14 @@
 
 #include <cmath>
 
+#include "tests/support/belt_frame.hpp"
+
 namespace chaintrue::model::belts {
 namespace {
 
 BeltMachine frame(Orientation orientation) {
-  BeltMachine machine;
-  machine.anchors_known = true;
+  BeltMachine machine = testing_support::stated();
   machine.orientation = orientation;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
   return machine;
 }
 

@@ -18,6 +18,7 @@
 #include "model/plotter/plotter_mechanism.hpp"
 #include "tests/contracts/declared_examples.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::model::contract {
 
@@ -54,19 +55,10 @@ inline Machine leaning_mirrored() {
   return machine;
 }
 
-inline constexpr double kFrameWidthMm = 2953.2;
-
-inline BeltMachine four_belts(BeltLengths lengths) {
-  BeltMachine machine;
-  machine.anchors_known = true;
-  machine.lengths = lengths;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {kFrameWidthMm, 0.0, 78.0}};
-  return machine;
-}
+inline constexpr double kFrameWidthMm = 2953.2;  // of testing_support::stated()
 
 inline BeltMachine four_belts_mirrored(BeltLengths lengths) {
-  BeltMachine machine = four_belts(lengths);
+  BeltMachine machine = testing_support::stated(lengths);
   std::swap(machine.anchors.tl, machine.anchors.tr);
   std::swap(machine.anchors.bl, machine.anchors.br);
   for (const Belt belt : kBelts)
@@ -133,7 +125,7 @@ inline std::vector<Tested> every_mechanism() {
   for (const BeltLengths lengths :
        {BeltLengths::belt, BeltLengths::belt_and_arm, BeltLengths::span}) {
     all.push_back({"belts_" + std::string(name(lengths)),
-                   [lengths] { return make_belt_mechanism(four_belts(lengths), 20.0); },
+                   [lengths] { return make_belt_mechanism(testing_support::stated(lengths), 20.0); },
                    [lengths] { return make_belt_mechanism(four_belts_mirrored(lengths), 20.0); },
                    kFrameWidthMm,
                    {1, 0, 3, 2}});

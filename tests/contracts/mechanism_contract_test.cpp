@@ -173,7 +173,7 @@ TEST_P(MechanismContract, ItsMirrorImageHasTheMirroredLengths) {
 }
 
 TEST(BeltMechanismTest, UnknownAnchorsHaveNoLengths) {
-  BeltMachine machine = four_belts(BeltLengths::span);
+  BeltMachine machine = testing_support::stated();
   machine.anchors_known = false;
   const auto mechanism = make_belt_mechanism(machine);
   EXPECT_FALSE(mechanism->parameters().front().stated);
@@ -181,13 +181,13 @@ TEST(BeltMechanismTest, UnknownAnchorsHaveNoLengths) {
   ASSERT_FALSE(mechanism->predict({1500.0, 1000.0}, {}));
   EXPECT_EQ(mechanism->predict({1500.0, 1000.0}, {}).error().reason.name, "anchors_not_known");
   const auto found =
-      mechanism->with_values(make_belt_mechanism(four_belts(BeltLengths::span))->values());
+      mechanism->with_values(make_belt_mechanism(testing_support::stated())->values());
   const auto at = found->predict({1500.0, 1000.0}, {});
   ASSERT_TRUE(at);
   for (const Belt belt : kBelts) {
     // A span is converted to a belt's length and back: rounding of 3 m.
     EXPECT_NEAR(at->lengths_mm[static_cast<Eigen::Index>(belt)],
-                reading_at(four_belts(BeltLengths::span), belt, {1500.0, 1000.0})->length_mm,
+                reading_at(testing_support::stated(), belt, {1500.0, 1000.0})->length_mm,
                 1e-11);
   }
 }

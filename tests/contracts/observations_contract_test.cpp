@@ -21,6 +21,7 @@
 #include "model/belts/belt_mechanism.hpp"
 #include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
@@ -129,13 +130,8 @@ std::shared_ptr<const Observation> parts(const Wanted& wanted) {
 }
 
 const std::shared_ptr<const model::Mechanism>& four_belts() {
-  static const std::shared_ptr<const model::Mechanism> mechanism = [] {
-    model::BeltMachine machine;
-    machine.anchors_known = true;
-    machine.anchors = {
-        {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
-    return model::make_belt_mechanism(machine);
-  }();
+  static const std::shared_ptr<const model::Mechanism> mechanism =
+      model::make_belt_mechanism(testing_support::stated());
   return mechanism;
 }
 

@@ -8,6 +8,7 @@
 #include "grid/observation/belt_lengths.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
+#include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
@@ -15,12 +16,8 @@ namespace {
 using MechanismPtr = std::shared_ptr<const model::Mechanism>;
 
 MechanismPtr belts() {
-  model::BeltMachine machine;
-  machine.anchors_known = true;
-  machine.lengths = model::BeltLengths::belt_and_arm;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
-  const auto made = model::make_belt_mechanism(machine, 20.0, model::BeltScaleKnowledge{0.02});
+  const auto made = model::make_belt_mechanism(
+      testing_support::stated(model::BeltLengths::belt_and_arm), 20.0, model::BeltScaleKnowledge{0.02});
   Eigen::VectorXd values = made->values();
   values[5] = 0.004;
   return made->with_values(values);
