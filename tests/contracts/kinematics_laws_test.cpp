@@ -10,10 +10,14 @@
 #include <vector>
 
 #include "model/kinematics.hpp"
-#include "tests/support/random.hpp"
+#include "tests/support/over_the_bed.hpp"
 
 namespace chaintrue::model {
 namespace {
+
+using testing_support::over_the_bed;
+
+constexpr std::uint64_t kLawSeed = 20260115;
 
 struct Kind {
   std::string name;
@@ -80,15 +84,6 @@ INSTANTIATE_TEST_SUITE_P(Every, KinematicsLaws, testing::ValuesIn(kinds()), [](c
   return kind.param.name;
 });
 
-/// Points of the classic bed, identical in every run.
-class BedPoints : public testing_support::Random {
- public:
-  using Random::Random;
-  BedPoint next() { return {uniform(-1219.2, 1219.2), uniform(-609.6, 609.6)}; }
-};
-
-constexpr std::uint64_t kSeed = 20260115;
-
 Eigen::Vector2d vector(ChainLengths l) { return {l.left_mm, l.right_mm}; }
 
 /// Central difference of order h^6: three central differences, their h^2 and h^4 terms removed.
@@ -102,11 +97,7 @@ Eigen::Vector2d difference(const std::function<Eigen::Vector2d(double)>& f, doub
 }
 
 TEST_P(KinematicsLaws, ForwardUndoesInverse) {
-  BedPoints points(kSeed);
-  for (int n = 0; n < 60; ++n) {
-    const BedPoint p = points.next();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed << ", (" << p.x_mm << ", " << p.y_mm << ")");
+  over_the_bed(kLawSeed + 0, 60, [&](BedPoint p) {
     const PoseResult pose = kinematics_->inverse(p);
     ASSERT_TRUE(pose) << pose.error().sentence();
     EXPECT_EQ(pose->position.x_mm, p.x_mm);
@@ -116,15 +107,11 @@ TEST_P(KinematicsLaws, ForwardUndoesInverse) {
     EXPECT_NEAR(back->position.x_mm, p.x_mm, 2e-11);
     EXPECT_NEAR(back->position.y_mm, p.y_mm, 2e-11);
     EXPECT_NEAR(back->sled_rotation_rad, pose->sled_rotation_rad, 1e-12);
-  }
+  });
 }
 
 TEST_P(KinematicsLaws, JacobianIsTheDerivativeOfTheLengths) {
-  BedPoints points(kSeed + 1);
-  for (int n = 0; n < 25; ++n) {
-    const BedPoint p = points.next();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed + 1 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+  over_the_bed(kLawSeed + 1, 25, [&](BedPoint p) {
     const auto at = [&](double dx, double dy) {
       return vector(kinematics_->inverse({p.x_mm + dx, p.y_mm + dy}).value().lengths);
     };
@@ -136,7 +123,7 @@ TEST_P(KinematicsLaws, JacobianIsTheDerivativeOfTheLengths) {
     const Eigen::Vector2d by_y = difference([&](double h) { return at(0.0, h); }, 6.0);
     EXPECT_LE((j.col(0) - by_x).cwiseAbs().maxCoeff(), kTolerance);
     EXPECT_LE((j.col(1) - by_y).cwiseAbs().maxCoeff(), kTolerance);
-  }
+  });
 }
 
 struct Knob {
@@ -148,23 +135,26 @@ struct Knob {
 
 std::vector<Knob> knobs() {
   using P = EquilibriumParameters;
+  const auto motor = [](Side side, double MotorPosition::*axis) {
+    return [side, axis](P& p) -> double& { return p.motors[side].*axis; };
+  };
   return {
       {Parameter::motor_left_x_mm,
        "motor_left_x_mm",
        4.0,
-       [](P& p) -> double& { return p.motors.left.x_mm; }},
+       motor(Side::left, &MotorPosition::x_mm)},
       {Parameter::motor_left_y_mm,
        "motor_left_y_mm",
        4.0,
-       [](P& p) -> double& { return p.motors.left.y_mm; }},
+       motor(Side::left, &MotorPosition::y_mm)},
       {Parameter::motor_right_x_mm,
        "motor_right_x_mm",
        4.0,
-       [](P& p) -> double& { return p.motors.right.x_mm; }},
+       motor(Side::right, &MotorPosition::x_mm)},
       {Parameter::motor_right_y_mm,
        "motor_right_y_mm",
        4.0,
-       [](P& p) -> double& { return p.motors.right.y_mm; }},
+       motor(Side::right, &MotorPosition::y_mm)},
       {Parameter::ring_radius_mm,
        "ring_radius_mm",
        4.0,
@@ -172,27 +162,27 @@ std::vector<Knob> knobs() {
       {Parameter::sprocket_radius_mm,
        "sprocket_radius_mm",
        1.0,
-       [](P& p) -> double& { return p.sprocket_radius_mm; }},
+       &P::sprocket_radius_mm},
       {Parameter::sled_weight_n,
        "sled_weight_n",
        1.0,
-       [](P& p) -> double& { return p.sled_weight_n; }},
+       &P::sled_weight_n},
       {Parameter::chain_weight_n_per_mm,
        "chain_weight_n_per_mm",
        1e-4,
-       [](P& p) -> double& { return p.chain_weight_n_per_mm; }},
+       &P::chain_weight_n_per_mm},
       {Parameter::chain_compliance_per_n,
        "chain_compliance_per_n",
        1e-6,
-       [](P& p) -> double& { return p.chain_compliance_per_n; }},
+       &P::chain_compliance_per_n},
       {Parameter::beam_flexibility_mm_per_n,
        "beam_flexibility_mm_per_n",
        0.002,
-       [](P& p) -> double& { return p.beam_flexibility_mm_per_n; }},
+       &P::beam_flexibility_mm_per_n},
       {Parameter::side_force_n,
        "side_force_n",
        1.0,
-       [](P& p) -> double& { return p.side_force_n; }},
+       &P::side_force_n},
   };
 }
 
@@ -205,6 +195,7 @@ TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
   const auto kinematics = make(base);
   const bool ring = std::holds_alternative<Ring>(base.attachment);
   for (const Knob& knob : knobs()) {
+    SCOPED_TRACE(knob.name);
     if (knob.parameter == Parameter::ring_radius_mm && !ring) continue;
     // A weightless closed formula has no yielding beam; make_kinematics solves the equilibrium
     // there.
@@ -212,11 +203,7 @@ TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
         base.beam_flexibility_mm_per_n == 0.0) {
       continue;
     }
-    BedPoints points(kSeed + 2);
-    for (int n = 0; n < 12; ++n) {
-      const BedPoint p = points.next();
-      SCOPED_TRACE(testing::Message() << knob.name << ", seed " << kSeed + 2 << ", (" << p.x_mm
-                                      << ", " << p.y_mm << ")");
+    over_the_bed(kLawSeed + 2, 12, [&](BedPoint p) {
       const auto at = [&](double change) {
         EquilibriumParameters changed = base;
         knob.of(changed) += change;
@@ -231,7 +218,7 @@ TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
       const double tolerance = 1.5e-11 / knob.step + 1e-7 * expected.cwiseAbs().maxCoeff();
       EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), tolerance)
           << "found " << found.transpose() << ", difference " << expected.transpose();
-    }
+    });
   }
 }
 
@@ -241,11 +228,7 @@ TEST_P(KinematicsLaws, MirroredMachineSwapsTheChains) {
   mirrored.motors.right = {-parameters().motors.left.x_mm, parameters().motors.left.y_mm};
   mirrored.side_force_n = -parameters().side_force_n;
   const auto mirror = make(mirrored);
-  BedPoints points(kSeed + 3);
-  for (int n = 0; n < 60; ++n) {
-    const BedPoint p = points.next();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed + 3 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+  over_the_bed(kLawSeed + 3, 60, [&](BedPoint p) {
     const Pose a = kinematics_->inverse(p).value(), b = mirror->inverse({-p.x_mm, p.y_mm}).value();
     constexpr double kTolerance = 5e-12;  // ten units in the last place of a length
     EXPECT_NEAR(a.lengths.left_mm, b.lengths.right_mm, kTolerance);
@@ -254,11 +237,10 @@ TEST_P(KinematicsLaws, MirroredMachineSwapsTheChains) {
     EXPECT_NEAR(a.chains.left.horizontal_n,
                 b.chains.right.horizontal_n,
                 1e-12 * parameters().sled_weight_n);
-  }
+  });
 }
 
 TEST_P(KinematicsLaws, ForcesScaledTogetherLeaveTheLengths) {
-  BedPoints points(kSeed + 4);
   for (const double factor : {0.25, 7.0}) {
     EquilibriumParameters scaled = parameters();
     scaled.sled_weight_n *= factor;
@@ -267,21 +249,17 @@ TEST_P(KinematicsLaws, ForcesScaledTogetherLeaveTheLengths) {
     scaled.chain_compliance_per_n /= factor;
     scaled.beam_flexibility_mm_per_n /= factor;
     const auto other = make(scaled);
-    for (int n = 0; n < 30; ++n) {
-      const BedPoint p = points.next();
-      SCOPED_TRACE(testing::Message()
-                   << "seed " << kSeed + 4 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+    over_the_bed(kLawSeed + 4, 30, [&](BedPoint p) {
       const Pose a = kinematics_->inverse(p).value(), b = other->inverse(p).value();
       EXPECT_LE((vector(a.lengths) - vector(b.lengths)).norm(), 1e-11);  // rounding of the solution
       EXPECT_NEAR(b.chains.left.tension_at_sprocket_n,
                   factor * a.chains.left.tension_at_sprocket_n,
                   1e-11 * b.chains.left.tension_at_sprocket_n);
-    }
+    });
   }
 }
 
 TEST_P(KinematicsLaws, LengthsScaledTogetherScaleTheChains) {
-  BedPoints points(kSeed + 5);
   for (const double factor : {0.5, 3.0}) {
     EquilibriumParameters scaled = parameters();
     for (const Side side : kSides) {
@@ -297,28 +275,22 @@ TEST_P(KinematicsLaws, LengthsScaledTogetherScaleTheChains) {
     scaled.beam_flexibility_mm_per_n *= factor;
     scaled.sag_correction /= factor * factor;
     const auto other = make(scaled);
-    for (int n = 0; n < 30; ++n) {
-      const BedPoint p = points.next();
-      SCOPED_TRACE(testing::Message()
-                   << "seed " << kSeed + 5 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+    over_the_bed(kLawSeed + 5, 30, [&](BedPoint p) {
       const Pose a = kinematics_->inverse(p).value();
       const Pose b = other->inverse({factor * p.x_mm, factor * p.y_mm}).value();
       EXPECT_LE((factor * vector(a.lengths) - vector(b.lengths)).norm(), 1e-11 * factor + 1e-11);
       EXPECT_NEAR(a.sled_rotation_rad, b.sled_rotation_rad, 1e-12);
-    }
+    });
   }
 }
 
 // Newton on inverse from anywhere on the bed ends at the unique point with these lengths.
 TEST_P(KinematicsLaws, TheSolutionDoesNotDependOnTheStart) {
-  BedPoints points(kSeed + 6);
-  for (int n = 0; n < 20; ++n) {
-    const BedPoint target = points.next();
+  testing_support::Random starts(7);
+  over_the_bed(kLawSeed + 6, 20, [&](BedPoint target) {
     const Eigen::Vector2d wanted = vector(kinematics_->inverse(target).value().lengths);
-    BedPoint p = points.next();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed + 6 << ", target (" << target.x_mm << ", " << target.y_mm
-                 << ") from (" << p.x_mm << ", " << p.y_mm << ")");
+    BedPoint p = testing_support::on_the_bed(starts);
+    SCOPED_TRACE(testing::Message() << "from (" << p.x_mm << ", " << p.y_mm << ")");
     for (int step = 0; step < 60; ++step) {
       const Pose pose = kinematics_->inverse(p).value();
       const Eigen::Vector2d d =
@@ -329,7 +301,7 @@ TEST_P(KinematicsLaws, TheSolutionDoesNotDependOnTheStart) {
     }
     EXPECT_NEAR(p.x_mm, target.x_mm, 2e-11);  // as in ForwardUndoesInverse
     EXPECT_NEAR(p.y_mm, target.y_mm, 2e-11);
-  }
+  });
 }
 
 // Lengths are continuous along a straight path: the second difference is the path's step squared
@@ -366,19 +338,20 @@ TEST_P(KinematicsLaws, NameImpossiblePoses) {
   const double y = std::max(parameters().motors.left.y_mm, parameters().motors.right.y_mm);
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
-  const auto failure = [&](BedPoint p) {
+  const MotorPosition& left = parameters().motors.left;
+  const std::pair<BedPoint, PoseReason> impossible[] = {
+      {{parameters().motors.right.x_mm + 30.0, 0.0}, PoseReason::outside_verticals},
+      {{-1e9, 0.0}, PoseReason::outside_verticals},
+      {{0.0, y + 1.0}, PoseReason::above_sprockets},
+      {{0.0, 1e9}, PoseReason::above_sprockets},
+      {{left.x_mm + 40.0, left.y_mm - 40.0}, PoseReason::link_does_not_fit},
+      {{nan, 0.0}, PoseReason::outside_verticals},
+      {{0.0, nan}, PoseReason::above_sprockets},
+      {{infinity, infinity}, PoseReason::outside_verticals}};
+  for (const auto& [p, reason] : impossible) {
     const PoseResult pose = kinematics_->inverse(p);
-    return pose ? std::string("a pose") : std::string(name(pose.error().reason));
-  };
-  EXPECT_EQ(failure({parameters().motors.right.x_mm + 30.0, 0.0}), "outside_verticals");
-  EXPECT_EQ(failure({-1e9, 0.0}), "outside_verticals");
-  EXPECT_EQ(failure({0.0, y + 1.0}), "above_sprockets");
-  EXPECT_EQ(failure({0.0, 1e9}), "above_sprockets");
-  EXPECT_EQ(failure({parameters().motors.left.x_mm + 40.0, parameters().motors.left.y_mm - 40.0}),
-            "link_does_not_fit");
-  EXPECT_EQ(failure({nan, 0.0}), "outside_verticals");
-  EXPECT_EQ(failure({0.0, nan}), "above_sprockets");
-  EXPECT_EQ(failure({infinity, infinity}), "outside_verticals");
+    EXPECT_TRUE(!pose && pose.error() == reason) << p.x_mm << " " << p.y_mm;
+  }
   for (const ChainLengths lengths :
        {ChainLengths{nan, 1500.0}, {1500.0, infinity}, {-5.0, 1500.0}, {10.0, 20.0}}) {
     const PoseResult pose = kinematics_->forward(lengths);

@@ -5,11 +5,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "interp/linear_algebra_kernels.hpp"
@@ -18,7 +16,6 @@
 namespace chaintrue::linear {
 namespace {
 
-using grid::Random;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -30,18 +27,28 @@ constexpr double kRounding = 1e-10;
 // Few enough for plain loops, one block of the kernels, and several with a remainder.
 constexpr Index kSizes[] = {0, 1, 2, 3, 7, 31, 150};
 
-MatrixXd random_matrix(Index rows, Index columns, Random& random) {
-  MatrixXd matrix(rows, columns);
-  for (Index k = 0; k < columns; ++k) {
-    for (Index i = 0; i < rows; ++i) matrix(i, k) = random.normal();
+/// Matrices of one seed.
+class Draws {
+ public:
+  MatrixXd matrix(Index rows, Index columns) {
+    MatrixXd matrix(rows, columns);
+    for (double& value : matrix.reshaped()) value = random_.normal();
+    return matrix;
   }
-  return matrix;
-}
 
-MatrixXd random_definite(Index n, Random& random) {
-  const MatrixXd root = random_matrix(n, n, random);
-  return MatrixXd::Identity(n, n) + root * root.transpose() / std::max<double>(1.0, static_cast<double>(n));
-}
+  MatrixXd definite(Index n) {
+    const MatrixXd root = matrix(n, n);
+    return MatrixXd::Identity(n, n) + root * root.transpose() / std::max<double>(1.0, static_cast<double>(n));
+  }
+
+ private:
+  grid::Random random_{kSeed};
+};
+
+class LinearAlgebra : public testing::Test, public Draws {
+ private:
+  const testing::ScopedTrace trace_{__FILE__, __LINE__, kSeed};
+};
 
 double largest(const MatrixXd& matrix) {
   return matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff();
@@ -66,15 +73,15 @@ MatrixXd plain_product(const MatrixXd& a, const MatrixXd& b) {
   return c;
 }
 
-TEST(LinearProduct, IsTheSumOfProducts) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+MatrixXd square_of(const MatrixXd& root) { return plain_product(root, root.transpose()); }
+
+TEST_F(LinearAlgebra, ProductIsTheSumOfProducts) {
   for (const Index n : kSizes) {
     for (const Index m : {Index{0}, Index{1}, Index{5}, Index{40}}) {
       SCOPED_TRACE(testing::Message() << n << " x " << m);
-      const MatrixXd a = random_matrix(n, m, random);
-      const MatrixXd b = random_matrix(m, 9, random);
-      const VectorXd x = random_matrix(m, 1, random);
+      const MatrixXd a = matrix(n, m);
+      const MatrixXd b = matrix(m, 9);
+      const VectorXd x = matrix(m, 1);
       const MatrixXd c = plain_product(a, b);
       expect_near(product(a, b), c);
       const MatrixXd at = a.transpose();
@@ -87,17 +94,15 @@ TEST(LinearProduct, IsTheSumOfProducts) {
       expect_near(outer(a), plain_product(a, at));
       expect_near(one_plus_gram(a), identity(m) + plain_product(at, a));
       expect_near(one_plus_outer(a), identity(n) + plain_product(a, at));
-      expect_near(carried(a, outer(b)), plain_product(c, c.transpose()));
+      expect_near(carried(a, outer(b)), square_of(c));
     }
   }
 }
 
-TEST(LinearProduct, AddsToABlockFromBlocks) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  const MatrixXd a = random_matrix(20, 30, random);
-  const MatrixXd b = random_matrix(40, 12, random);
-  const MatrixXd before = random_matrix(16, 14, random);
+TEST_F(LinearAlgebra, ProductAddsToABlockFromBlocks) {
+  const MatrixXd a = matrix(20, 30);
+  const MatrixXd b = matrix(40, 12);
+  const MatrixXd before = matrix(16, 14);
   MatrixXd c = before;
   add_product(c.block(2, 3, 10, 8), -0.5, a.middleRows(4, 10), b.block(5, 1, 30, 8));
   MatrixXd wanted = before;
@@ -112,12 +117,12 @@ TEST(LinearProduct, AddsToABlockFromBlocks) {
   add_outer(symmetric, 0.3, a.topRows(16));
   add_outer(symmetric, -0.1, VectorXd(a.col(0).head(16)));
   expect_near(symmetric,
-              plain_product(before, before.transpose()) +
-                  0.3 * plain_product(a.topRows(16), a.topRows(16).transpose()) -
-                  0.1 * plain_product(a.col(0).head(16), a.col(0).head(16).transpose()));
+              square_of(before) +
+                  0.3 * square_of(a.topRows(16)) -
+                  0.1 * square_of(a.col(0).head(16)));
 }
 
-TEST(LinearProduct, RefusesSizesThatDoNotFit) {
+TEST_F(LinearAlgebra, ProductRefusesSizesThatDoNotFit) {
   MatrixXd a = MatrixXd::Zero(2, 3);
   const VectorXd x = VectorXd::Zero(2);
   EXPECT_THROW(static_cast<void>(product(a, a)), std::invalid_argument);
@@ -127,19 +132,17 @@ TEST(LinearProduct, RefusesSizesThatDoNotFit) {
   EXPECT_THROW(static_cast<void>(Cholesky(identity(3)).solve(x)), std::invalid_argument);
 }
 
-TEST(Cholesky, FactorsSolvesAndInverts) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+TEST_F(LinearAlgebra, CholeskyFactorsSolvesAndInverts) {
   for (const Index n : kSizes) {
     SCOPED_TRACE(n);
-    const MatrixXd m = random_definite(n, random);
+    const MatrixXd m = definite(n);
     const Cholesky factor(m);
     ASSERT_TRUE(factor.is_positive_definite());
     const MatrixXd& l = factor.lower();
-    expect_near(plain_product(l, l.transpose()), m);
+    expect_near(square_of(l), m);
     EXPECT_EQ(largest(l.triangularView<Eigen::StrictlyUpper>().toDenseMatrix()), 0.0);
-    const MatrixXd b = random_matrix(n, 4, random);
-    const VectorXd x = random_matrix(n, 1, random);
+    const MatrixXd b = matrix(n, 4);
+    const VectorXd x = matrix(n, 1);
     expect_near(plain_product(m, factor.solve(b)), b);
     expect_near(plain_product(m, factor.solve(x)), x);
     expect_near(plain_product(l, factor.half_solve(b)), b);
@@ -152,12 +155,12 @@ TEST(Cholesky, FactorsSolvesAndInverts) {
     EXPECT_EQ(largest(in_place.rightCols(2) - MatrixXd::Ones(n, 2)), 0.0);
     expect_near(plain_product(m, factor.inverse()), identity(n));
     const MatrixXd root = factor.root_of_inverse();
-    expect_near(plain_product(root, root.transpose()), factor.inverse());
+    expect_near(square_of(root), factor.inverse());
     EXPECT_NEAR(factor.log_det(), SymmetricEigen(m).eigenvalues().array().log().sum(), kRounding);
   }
 }
 
-TEST(Cholesky, RefusesIndefiniteMatrices) {
+TEST_F(LinearAlgebra, CholeskyRefusesIndefiniteMatrices) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const Index n : {Index{1}, Index{3}, Index{100}}) {
     for (const double pivot : {0.0, -1.0, kNan}) {
@@ -169,20 +172,18 @@ TEST(Cholesky, RefusesIndefiniteMatrices) {
   EXPECT_TRUE(Cholesky().is_positive_definite());
 }
 
-TEST(PivotedCholesky, SolvesSemidefiniteSystems) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+TEST_F(LinearAlgebra, PivotedCholeskySolvesSemidefiniteSystems) {
   for (const Index n : {Index{0}, Index{1}, Index{5}, Index{20}}) {
     SCOPED_TRACE(n);
-    const MatrixXd m = random_definite(n, random);
+    const MatrixXd m = definite(n);
     const PivotedCholesky factor(m);
-    const MatrixXd b = random_matrix(n, 3, random);
-    const VectorXd x = random_matrix(n, 1, random);
+    const MatrixXd b = matrix(n, 3);
+    const VectorXd x = matrix(n, 1);
     expect_near(plain_product(m, factor.solve(b)), b);
     expect_near(plain_product(m, factor.solve(x)), x);
     expect_near(plain_product(m, factor.inverse()), identity(n));
     const MatrixXd root = factor.root(0.0);
-    expect_near(plain_product(root, root.transpose()), m);
+    expect_near(square_of(root), m);
   }
   // An undetermined unknown stays 0.
   MatrixXd m = identity(3);
@@ -191,28 +192,24 @@ TEST(PivotedCholesky, SolvesSemidefiniteSystems) {
   EXPECT_EQ(PivotedCholesky(m).root(0.5).cols(), 2);
 }
 
-TEST(CovarianceRoot, SquaredIsTheCovariance) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+TEST_F(LinearAlgebra, CovarianceRootSquaredIsTheCovariance) {
   for (const Index n : kSizes) {
-    const MatrixXd thin = random_matrix(n, n / 2, random);
-    const MatrixXd covariance = plain_product(thin, thin.transpose());
+    const MatrixXd thin = matrix(n, n / 2);
+    const MatrixXd covariance = square_of(thin);
     const MatrixXd root = covariance_root(covariance);
     EXPECT_TRUE(root.allFinite());
-    expect_near(plain_product(root, root.transpose()), covariance);
+    expect_near(square_of(root), covariance);
   }
 }
 
-TEST(Tridiagonal, TurnsBackToTheMatrix) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+TEST_F(LinearAlgebra, TridiagonalTurnsBackToTheMatrix) {
   for (const Index n : kSizes) {
     SCOPED_TRACE(n);
-    const MatrixXd m = random_definite(n, random);
+    const MatrixXd m = definite(n);
     const Tridiagonal turned(m);
     MatrixXd q = identity(n);
     turned.rotate_in_place(q);  // Q'
-    expect_near(plain_product(q, q.transpose()), identity(n));
+    expect_near(square_of(q), identity(n));
     MatrixXd j = MatrixXd::Zero(n, n);
     for (Index k = 0; k < n; ++k) {
       j(k, k) = turned.diagonal()[k];
@@ -222,15 +219,13 @@ TEST(Tridiagonal, TurnsBackToTheMatrix) {
   }
 }
 
-TEST(Qr, ColumnsAreOrthonormalAndSpanTheMatrix) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+TEST_F(LinearAlgebra, QrColumnsAreOrthonormalAndSpanTheMatrix) {
   for (const Index n : {Index{1}, Index{4}, Index{30}, Index{120}}) {
     for (const Index m : {Index{0}, Index{1}, std::min<Index>(n, 7)}) {
       SCOPED_TRACE(testing::Message() << n << " x " << m);
-      const MatrixXd a = random_matrix(n, m, random);
+      const MatrixXd a = matrix(n, m);
       const Qr parts = qr(a);
-      expect_near(plain_product(parts.q.transpose(), parts.q), identity(n));
+      expect_near(square_of(parts.q.transpose()), identity(n));
       expect_near(plain_product(parts.q.leftCols(m), parts.r), a);
       expect_near(orthonormal_columns(a), parts.q.leftCols(m));
       expect_near(upper_triangle(a), parts.r);
@@ -238,10 +233,8 @@ TEST(Qr, ColumnsAreOrthonormalAndSpanTheMatrix) {
   }
 }
 
-TEST(Range, SplitsTheSpaceAtTheRank) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  const MatrixXd a = plain_product(random_matrix(12, 3, random), random_matrix(3, 5, random));
+TEST_F(LinearAlgebra, RangeSplitsTheSpaceAtTheRank) {
+  const MatrixXd a = plain_product(matrix(12, 3), matrix(3, 5));
   const Range found = range_of(a);
   ASSERT_EQ(found.range.cols(), 3);
   ASSERT_EQ(found.rest.cols(), 9);
@@ -253,40 +246,34 @@ TEST(Range, SplitsTheSpaceAtTheRank) {
   EXPECT_EQ(range_of(scaled, 1e-4).range.cols(), 3);
 }
 
-TEST(LeastSquares, ResidualIsOrthogonalAndSolutionShortest) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  const MatrixXd full = random_matrix(20, 4, random);
-  const MatrixXd flat = plain_product(random_matrix(20, 2, random), random_matrix(2, 4, random));
+TEST_F(LinearAlgebra, LeastSquaresResidualIsOrthogonalAndSolutionShortest) {
+  const MatrixXd full = matrix(20, 4);
+  const MatrixXd flat = plain_product(matrix(20, 2), matrix(2, 4));
   for (const MatrixXd& a : {full, flat}) {
-    const VectorXd b = random_matrix(20, 1, random);
+    const VectorXd b = matrix(20, 1);
     const VectorXd x = least_squares(a, b);
     expect_near(plain_product(a.transpose(), b - a * x), MatrixXd::Zero(4, 1));
     // Shortest: no part of it is in A's null space.
     const MatrixXd unseen = range_of(a.transpose()).rest;
     expect_near(plain_product(unseen.transpose(), x), MatrixXd::Zero(unseen.cols(), 1));
-    const MatrixXd two = random_matrix(20, 2, random);
+    const MatrixXd two = matrix(20, 2);
     expect_near(least_squares(a, two).col(1), least_squares(a, VectorXd(two.col(1))));
   }
 }
 
-TEST(ThinSvd, HasTheEigenvaluesOfTheSquare) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+TEST_F(LinearAlgebra, ThinSvdHasTheEigenvaluesOfTheSquare) {
   for (const Index m : {Index{0}, Index{1}, Index{6}, Index{25}}) {
     SCOPED_TRACE(m);
-    const MatrixXd a = random_matrix(40, m, random);
+    const MatrixXd a = matrix(40, m);
     const ThinSvd parts = thin_svd(a);
-    expect_near(plain_product(parts.u.transpose(), parts.u), identity(m));
+    expect_near(square_of(parts.u.transpose()), identity(m));
     const MatrixXd scaled = scaled_columns(parts.u, parts.values.cwiseAbs2());
-    expect_near(plain_product(scaled, parts.u.transpose()), plain_product(a, a.transpose()));
+    expect_near(plain_product(scaled, parts.u.transpose()), square_of(a));
   }
 }
 
-TEST(Inverse, UndoesTheMatrix) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  const MatrixXd a = random_definite(5, random) + 0.1 * random_matrix(5, 5, random);
+TEST_F(LinearAlgebra, InverseUndoesTheMatrix) {
+  const MatrixXd a = definite(5) + 0.1 * matrix(5, 5);
   expect_near(plain_product(a, inverse(a)), identity(5));
 }
 
@@ -314,11 +301,11 @@ class Placed {
 
 /// A table's results for the same input, concatenated in a column.
 VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
-  Random random(kSeed);
-  const Placed a(random_matrix(n, n, random), offset);
-  const MatrixXd columns = random_matrix(n, 5, random);
+  Draws draws;
+  const Placed a(draws.matrix(n, n), offset);
+  const MatrixXd columns = draws.matrix(n, 5);
   const Placed b(columns, offset);
-  const MatrixXd definite = random_definite(n, random);
+  const MatrixXd definite = draws.definite(n);
   std::vector<double> all;
   const auto keep = [&all](Placed& m, bool lower = false) {
     const MatrixXd kept = lower ? MatrixXd(m.map().triangularView<Eigen::Lower>()) : MatrixXd(m.map());
@@ -362,10 +349,9 @@ VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
 
 constexpr Index kKernelSizes[] = {1, 2, 5, 8, 33, 100, 257};
 
-TEST(Kernels, AgreeWithTheBaseline) {
+TEST_F(LinearAlgebra, KernelsAgreeWithTheBaseline) {
   const kernels::Table* const fast = kernels::avx2_here();
   if (fast == nullptr) GTEST_SKIP() << "no AVX2 here";
-  SCOPED_TRACE(kSeed);
   for (const Index n : kKernelSizes) {
     SCOPED_TRACE(n);
     const VectorXd slow = answers_of(kernels::baseline, n, 0);
@@ -374,8 +360,7 @@ TEST(Kernels, AgreeWithTheBaseline) {
   }
 }
 
-TEST(Kernels, GiveTheSameBytesWhereverTheNumbersLie) {
-  SCOPED_TRACE(kSeed);
+TEST_F(LinearAlgebra, KernelsGiveTheSameBytesWhereverTheNumbersLie) {
   for (const kernels::Table* const table : {&kernels::baseline, kernels::avx2_here()}) {
     if (table == nullptr) continue;
     for (const Index n : kKernelSizes) {

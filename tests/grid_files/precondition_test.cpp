@@ -4,7 +4,6 @@
 #include "grid/precondition.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>
@@ -19,22 +18,14 @@
 #include "grid/random.hpp"
 #include "grid/statistics.hpp"
 #include "grid/synthetic/strength.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using testing_support::refusal_of;
 
-std::string words_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  } catch (const std::exception& error) {
-    return std::string("no invalid_argument but ") + error.what();
-  }
-  return "nothing thrown";
-}
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Precondition, ReportsItsValues) {
   EXPECT_STREQ(precondition("{} of {} mm, {:.1f}", 3, kNan, -kInfinity).what(),
@@ -43,9 +34,9 @@ TEST(Precondition, ReportsItsValues) {
 
 TEST(Precondition, RefusesExtremesOfAnEmptySet) {
   const std::vector<double> nothing;
-  EXPECT_THAT(words_of([&] { (void)max_element(nothing); }), ::testing::HasSubstr("0 values"));
-  EXPECT_THAT(words_of([&] { (void)min_element(nothing, std::greater<>()); }), ::testing::HasSubstr("0 values"));
-  EXPECT_THAT(words_of([&] { (void)minmax_element(nothing); }), ::testing::HasSubstr("0 values"));
+  EXPECT_THAT(refusal_of([&] { (void)max_element(nothing); }), ::testing::HasSubstr("0 values"));
+  EXPECT_THAT(refusal_of([&] { (void)min_element(nothing, std::greater<>()); }), ::testing::HasSubstr("0 values"));
+  EXPECT_THAT(refusal_of([&] { (void)minmax_element(nothing); }), ::testing::HasSubstr("0 values"));
 }
 
 struct Site {
@@ -58,7 +49,7 @@ void PrintTo(const Site& site, std::ostream* out) { *out << site.name; }
 class BrokenBy : public ::testing::TestWithParam<Site> {};
 
 TEST_P(BrokenBy, ShowsNonFiniteValues) {
-  EXPECT_THAT(words_of([] { GetParam().call(kNan); }), ::testing::HasSubstr("nan"));
+  EXPECT_THAT(refusal_of([] { GetParam().call(kNan); }), ::testing::HasSubstr("nan"));
 }
 
 INSTANTIATE_TEST_SUITE_P(

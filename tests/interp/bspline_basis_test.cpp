@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/bspline_basis.hpp"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 

@@ -5,14 +5,13 @@
 /// Surfaces with known values, and grids to sample them on.
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "interp/surface.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::interp::truths {
 
@@ -54,16 +53,18 @@ Eigen::MatrixXd sample(const std::vector<double>& x, const std::vector<double>& 
   return values;
 }
 
-/// The same random numbers on every platform.
-class Random {
+/// Of a surface, on a lattice over the bed.
+template <class Truth>
+double largest_error(const Surface& surface, const Truth& truth) {
+  const auto off = [&](double x, double y) { return surface.at(x, y).value - truth(x, y); };
+  return sample(even(kBed.x_min, kBed.x_max, 241), even(kBed.y_min, kBed.y_max, 121), off)
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+class Random : public testing_support::Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  double normal() {
-    const double r = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return r * std::cos(2.0 * std::numbers::pi * uniform());
-  }
+  using testing_support::Random::Random;
   std::vector<double> nodes(int count, double low, double high) {
     std::vector<double> result = {low};
     std::vector<double> steps;
@@ -77,9 +78,6 @@ class Random {
     }
     return result;
   }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 }  // namespace chaintrue::interp::truths

@@ -67,8 +67,14 @@ TEST(ChainShape, LeadsFromTheSledToTheSprocketsTangent) {
         EquilibriumParameters m = equilibrium_parameters(machine);
         m.motors.right.y_mm += 40.0;
         const auto kinematics = make_kinematics(m, model);
-        for (const BedPoint p : {BedPoint{-1100.0, -500.0}, {300.0, 200.0}}) {
+        for (const BedPoint p :
+             {BedPoint{-1100.0, -500.0}, {300.0, 200.0}, {1210.0, -600.0}, {-40.0, 590.0}}) {
           const Pose pose = kinematics->inverse(p).value();
+          // Without a side force the chains carry the sled between them.
+          EXPECT_EQ(pose.chains.left.horizontal_n, pose.chains.right.horizontal_n);
+          EXPECT_NEAR(pose.chains.left.vertical_at_sled_n + pose.chains.right.vertical_at_sled_n,
+                      m.sled_weight_n,
+                      1e-13 * m.sled_weight_n);
           for (const Side side : kSides) {
             SCOPED_TRACE(testing::Message() << "model " << static_cast<int>(model) << " at "
                                             << p.x_mm << (side == Side::left ? " left" : " right"));

@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <functional>
-#include <vector>
 
 #include "model/kinematics.hpp"
 #include "tests/model/oracle/catenary_shape.hpp"
-#include "tests/support/random.hpp"
+#include "tests/support/over_the_bed.hpp"
 
 namespace chaintrue::model {
 namespace {
+
+using testing_support::over_the_bed;
 
 constexpr std::uint64_t kLawSeed = 4711;
 
@@ -22,7 +22,6 @@ class Random : public testing_support::Random {
   double logarithmic(double from, double to) {
     return std::exp(uniform(std::log(from), std::log(to)));
   }
-  BedPoint bed() { return {uniform(-1219.2, 1219.2), uniform(-609.6, 609.6)}; }
 };
 
 EquilibriumParameters classic(Feed feed = Feed::over_top) {
@@ -134,50 +133,6 @@ TEST(Catenary, PointsAlongTheChainAreItsPartialChains) {
   EXPECT_NEAR(length, end.stretched_length_mm, 1e-9);
 }
 
-TEST(Pose, BalancesInIrvinesForm) {
-  if (!kHasLongFunctions) GTEST_SKIP() << "this library computes asinh of long doubles in double";
-  for (const Feed feed : {Feed::over_top, Feed::off_bottom}) {
-    const EquilibriumParameters m = classic(feed);
-    const auto kinematics = make_kinematics(m);
-    const double sg = feed == Feed::over_top ? 1.0 : -1.0,
-                 rho = std::get<Ring>(m.attachment).radius_mm;
-    Random random(kLawSeed + 3);
-    for (int n = 0; n < 200; ++n) {
-      const BedPoint p = random.bed();
-      SCOPED_TRACE(testing::Message()
-                   << "seed " << kLawSeed + 3 << " (" << p.x_mm << ", " << p.y_mm << ")");
-      const Pose pose = kinematics->inverse(p).value();
-      for (const Side side : kSides) {
-        const ChainState& c = pose.chains[side];
-        const Extent e = irvine(c.horizontal_n,
-                                c.vertical_at_sled_n,
-                                c.free_length_mm,
-                                m.chain_weight_n_per_mm,
-                                m.chain_compliance_per_n);
-        const double along =
-            side == Side::left ? p.x_mm - m.motors.left.x_mm : m.motors.right.x_mm - p.x_mm;
-        const double up = m.motors[side].y_mm - p.y_mm;
-        const double r = m.sprocket_radius_mm;
-        // Rounding of H, V and S in the pose, magnified by the chain's flexibility: a few ulp of
-        // 3000 mm.
-        constexpr double kTolerance = 1e-11;
-        EXPECT_NEAR(static_cast<double>(e.u) + rho * c.horizontal_n / c.tension_at_sled_n +
-                        sg * r * std::sin(c.angle_rad),
-                    along,
-                    kTolerance);
-        EXPECT_NEAR(static_cast<double>(e.y) + rho * c.vertical_at_sled_n / c.tension_at_sled_n -
-                        sg * r * std::cos(c.angle_rad),
-                    up,
-                    kTolerance);
-      }
-      EXPECT_NEAR(pose.chains.left.vertical_at_sled_n + pose.chains.right.vertical_at_sled_n,
-                  m.sled_weight_n,
-                  1e-13);
-      EXPECT_EQ(pose.chains.left.horizontal_n, pose.chains.right.horizontal_n);
-    }
-  }
-}
-
 // The work of letting out a millimetre of chain equals the tension there: the total energy (sled,
 // chains, strain) as a function of the two lengths has the derivative
 //   dU/dL = (w yP - Tb - c Tb^2/2)_L - sum_i (w yP - c Tb^2/2)_i sg r dphi_i/dL,  yP the tangent
@@ -211,11 +166,7 @@ TEST(Pose, EnergyIdentity) {
       }
       return found;
     };
-    Random random(kLawSeed + 4);
-    for (int n = 0; n < 40; ++n) {
-      const BedPoint p = random.bed();
-      SCOPED_TRACE(testing::Message()
-                   << "seed " << kLawSeed + 4 << " (" << p.x_mm << ", " << p.y_mm << ")");
+    over_the_bed(kLawSeed + 4, 40, [&](BedPoint p) {
       const Pose pose = kinematics->inverse(p).value();
       const double left = pose.lengths.left_mm, right = pose.lengths.right_mm;
       const auto derivative = [&](auto&& of) {
@@ -234,30 +185,34 @@ TEST(Pose, EnergyIdentity) {
       EXPECT_NEAR(derivative([](const Seen& s) { return s.energy; }),
                   expected,
                   2e-8 * pose.chains.left.tension_at_sprocket_n);
-    }
+    });
   }
 }
 
+using KinematicsPtr = std::unique_ptr<const Kinematics>;
+
+/// Lengths that differ by no more than `most_mm`.
+void expect_same_lengths(const KinematicsPtr& one, const KinematicsPtr& other, double most_mm) {
+  over_the_bed(kLawSeed + 5, 60, [&](BedPoint p) {
+    const ChainLengths a = one->inverse(p)->lengths, b = other->inverse(p)->lengths;
+    EXPECT_NEAR(a.left_mm, b.left_mm, most_mm);
+    EXPECT_NEAR(a.right_mm, b.right_mm, most_mm);
+  });
+}
+
+constexpr double kRoundingMm = 5e-12;
+
 TEST(Pose, WeightlessLimitIsTheStraightTangent) {
   for (const Feed feed : {Feed::over_top, Feed::off_bottom}) {
-    const auto wrap = make_kinematics(classic(feed), Model::wrap);
     for (const double share : {0.0, 1e-4, 1e-2}) {
+      SCOPED_TRACE(share);
       EquilibriumParameters light = classic(feed);
       light.chain_weight_n_per_mm *= share;
       light.chain_compliance_per_n = 0.0;
-      const auto kinematics = make_kinematics(light);
-      Random random(kLawSeed + 5);
-      for (int n = 0; n < 60; ++n) {
-        const BedPoint p = random.bed();
-        SCOPED_TRACE(testing::Message()
-                     << "seed " << kLawSeed + 5 << " (" << p.x_mm << ", " << p.y_mm << ")");
-        const ChainLengths a = kinematics->inverse(p)->lengths, b = wrap->inverse(p)->lengths;
-        // Sag is proportional to the square of the weight, 4.9 mm at most for the whole chain;
-        // 5e-12 is rounding.
-        const double most = 4.9 * share * share * 1.1 + 5e-12;
-        EXPECT_NEAR(a.left_mm, b.left_mm, most);
-        EXPECT_NEAR(a.right_mm, b.right_mm, most);
-      }
+      // Sag is proportional to the square of the weight, 4.9 mm at most for the whole chain.
+      expect_same_lengths(make_kinematics(light),
+                          make_kinematics(classic(feed), Model::wrap),
+                          4.9 * share * share * 1.1 + kRoundingMm);
     }
   }
 }
@@ -267,36 +222,19 @@ TEST(Pose, SprocketWithoutRadiusIsThePoint) {
   point.sprocket_radius_mm = 0.0;
   EquilibriumParameters tiny = point;
   tiny.sprocket_radius_mm = 1e-7;
-  Random random(kLawSeed + 6);
-  for (int n = 0; n < 60; ++n) {
-    const BedPoint p = random.bed();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kLawSeed + 6 << " (" << p.x_mm << ", " << p.y_mm << ")");
-    const ChainLengths straight = make_kinematics(classic(), Model::straight)->inverse(p)->lengths;
-    const ChainLengths wrap = make_kinematics(point, Model::wrap)->inverse(p)->lengths;
-    EXPECT_NEAR(straight.left_mm, wrap.left_mm, 1e-12);  // rounding of one length
-    EXPECT_NEAR(straight.right_mm, wrap.right_mm, 1e-12);
-    const ChainLengths a = make_kinematics(point)->inverse(p)->lengths;
-    const ChainLengths b = make_kinematics(tiny)->inverse(p)->lengths;
-    EXPECT_NEAR(a.left_mm, b.left_mm, 2e-7);  // at most pi/2 of wrap and one radius of offset
-    EXPECT_NEAR(a.right_mm, b.right_mm, 2e-7);
-  }
+  // Rounding of one length.
+  expect_same_lengths(
+      make_kinematics(classic(), Model::straight), make_kinematics(point, Model::wrap), 1e-12);
+  // At most pi/2 of wrap and one radius of offset.
+  expect_same_lengths(make_kinematics(point), make_kinematics(tiny), 2e-7);
 }
 
 TEST(Pose, InextensibleChainsDependOnNeitherGravityNorTilt) {
-  Machine machine;
-  const auto upright = make_kinematics(equilibrium_parameters(machine), Model::inextensible);
-  machine.frame.tilt_from_vertical_deg = 40.0;
-  const auto leaning = make_kinematics(equilibrium_parameters(machine), Model::inextensible);
-  Random random(kLawSeed + 7);
-  for (int n = 0; n < 60; ++n) {
-    const BedPoint p = random.bed();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kLawSeed + 7 << " (" << p.x_mm << ", " << p.y_mm << ")");
-    EXPECT_NEAR(upright->inverse(p)->lengths.left_mm,
-                leaning->inverse(p)->lengths.left_mm,
-                5e-12);  // rounding
-  }
+  Machine leaning;
+  leaning.frame.tilt_from_vertical_deg = 40.0;
+  expect_same_lengths(make_kinematics(classic(), Model::inextensible),
+                      make_kinematics(equilibrium_parameters(leaning), Model::inextensible),
+                      kRoundingMm);
 }
 
 TEST(Pose, UprightFrameHasNoThirdDimension) {
@@ -304,39 +242,25 @@ TEST(Pose, UprightFrameHasNoThirdDimension) {
   machine.frame.tilt_from_vertical_deg = 0.0;
   for (const Attachment& attachment : {Attachment{Ring{}}, Attachment{Brackets{}}}) {
     machine.attachment = attachment;
-    const auto plane = make_kinematics(equilibrium_parameters(machine), Model::elastic);
-    const auto space = make_kinematics(equilibrium_parameters(machine), Model::elastic_3d);
-    Random random(kLawSeed + 8);
-    for (int n = 0; n < 60; ++n) {
-      const BedPoint p = random.bed();
-      SCOPED_TRACE(testing::Message()
-                   << "seed " << kLawSeed + 8 << " (" << p.x_mm << ", " << p.y_mm << ")");
-      EXPECT_NEAR(plane->inverse(p)->lengths.left_mm,
-                  space->inverse(p)->lengths.left_mm,
-                  5e-12);  // rounding
-      EXPECT_NEAR(plane->inverse(p)->lengths.right_mm, space->inverse(p)->lengths.right_mm, 5e-12);
-    }
+    const EquilibriumParameters upright = equilibrium_parameters(machine);
+    expect_same_lengths(make_kinematics(upright, Model::elastic),
+                        make_kinematics(upright, Model::elastic_3d),
+                        kRoundingMm);
   }
 }
 
 TEST(Pose, HeavierChainsAreLongerAndSofterOnesShorter) {
   const auto kinematics = make_kinematics(classic());
-  Random random(kLawSeed + 9);
-  for (int n = 0; n < 200; ++n) {
-    const BedPoint p = random.bed();
-    SCOPED_TRACE(testing::Message()
-                 << "seed " << kLawSeed + 9 << " (" << p.x_mm << ", " << p.y_mm << ")");
-    const Pose pose = kinematics->inverse(p).value();
-    const auto chains = kinematics->by_parameter(pose, Parameter::chain_compliance_per_n);
-    for (const Side side : kSides) EXPECT_LT(chains[side].length_mm.d[0], 0.0);
-  }
   const auto inextensible = make_kinematics(classic(), Model::inextensible);
-  for (int n = 0; n < 200; ++n) {
-    const BedPoint p = random.bed();
-    const Pose pose = inextensible->inverse(p).value();
-    const auto chains = inextensible->by_parameter(pose, Parameter::chain_weight_n_per_mm);
-    for (const Side side : kSides) EXPECT_GT(chains[side].length_mm.d[0], 0.0);
-  }
+  over_the_bed(kLawSeed + 9, 200, [&](BedPoint p) {
+    const auto by = [p](const Kinematics& own, Parameter parameter, Side side) {
+      return own.by_parameter(own.inverse(p).value(), parameter)[side].length_mm.d[0];
+    };
+    for (const Side side : kSides) {
+      EXPECT_LT(by(*kinematics, Parameter::chain_compliance_per_n, side), 0.0);
+      EXPECT_GT(by(*inextensible, Parameter::chain_weight_n_per_mm, side), 0.0);
+    }
+  });
 }
 
 // Every point 30 mm or more from the verticals and the beam has a pose, for sleds down to 2 % of

@@ -53,28 +53,20 @@ TEST(Machine, KinematicsRefuseParametersByNameAndValue) {
     }
     return "accepted";
   };
-  EXPECT_THAT(message([](auto& m) { m.sled_weight_n = 0.0; }),
-              HasSubstr("sled_weight_n = 0: expected"));
-  EXPECT_THAT(message([](auto& m) { m.sled_weight_n = kNan; }), HasSubstr("sled_weight_n = nan"));
-  EXPECT_THAT(message([](auto& m) { m.chain_weight_n_per_mm = -1e-3; }),
-              HasSubstr("chain_weight_n_per_mm = -0.001"));
-  EXPECT_THAT(message([](auto& m) { m.chain_compliance_per_n = 1.0; }),
-              HasSubstr("chain_compliance_per_n = 1"));
-  EXPECT_THAT(message([](auto& m) { m.sprocket_radius_mm = -10.0; }),
-              HasSubstr("sprocket_radius_mm = -10"));
-  EXPECT_THAT(message([](auto& m) { m.attachment = Ring{-1.0}; }),
-              HasSubstr("ring_radius_mm = -1"));
-  EXPECT_THAT(message([](auto& m) {
-                m.attachment = Brackets{kNan, 1.0, 1.0};
-              }),
-              HasSubstr("spacing_mm = nan"));
-  EXPECT_THAT(message([](auto& m) { m.tilt_rad = 1.6; }), HasSubstr("tilt_rad = 1.6"));
-  EXPECT_THAT(message([](auto& m) { m.beam_flexibility_mm_per_n = -0.1; }),
-              HasSubstr("beam_flexibility"));
-  EXPECT_THAT(message([](auto& m) { m.side_force_n = kNan; }), HasSubstr("side_force_n"));
-  EXPECT_THAT(message([](auto& m) { std::swap(m.motors.left, m.motors.right); }),
-              HasSubstr("right of the left one"));
-  EXPECT_THAT(message([](auto& m) { m.motors.left.y_mm = kNan; }), HasSubstr("motor y_mm = nan"));
+  const std::pair<std::function<void(EquilibriumParameters&)>, const char*> slips[] = {
+      {[](auto& m) { m.sled_weight_n = 0.0; }, "sled_weight_n = 0: expected"},
+      {[](auto& m) { m.sled_weight_n = kNan; }, "sled_weight_n = nan"},
+      {[](auto& m) { m.chain_weight_n_per_mm = -1e-3; }, "chain_weight_n_per_mm = -0.001"},
+      {[](auto& m) { m.chain_compliance_per_n = 1.0; }, "chain_compliance_per_n = 1"},
+      {[](auto& m) { m.sprocket_radius_mm = -10.0; }, "sprocket_radius_mm = -10"},
+      {[](auto& m) { m.attachment = Ring{-1.0}; }, "ring_radius_mm = -1"},
+      {[](auto& m) { m.attachment = Brackets{kNan, 1.0, 1.0}; }, "spacing_mm = nan"},
+      {[](auto& m) { m.tilt_rad = 1.6; }, "tilt_rad = 1.6"},
+      {[](auto& m) { m.beam_flexibility_mm_per_n = -0.1; }, "beam_flexibility"},
+      {[](auto& m) { m.side_force_n = kNan; }, "side_force_n"},
+      {[](auto& m) { std::swap(m.motors.left, m.motors.right); }, "right of the left one"},
+      {[](auto& m) { m.motors.left.y_mm = kNan; }, "motor y_mm = nan"}};
+  for (const auto& [spoil, words] : slips) EXPECT_THAT(message(spoil), HasSubstr(words));
 }
 
 TEST(Machine, FailuresHaveNamesAndSentences) {

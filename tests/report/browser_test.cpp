@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/support/sample_diagnosis.hpp"
 #include "tests/report/made_pages.hpp"

@@ -3,9 +3,7 @@
 /// One list of colours: all colours of charts, the page's style and Python's plots are on it, so
 /// that vermilion and blue mean the same everywhere.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <regex>
 #include <set>
 #include <string>

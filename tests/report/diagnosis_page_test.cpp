@@ -2,7 +2,6 @@
 /// The page of a diagnosis, made by the command from a file; that of the sample is read in
 /// tests/cli/cases/diagnosis_files.cases, and how it is drawn in browser_test.cpp.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

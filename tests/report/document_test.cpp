@@ -5,7 +5,6 @@
 #include "tools/report/document.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Labels of holes: over layouts that are planned and over random ones each is nearer to its own hole
+/// Labels of holes: over random layouts each is nearer to its own hole
 /// than to any other, and lies on nothing.
 #include "tools/report/hole_labels.hpp"
 
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/planning/holes_plan.hpp"
 #include "tests/support/random.hpp"
 
 namespace chaintrue::report::testing {
@@ -40,24 +39,6 @@ void expect_readable(const std::vector<DrawnHole>& holes) {
     }
     EXPECT_GE(labels[i].left, kLeft);
     EXPECT_LE(labels[i].right, kLeft + kWide);
-  }
-}
-
-TEST(HoleLabels, AreUnambiguousForPlannedHoles) {
-  for (const int holes : {4, 9, 16, grid::kMostPlannedHoles}) {
-    SCOPED_TRACE(::testing::Message() << holes << " holes");
-    const auto plan = grid::plan_holes(model::Machine{}, {.holes = holes});
-    ASSERT_TRUE(plan);
-    const model::Bed& bed = plan->set.machine->bed;
-    const double scale = kWide / bed.width_mm;
-    std::vector<DrawnHole> all;
-    for (const grid::Hole& hole : plan->set.holes) {
-      all.push_back({kLeft + scale * (hole.commanded.x_mm + 0.5 * bed.width_mm),
-                     60.0 + scale * (0.5 * bed.height_mm - hole.commanded.y_mm),
-                     hole.name,
-                     fmt::format("({:.0f}, {:.0f})", hole.commanded.x_mm, hole.commanded.y_mm)});
-    }
-    expect_readable(all);
   }
 }
 

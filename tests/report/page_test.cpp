@@ -5,7 +5,6 @@
 #include "tests/report/sample_report.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/embedded.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -22,6 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using testing_support::refusal_of;
 
 Document page_with_table(std::vector<Cell> cells) {
   Document page{.title = "t"};
@@ -34,16 +35,6 @@ Document page_with_value(double value) {
   page.sections.push_back(
       {"s", {Chart{.specification = "error_steps", .data = {{"steps", {"rms_mm"}, {{value}}}}}}});
   return page;
-}
-
-template <class Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Page, NeedsNoNetwork) {
@@ -182,23 +173,23 @@ TEST(Page, WithoutChartsThereIsNoScript) {
 TEST(Page, RefusesNonFiniteNumbers) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT(message_of([bad] { (void)render_html(page_with_value(bad)); }), HasSubstr("rms_mm is"));
+    EXPECT_THAT(refusal_of([bad] { (void)render_html(page_with_value(bad)); }), HasSubstr("rms_mm is"));
   }
 }
 
 TEST(Page, RefusesRowsOfTheWrongLength) {
-  EXPECT_EQ(message_of([] { (void)render_html(page_with_table({"1", "2", "3"})); }),
+  EXPECT_EQ(refusal_of([] { (void)render_html(page_with_table({"1", "2", "3"})); }),
             "a table row has 3 cells for 2 columns");
   Document page = page_with_value(1.0);
   std::get<Chart>(page.sections[0].blocks[0]).data[0].rows[0].clear();
-  EXPECT_EQ(message_of([&page] { (void)render_html(page); }),
+  EXPECT_EQ(refusal_of([&page] { (void)render_html(page); }),
             "data table \"steps\": a row has 0 values for 1 fields");
 }
 
 TEST(Page, RefusesAChartThatDoesNotExist) {
   Document page = page_with_value(1.0);
   std::get<Chart>(page.sections[0].blocks[0]).specification = "pie";
-  EXPECT_EQ(message_of([&page] { (void)render_html(page); }),
+  EXPECT_EQ(refusal_of([&page] { (void)render_html(page); }),
             "no chart named \"pie\" is embedded in the report library");
 }
 
@@ -223,7 +214,7 @@ TEST(BedChart, TheArrowOfABadPointEndsAtTheFrame) {
 TEST(MapPictures, RefuseASheetWithoutExtent) {
   MapPictures map = sample_pictures();
   map.sheet.x_max_mm = map.sheet.x_min_mm;
-  EXPECT_THAT(message_of([&map] { (void)picture_sections(map); }),
+  EXPECT_THAT(refusal_of([&map] { (void)picture_sections(map); }),
               HasSubstr("a sheet with an extent"));
 }
 

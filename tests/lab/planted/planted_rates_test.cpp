@@ -9,28 +9,21 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <stdexcept>
+
+#include "tests/support/refusal.hpp"
 
 namespace chaintrue::planted {
 namespace {
 
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
+using testing_support::refusal_of;
 
 TEST(Claim, HasAName) {
   const Claim claim{{"chain_pitch_error:both", "tape_scale:both"}, 0.125};
   EXPECT_EQ(word_of(claim), "chain_pitch_error:both~tape_scale:both=0.1250");
   EXPECT_EQ(parse_claim(word_of(claim)), claim);
-  EXPECT_EQ(message_of([] { (void)parse_claim("drift:left"); }),
+  EXPECT_EQ(refusal_of([] { (void)parse_claim("drift:left"); }),
             "\"drift:left\": expected effect:side=probability");
-  EXPECT_EQ(message_of([] { (void)parse_claim("drift:left=0.5x"); }), "\"0.5x\" is not a number");
+  EXPECT_EQ(refusal_of([] { (void)parse_claim("drift:left=0.5x"); }), "\"0.5x\" is not a number");
 }
 
 TEST(Claim, IsScoredAgainstTheClassThatSharesAMember) {
@@ -49,10 +42,10 @@ TEST(Reference, IsReadAsWritten) {
   const std::vector<Reference> read = read_references(path);
   EXPECT_EQ(text_of(read), text_of(references));
   EXPECT_EQ(reference_of(read, "C").claims, references.front().claims);
-  EXPECT_EQ(message_of([&] { (void)reference_of(read, "E"); }),
+  EXPECT_EQ(refusal_of([&] { (void)reference_of(read, "E"); }),
             "no reference of the scan E; --reference makes it");
   std::ofstream(path) << "C 465 400\n";
-  EXPECT_EQ(message_of([&] { (void)read_references(path); }),
+  EXPECT_EQ(refusal_of([&] { (void)read_references(path); }),
             "a reference has 8 words, this line has 3: \"C 465 400\"");
 }
 
@@ -87,7 +80,7 @@ TEST(Facts, FollowFromTheClaims) {
   // By bins of a tenth: 4.70 claimed and 2 right, 0.85 and 0, 0.19 and 1, 1.30 and 1; "open" is neither.
   EXPECT_THAT(table, testing::HasSubstr("9 claims whose truth is known: calibration error 0.518"));
   outcomes.erase(outcomes.begin());
-  EXPECT_THAT(message_of([&] { set_facts(outcomes, references); }),
+  EXPECT_THAT(refusal_of([&] { set_facts(outcomes, references); }),
               testing::StartsWith("no outcome of the plain readings of \"C:planted 1 60"));
 }
 
