@@ -4,8 +4,6 @@
 /// variable of a chain.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>

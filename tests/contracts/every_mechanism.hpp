@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/belts/belt_mechanism.hpp"
+#include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 #include "tests/contracts/declared_examples.hpp"
@@ -171,6 +172,7 @@ class EveryMechanism : public testing::TestWithParam<Tested> {
     pulled.back() = true;
     return {{}, {kNominalVisit, {}, {}}, {40, taken_in, {}}, {41, {}, pulled}};
   }
+  /// Those that the mechanism can have.
   [[nodiscard]] static std::vector<AppliedEffect> effects_at(
       const Mechanism& mechanism,
       const std::function<double(const effects::EffectParameter&)>& of) {
@@ -178,8 +180,10 @@ class EveryMechanism : public testing::TestWithParam<Tested> {
     for (const effects::Effect* effect : mechanism.effects()) {
       std::vector<double> values;
       for (const effects::EffectParameter& p : effect->parameters) values.push_back(of(p));
-      for (const effects::EffectSide side : effect->sides)
-        all.push_back(effects::applied(*effect, side, values));
+      for (const effects::EffectSide side : effect->sides) {
+        const AppliedEffect applied = effects::applied(*effect, side, values);
+        if (mechanism.problems_of_effects({applied}).empty()) all.push_back(applied);
+      }
     }
     return all;
   }
@@ -194,10 +198,8 @@ class EveryMechanism : public testing::TestWithParam<Tested> {
   /// Without an effect, and with each at its nominal values.
   [[nodiscard]] static std::vector<WithEffect> in_every_state(const MechanismPtr& mechanism) {
     std::vector<WithEffect> all = {{"without effects", mechanism}};
-    for (const AppliedEffect& effect : nominal_effects(*mechanism)) {
-      if (mechanism->problems_of_effects({effect}).empty())
-        all.push_back({effect.effect + ":" + effect.side, mechanism->with_effects({effect})});
-    }
+    for (const AppliedEffect& effect : nominal_effects(*mechanism))
+      all.push_back({effect.effect + ":" + effect.side, mechanism->with_effects({effect})});
     return all;
   }
 };

@@ -2,7 +2,6 @@
 // The analysis of causes on a mechanism that no product code knows: its own effect is named from a
 // drawing that it made, with its size, and nothing is named where nothing is wrong.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"

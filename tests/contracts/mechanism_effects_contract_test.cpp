@@ -6,13 +6,26 @@
 #include <cmath>
 #include <set>
 
-#include "model/effects/catalogue.hpp"
 #include "tests/contracts/every_mechanism.hpp"
 
 namespace chaintrue::model::contract {
 namespace {
 
-class MechanismEffectsContract : public EveryMechanism {};
+class MechanismEffectsContract : public EveryMechanism {
+ protected:
+  /// The largest change of a length, over all places and visits.
+  [[nodiscard]] double most_added(const Mechanism& mechanism, const AppliedEffect& effect) const {
+    double most = 0.0;
+    for (const MechanismVisit& visit : visits(mechanism)) {
+      for (const ToolPosition& q : positions(mechanism)) {
+        const Eigen::VectorXd added = added_by(mechanism, effect, q, visit).value();
+        EXPECT_TRUE(added.allFinite());
+        most = std::max(most, added.cwiseAbs().maxCoeff());
+      }
+    }
+    return most;
+  }
+};
 
 INSTANTIATE_TEST_SUITE_P(Every,
                          MechanismEffectsContract,
@@ -21,34 +34,15 @@ INSTANTIATE_TEST_SUITE_P(Every,
 
 TEST_P(MechanismEffectsContract, AnEffectAtNullAddsExactlyNothing) {
   const MechanismPtr mechanism = GetParam().make();
-  for (const AppliedEffect& effect : null_effects(*mechanism)) {
-    SCOPED_TRACE(effect.effect + ":" + effect.side);
-    if (!mechanism->problems_of_effects({effect}).empty()) continue;
-    for (const MechanismVisit& visit : visits(*mechanism)) {
-      for (const ToolPosition& q : positions(*mechanism)) {
-        const auto added = added_by(*mechanism, effect, q, visit);
-        ASSERT_TRUE(added);
-        EXPECT_EQ(added->cwiseAbs().maxCoeff(), 0.0);
-      }
-    }
-  }
+  for (const AppliedEffect& effect : null_effects(*mechanism))
+    EXPECT_EQ(most_added(*mechanism, effect), 0.0) << effect.effect << ":" << effect.side;
 }
 
 TEST_P(MechanismEffectsContract, AnEffectOfItsUsualSizeIsThere) {
   const MechanismPtr mechanism = GetParam().make();
   for (const AppliedEffect& effect : nominal_effects(*mechanism)) {
     SCOPED_TRACE(effect.effect + ":" + effect.side);
-    if (!mechanism->problems_of_effects({effect}).empty()) continue;
-    double most = 0.0;
-    for (const MechanismVisit& visit : visits(*mechanism)) {
-      for (const ToolPosition& q : positions(*mechanism)) {
-        const auto added = added_by(*mechanism, effect, q, visit);
-        ASSERT_TRUE(added);
-        most = std::max(most, added->cwiseAbs().maxCoeff());
-      }
-    }
-    EXPECT_GT(most, 1e-3);  // a micrometre: any effect at all
-    EXPECT_TRUE(std::isfinite(most));
+    EXPECT_GT(most_added(*mechanism, effect), 1e-3);  // a micrometre: any effect at all
   }
 }
 
@@ -122,7 +116,7 @@ TEST_P(MechanismEffectsContract, AnEffectOfOneSideChangesOnlyItsLength) {
   const auto lengths = mechanism->lengths();
   for (const AppliedEffect& effect : nominal_effects(*mechanism)) {
     const auto own = std::find(lengths.begin(), lengths.end(), effect.side);
-    if (own == lengths.end() || !mechanism->problems_of_effects({effect}).empty()) continue;
+    if (own == lengths.end()) continue;
     // A cord that stretches or weighs more tilts the gondola, which changes the other cord too.
     if (effect.effect.starts_with("cord_")) continue;
     SCOPED_TRACE(effect.effect + ":" + effect.side);

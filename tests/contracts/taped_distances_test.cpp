@@ -3,8 +3,6 @@
 /// a toy that no product code knows.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "grid/observation/belt_lengths.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
