@@ -33,8 +33,8 @@ struct BeltsSpec {
   double bad_size_mm = 44.0;  ///< its size, of either sign
   /// All places once with each of these pulls, relative; sizes of effects are those at the least.
   /// Empty: once, without a stated pull.
-  std::vector<double> pulls;
-  std::vector<model::AppliedEffect> hidden;
+  std::vector<double> pulls{};
+  std::vector<model::AppliedEffect> hidden{};
   std::uint64_t seed = 1;
 };
 

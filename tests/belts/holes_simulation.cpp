@@ -2,7 +2,6 @@
 #include "tests/belts/holes_simulation.hpp"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
 #include <complex>
 
