@@ -4,7 +4,6 @@
 #include "grid/diagnosis/bed_parts.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,13 +37,9 @@ MeasuredGrid with_ridge(MeasuredGrid grid, double height_mm, double place_mm) {
 }
 
 Analysis analysed(const MeasuredGrid& grid, bool averaged = true) {
-  auto session = observations_of(grid);
-  EXPECT_TRUE(session);
   DiagnosisOptions options = verdict_alone();
   options.average_parts = averaged;
-  auto a = analyse(*std::move(session), options);
-  EXPECT_TRUE(a);
-  return *std::move(a);
+  return testing_support::analysis_of(grid, options);
 }
 
 std::vector<BedPart> parts_of_all(const Analysis& a) {

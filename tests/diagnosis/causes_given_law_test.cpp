@@ -4,7 +4,6 @@
 #include "grid/diagnosis/causes_given_law.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "grid/diagnosis/findings.hpp"
 #include "grid/files/diagnosis_file.hpp"

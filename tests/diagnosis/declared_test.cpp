@@ -4,7 +4,6 @@
 /// verdicts and sizes of the built-in ones, and a cause that the catalogue does not have is named
 /// once it is declared.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -29,18 +28,9 @@ MeasuredGrid session_of(const std::vector<const Effect*>& declared,
                         const std::vector<model::AppliedEffect>& hidden,
                         std::uint64_t seed,
                         double noise = 1.0) {
-  synthetic::SyntheticSpec spec;
-  spec.design.columns = 7;
-  spec.design.rows = 4;
-  spec.order = synthetic::VisitingOrder::random;
-  spec.repeats = 6;
-  spec.noise = {.length_mm = 0.2 * noise, .position_mm = 0.3 * noise};
-  spec.stated = StatedNoise{0.2 * noise, 0.3 * noise, 12.0};
-  spec.hidden = hidden;
-  spec.seed = seed;
   model::Machine machine;
   machine.declared = declared;
-  return synthetic::generate(machine, spec).value().grid;
+  return synthetic::generate(machine, testing_support::usual_session(seed, hidden, noise)).value().grid;
 }
 
 std::string name_in_catalogue(const CauseId& cause) {

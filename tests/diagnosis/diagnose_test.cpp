@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bad input with its messages, and laws of a diagnosis on generated sessions.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,37 +77,24 @@ TEST(DiagnoseBadInput, ReportsTwoContradictoryReadings) {
                  "two readings of link_pitch_mm contradict each other");
 }
 
-TEST(DiagnoseBadInput, SuspectsSwappedColumns) {
-  MeasuredGrid grid = session_of({}, 3);
-  for (MeasuredPoint& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
-  expect_refused(grid,
-                 DiagnosisFailure::Reason::contradictory_settings,
-                 "the columns left_mm and right_mm look swapped");
-}
-
-TEST(DiagnoseBadInput, SuspectsInches) {
-  MeasuredGrid grid = session_of({}, 3);
-  for (MeasuredPoint& p : grid.points) {
-    p.lengths = model::ChainLengths{p.lengths->left_mm / 25.4, p.lengths->right_mm / 25.4};
+TEST(DiagnoseBadInput, SuspectsListsOfOtherUnitsSidesOrMachines) {
+  const std::pair<void (*)(MeasuredPoint&), const char*> slips[] = {
+      {[](MeasuredPoint& p) { std::swap(p.lengths->left_mm, p.lengths->right_mm); },
+       "the columns left_mm and right_mm look swapped"},
+      {[](MeasuredPoint& p) {
+         p.lengths = model::ChainLengths{p.lengths->left_mm / 25.4, p.lengths->right_mm / 25.4};
+       },
+       "look like inches"},
+      {[](MeasuredPoint& p) { p.mark.y_mm *= -1.0; }, "y_mm looks counted downwards"},
+      // The right chain of another machine: the calibration does not converge to a valid machine.
+      {[](MeasuredPoint& p) { p.lengths->right_mm = 5000.0 - p.lengths->right_mm; },
+       "are they from another sheet, another list or another machine?"}};
+  for (const auto& [slip, words] : slips) {
+    SCOPED_TRACE(words);
+    MeasuredGrid grid = session_of({}, 3);
+    for (MeasuredPoint& point : grid.points) slip(point);
+    expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, words);
   }
-  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "look like inches");
-}
-
-TEST(DiagnoseBadInput, SuspectsReversedAxes) {
-  MeasuredGrid grid = session_of({}, 3);
-  for (MeasuredPoint& p : grid.points) p.mark.y_mm = -p.mark.y_mm;
-  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "y_mm looks counted downwards");
-}
-
-TEST(DiagnoseBadInput, RefusesAnotherMachine) {
-  MeasuredGrid grid = session_of({}, 3);
-  for (MeasuredPoint& p : grid.points) {
-    // The right chain of another machine: the calibration does not converge to a valid machine.
-    p.lengths->right_mm = 5000.0 - p.lengths->right_mm;
-  }
-  expect_refused(grid,
-                 DiagnosisFailure::Reason::contradictory_settings,
-                 "are they from another sheet, another list or another machine?");
 }
 
 /// Every effect, at a strength that identifies it, is named with its size within four sigma.
@@ -160,14 +146,11 @@ INSTANTIATE_TEST_SUITE_P(Catalogue,
                          name_of_effect);
 
 TEST(Diagnose, ClassesComeFromTheSignatures) {
-  const auto made = observations_of(session_of({}, 5));
-  ASSERT_TRUE(made);
-  const auto analysis = analyse(*made, verdict_alone());
-  ASSERT_TRUE(analysis);
+  const Analysis analysis = testing_support::analysis_of(session_of({}, 5));
   const CauseId pitch{model::effects::find_effect("chain_pitch_error"),
                       model::effects::EffectSide::both};
   const CauseId tape{model::effects::find_effect("tape_scale"), model::effects::EffectSide::both};
-  for (const CauseClass& members : analysis->decision.classes) {
+  for (const CauseClass& members : analysis.decision.classes) {
     const bool has = std::find(members.begin(), members.end(), pitch) != members.end();
     if (!has) {
       EXPECT_EQ(members.size(), 1u) << members.front().effect->id;

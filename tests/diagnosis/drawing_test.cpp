@@ -2,7 +2,6 @@
 // A test drawing through the common analysis: settings that are off, a bad measure, a cause that no
 // settings make, and the file.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

@@ -3,9 +3,7 @@
 /// Laws as files of declared causes: the formula is the law, a second session of the machine
 /// confirms it and another machine's does not, a map has the mean over the possible places of a
 /// step.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -25,7 +23,6 @@ namespace {
 
 using laws::analysed;
 using laws::with_half_turns;
-using laws::with_left;
 using laws::with_step_along_x;
 using model::effects::Declaration;
 using model::effects::declared_effect;
@@ -209,9 +206,7 @@ TEST(LawFiles, AreConfirmedByTheirMachineAndDeniedByAnother) {
     });
   };
   // Other marks, other noise.
-  const Diagnosis second = with_law(with_left(session_of({}, 41, 12, 8), [](const auto&, const auto& reading) {
-    return 0.45 * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + 0.7);
-  }));
+  const Diagnosis second = with_law(with_half_turns(41, 0.45, 0.7, 12, 8));
   EXPECT_TRUE(is_named(second)) << second.sentence;
   ASSERT_EQ(second.declared.size(), 1U);
   EXPECT_EQ(second.declared.front().says, DeclaredAnswer::Says::confirmed);
@@ -230,9 +225,7 @@ TEST(LawFiles, AreConfirmedByTheirMachineAndDeniedByAnother) {
   }
   // A few marks of the same machine may not confirm it, and do not deny it.
   for (std::uint64_t seed = 61; seed < 67; ++seed) {
-    const Diagnosis few = with_law(with_left(session_of({}, seed, 4, 3), [](const auto&, const auto& reading) {
-      return 0.45 * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + 0.7);
-    }));
+    const Diagnosis few = with_law(with_half_turns(seed, 0.45, 0.7, 4, 3));
     ASSERT_EQ(few.declared.size(), 1U);
     EXPECT_NE(few.declared.front().says, DeclaredAnswer::Says::denied) << "seed " << seed;
   }

@@ -24,8 +24,12 @@ MeasuredGrid with_left(MeasuredGrid grid, Value value) {
 }
 
 /// Half a turn, as a wave of the chain's length.
-inline MeasuredGrid with_half_turns(std::uint64_t seed, double size_mm = 0.45, double shift_rad = 0.7) {
-  return with_left(testing_support::session_of({}, seed, 13, 9), [=](const auto&, const auto& reading) {
+inline MeasuredGrid with_half_turns(std::uint64_t seed,
+                                    double size_mm = 0.45,
+                                    double shift_rad = 0.7,
+                                    int columns = 13,
+                                    int rows = 9) {
+  return with_left(testing_support::session_of({}, seed, columns, rows), [=](const auto&, const auto& reading) {
     return size_mm * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + shift_rad);
   });
 }
@@ -47,7 +51,7 @@ inline MeasuredGrid with_step_along_x(std::uint64_t seed, double size_mm = 1.0) 
 inline Analysis analysed(const MeasuredGrid& grid) {
   DiagnosisOptions options = testing_support::verdict_alone();
   options.stability = false;
-  return analyse(observations_of(Measured(grid)).value(), options).value();
+  return testing_support::analysis_of(grid, options);
 }
 
 }  // namespace chaintrue::grid::diagnosis::laws

@@ -5,12 +5,10 @@
 /// variable lies between that chain's readings.
 #include "grid/diagnosis/law_variables.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/diagnosis/belts_system.hpp"

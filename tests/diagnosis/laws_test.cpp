@@ -5,10 +5,8 @@
 #include "grid/diagnosis/laws.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_words.hpp"
@@ -25,15 +23,19 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing_support::session_of;
 
-// 117 marks; no listed cause makes it, and it is too short to be a smooth pattern.
-TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
-  const std::vector<Law> laws = laws_found(analysed(with_half_turns(11))).laws;
-  ASSERT_FALSE(laws.empty());
-  const Law& law = laws.front();
-  EXPECT_EQ(law.of, Coordinate::length_left) << in_words(law);
-  EXPECT_EQ(law.shape, LawShape::wave);
+/// The first law of a session's left chain.
+Law law_of(const MeasuredGrid& grid, Coordinate of, LawShape shape) {
+  Law law = laws_found(analysed(grid)).laws.at(0);
+  EXPECT_EQ(law.of, of) << in_words(law);
+  EXPECT_EQ(law.shape, shape);
   EXPECT_EQ(law.enters, Enters::left);
   EXPECT_GT(law.probability, kLawClaimed);
+  return law;
+}
+
+// 117 marks; no listed cause makes it, and it is too short to be a smooth pattern.
+TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
+  const Law law = law_of(with_half_turns(11), Coordinate::length_left, LawShape::wave);
   // Three sigmas.
   EXPECT_NEAR(law.parameters[0].value, 0.45, 3.0 * law.parameters[0].sigma);
   EXPECT_NEAR(law.parameters[1].value, 31.75, 3.0 * law.parameters[1].sigma);
@@ -46,13 +48,7 @@ TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
 
 // Two sizes and one period; the second is not a separate wave.
 TEST(Laws, AWaveAndItsSecondHarmonicAreOneLaw) {
-  const std::vector<Law> laws = laws_found(analysed(with_two_harmonics(14))).laws;
-  ASSERT_FALSE(laws.empty());
-  const Law& law = laws.front();
-  EXPECT_EQ(law.of, Coordinate::length_left) << in_words(law);
-  EXPECT_EQ(law.shape, LawShape::harmonics);
-  EXPECT_EQ(law.enters, Enters::left);
-  EXPECT_GT(law.probability, kLawClaimed);
+  const Law law = law_of(with_two_harmonics(14), Coordinate::length_left, LawShape::harmonics);
   // Three sigmas.
   ASSERT_EQ(law.parameters.size(), 5U);
   EXPECT_NEAR(law.parameters[0].value, 0.5, 3.0 * law.parameters[0].sigma);
@@ -83,12 +79,7 @@ TEST(Laws, TheVerdictNamesTheClaimedLaw) {
 }
 
 TEST(Laws, AStepIsFoundWithItsPlace) {
-  const std::vector<Law> laws = laws_found(analysed(with_step_along_x(12))).laws;
-  ASSERT_FALSE(laws.empty());
-  const Law& law = laws.front();
-  EXPECT_EQ(law.of, Coordinate::x) << in_words(law);
-  EXPECT_EQ(law.shape, LawShape::step);
-  EXPECT_EQ(law.enters, Enters::left);
+  const Law law = law_of(with_step_along_x(12), Coordinate::x, LawShape::step);
   EXPECT_NEAR(law.parameters[0].value, 1.0, 3.0 * law.parameters[0].sigma);
   EXPECT_NEAR(law.parameters[1].value, 250.0, 3.0 * law.parameters[1].sigma);
 }

@@ -2,10 +2,6 @@
 // Points and distances of one machine in one estimate: together they identify what neither
 // identifies alone.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/synthetic/holes.hpp"

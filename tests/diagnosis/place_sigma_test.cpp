@@ -4,9 +4,7 @@
 
 #include <Eigen/QR>
 
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/synthetic/generator.hpp"
@@ -25,16 +23,10 @@ struct PlacedCause {
 };
 
 MeasuredGrid session_with(const PlacedCause& own, std::uint64_t seed) {
-  synthetic::SyntheticSpec spec;
+  synthetic::SyntheticSpec spec = testing_support::usual_session(seed, {own.hidden});
   spec.design.columns = 9;
   spec.design.rows = 5;
-  spec.order = synthetic::VisitingOrder::random;
-  spec.repeats = 6;
-  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
-  spec.stated = StatedNoise{0.2, 0.3, 12.0};
-  spec.hidden = {own.hidden};
   spec.draw_settings = true;
-  spec.seed = seed;
   return synthetic::generate(model::Machine{}, spec).value().grid;
 }
 
@@ -108,13 +100,12 @@ void expect_width_of_profile(const PlacedCause& own) {
   ASSERT_EQ(found->causes.size(), 1U) << found->sentence;
   const Cause& cause = found->causes.front();
   ASSERT_EQ(cause.cause.effect->id, own.effect) << found->sentence;
-  const auto analysed = analyse(observations_of(grid).value(), options);
-  ASSERT_TRUE(analysed);
+  const Analysis analysed = testing_support::analysis_of(grid, options);
   const ParameterEstimate& size = cause.parameters.front();
   const ParameterEstimate& place = cause.parameters.back();
   ASSERT_EQ(place.parameter, own.place);
-  const Profile profile(*analysed, cause.cause, size.value);
-  const double width = half_width(profile, place.value, place.sigma, analysed->estimate.noise_square);
+  const Profile profile(analysed, cause.cause, size.value);
+  const double width = half_width(profile, place.value, place.sigma, analysed.estimate.noise_square);
   // The sigma is that of the curvature at the best place: a wave's cosine and a knee's next readings bend it.
   EXPECT_NEAR(width / place.sigma, 1.0, 0.2);
 }

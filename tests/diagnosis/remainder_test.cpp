@@ -2,7 +2,6 @@
 // The remainder besides the causes, and the budget of the error: the low-rank discrepancy compared
 // with dense algebra, shares that add up, and a cause that is named together with a pattern.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -22,6 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing_support::analysis_of;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
@@ -37,14 +37,6 @@ MeasuredGrid with_dent(MeasuredGrid grid, double height_mm = 2.5) {
     point.lengths->right_mm += 0.8 * mm;
   }
   return grid;
-}
-
-Analysis analysis_of(const MeasuredGrid& grid) {
-  auto session = observations_of(grid);
-  EXPECT_TRUE(session);
-  auto a = analyse(*std::move(session), verdict_alone());
-  EXPECT_TRUE(a);
-  return *std::move(a);
 }
 
 TEST(Discrepancy, PriorsOfKernelsAddUpToOne) {

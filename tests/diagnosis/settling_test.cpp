@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Convergence of the calibration, and the message where it does not converge.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -15,17 +14,13 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
+using testing_support::analysis_of;
 using testing_support::session_of;
-using testing_support::verdict_alone;
 
 constexpr const char* kNotConverged = "The calibration had not converged";
 
-Analysis analysis_of_grid(const MeasuredGrid& grid) {
-  return analyse(observations_of(grid).value(), verdict_alone()).value();
-}
-
 TEST(Settling, ReportsNonConvergence) {
-  Analysis a = analysis_of_grid(session_of({}, 1, 5, 4));
+  Analysis a = analysis_of(session_of({}, 1, 5, 4));
   Diagnosis converged;
   put_into_words(a, converged);
   EXPECT_THAT(converged.notes, Not(Contains(HasSubstr(kNotConverged))));
@@ -39,7 +34,7 @@ TEST(Settling, MeasuresATurnAtTheSheetsEdge) {
   // A rotation of 1e-4 rad is 0.12 mm at the edge of the bed: at convergence it is far below that.
   MeasuredGrid grid = session_of({}, 2, 5, 4);
   grid.sheet = SheetUncertainty{20.0, 10.0};
-  const Analysis a = analysis_of_grid(grid);
+  const Analysis a = analysis_of(grid);
   ASSERT_TRUE(a.converged);
   auto again = linearise(a.session, a.state).value();
   again.g = RegressorColumns(a.session.rows);

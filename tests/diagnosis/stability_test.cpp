@@ -5,10 +5,8 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/best_model.hpp"
@@ -20,6 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing_support::analysis_of;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
@@ -79,18 +78,15 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
 
 // Nothing left out: the comparison itself, except for models that are not followed.
 TEST(Downdating, WithAllPointsEqualsTheComparison) {
-  const auto session = observations_of(session_of({kLongLeftChain}, 3));
-  const auto a = analyse(*session, verdict_alone());
-  ASSERT_TRUE(a);
-  ASSERT_FALSE(a->decision.listed.empty());
-  const Downdating downdating(a->system, a->comparison);
-  const auto all = downdating.without({});
-  EXPECT_LT(a->null.p_value(all.score), kFalseAlarm);
-  EXPECT_EQ(all.comparison.best().regressors, a->comparison.best().regressors);
+  const Analysis a = analysis_of(session_of({kLongLeftChain}, 3));
+  ASSERT_FALSE(a.decision.listed.empty());
+  const auto all = Downdating(a.system, a.comparison).without({});
+  EXPECT_LT(a.null.p_value(all.score), kFalseAlarm);
+  EXPECT_EQ(all.comparison.best().regressors, a.comparison.best().regressors);
   // Two factorisations of one matrix.
-  EXPECT_NEAR(all.comparison.best().log_weight, a->comparison.best().log_weight, 1e-6);
-  EXPECT_NEAR(probability_that_all_act(*a, all.comparison),
-              probability_that_all_act(*a, a->comparison),
+  EXPECT_NEAR(all.comparison.best().log_weight, a.comparison.best().log_weight, 1e-6);
+  EXPECT_NEAR(probability_that_all_act(a, all.comparison),
+              probability_that_all_act(a, a.comparison),
               0.01);  // total of discrepancies below a hundredth
 }
 
@@ -151,19 +147,13 @@ TEST(Stability, IsAbsentWithoutAName) {
 // One reading off by two millimetres, in a corner where a bent chain would have the same signature:
 // an effect of one point is not named.
 TEST(Stability, OnePointDecidesNoName) {
-  synthetic::SyntheticSpec spec;
-  spec.repeats = 6;
-  spec.order = synthetic::VisitingOrder::random;
-  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
-  spec.stated = StatedNoise{0.2, 0.3, 12.0};
   int refused = 0;
   for (const auto& [seed, point, residual_mm] : {std::tuple(1U, 21U, 2.0),
                                             std::tuple(1U, 21U, 1.5),
                                             std::tuple(2U, 27U, -3.0),
                                             std::tuple(2U, 27U, -2.0)}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", point " << point + 1);
-    spec.seed = seed;
-    MeasuredGrid grid = synthetic::generate(model::Machine{}, spec).value().grid;
+    MeasuredGrid grid = session_of({}, seed);
     grid.points[point].lengths->right_mm += residual_mm;
     const auto found = diagnose(grid, verdict_alone());
     ASSERT_TRUE(found);

@@ -2,7 +2,6 @@
 #include "grid/observation/visiting_order.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>

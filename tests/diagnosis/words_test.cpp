@@ -12,16 +12,12 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 using testing_support::session_of;
-using testing_support::verdict_alone;
 
 TEST(Words, APointIsMeasuredAgainUnlessThatPointIsAnOutlier) {
-  const auto session = observations_of(session_of({}, 1));
-  ASSERT_TRUE(session);
-  const auto analysis = analyse(*session, verdict_alone());
-  ASSERT_TRUE(analysis);
+  const Analysis analysis = testing_support::analysis_of(session_of({}, 1));
   const auto what_to_do = [&](Observations kind) {
     Diagnosis d;
-    d.points = point_pictures(*analysis);
+    d.points = point_pictures(analysis);
     d.distances.resize(6);
     d.stability = Stability{};
     Removal removal;
@@ -32,7 +28,7 @@ TEST(Words, APointIsMeasuredAgainUnlessThatPointIsAnOutlier) {
     outlier.of = kind;
     outlier.index = 5;
     d.outliers.push_back(outlier);
-    put_into_words(*analysis, d);
+    put_into_words(analysis, d);
     return d.what_to_do;
   };
   const auto again = Contains(HasSubstr("Measure point 6 again first"));

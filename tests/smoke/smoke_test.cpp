@@ -5,12 +5,10 @@
 /// are fixed and part of a test's name. Rates over hundreds of such sets are the laboratory's
 /// (tests/lab/sealed).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <ostream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grid/diagnosis/causes_fit.hpp"
