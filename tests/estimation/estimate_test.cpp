@@ -3,9 +3,7 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/reading_shifts.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -19,14 +17,13 @@ namespace {
 using testing::HasSubstr;
 using testing_support::classic;
 using testing_support::nine_holes;
+using testing_support::cut_holes;
 using testing_support::usual_holes;
 
 /// One machine with measured points and nine holes.
 struct Owner {
   MeasuredGrid points;
   MeasuredHoles holes;
-  model::Machine truth;
-  model::SheetPlacement sheet;  ///< of the points
 };
 
 /// Effects that no setting and no scale explains.
@@ -47,84 +44,7 @@ Owner owner(std::uint64_t seed, int columns, int rows, Beyond beyond = Beyond::n
   const auto session = synthetic::generate(classic(), spec);
   const auto cut =
       synthetic::simulate_holes(nine_holes(), usual_holes(seed), session->answer.machine);
-  return {session->grid, cut->set, session->answer.machine, session->answer.sheet};
-}
-
-/// Share of the true lengths over the bed within 1.96 of the map's sigmas.
-double covered(const CompensationMap& map, const Owner& owner) {
-  const model::ReadingModel truth(owner.truth);
-  int all = 0;
-  int within = 0;
-  for (double x = -1100.0; x <= 1100.0; x += 200.0) {
-    for (double y = -500.0; y <= 500.0; y += 200.0) {
-      const auto reply = map.query({x, y});
-      const auto reading = truth.at(owner.sheet.to_bed({x, y}));
-      if (!reply || !reading) continue;
-      within += std::abs(reply->lengths.left_mm - reading->lengths.left_mm) <
-                1.96 * reply->sigma.left_mm;
-      within += std::abs(reply->lengths.right_mm - reading->lengths.right_mm) <
-                1.96 * reply->sigma.right_mm;
-      all += 2;
-    }
-  }
-  return static_cast<double>(within) / all;
-}
-
-/// Mean squares over the machines.
-struct Errors {
-  double points2 = 0.0;
-  double holes2 = 0.0;
-  double both2 = 0.0;
-  double covered = 0.0;
-};
-
-/// True errors of the tool over the bed, for the best placement of the sheet.
-Errors errors_of(const char* what, int columns, int rows, Beyond beyond) {
-  constexpr int kSeeds = 24;
-  Errors sum;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    const Owner own = owner(seed, columns, rows, beyond);
-    const auto points = fit(own.points);
-    const auto holes = joint_fit(own.holes);
-    const auto both = joint_fit({{"points", own.points}, {"holes", own.holes}});
-    if (!points || !holes || !both) {
-      ADD_FAILURE() << "no fit";
-      continue;
-    }
-    const auto square = [&own](const CompensationMap& map) {
-      return std::pow(testing_support::best_placed_rms_mm(map, own.truth), 2) / kSeeds;
-    };
-    sum.points2 += square(*points);
-    sum.holes2 += square(holes->map);
-    sum.both2 += square(both->map);
-    sum.covered += covered(both->map, own) / kSeeds;
-  }
-  fmt::print("{}, seeds 1 to {}: {:.3f} mm with {} points, {:.3f} mm with 20 distances, {:.3f} mm "
-             "with both; {:.1f} % within 1.96 sigmas\n",
-             what,
-             kSeeds,
-             std::sqrt(sum.points2),
-             columns * rows,
-             std::sqrt(sum.holes2),
-             std::sqrt(sum.both2),
-             100.0 * sum.covered);
-  return sum;
-}
-
-TEST(Estimate, PointsAndDistancesTogetherBeatEither) {
-  const Errors errors = errors_of("settings and scales off", 7, 4, Beyond::nothing);
-  EXPECT_LT(errors.both2, errors.points2);
-  EXPECT_LT(errors.both2, errors.holes2);
-  // 95 %; each of 24 beds is one draw of some five independent errors: three of its deviations.
-  EXPECT_GT(errors.covered, 0.90);
-}
-
-TEST(Estimate, ConvergesOnAMachineNoSettingsExplain) {
-  const Errors errors = errors_of("beam and hose beside them", 4, 3, Beyond::beam_and_hose);
-  EXPECT_LT(errors.both2, errors.points2);
-  EXPECT_LT(errors.both2, errors.holes2);
-  EXPECT_GT(errors.covered, 0.90);
+  return {session->grid, cut->set};
 }
 
 TEST(Estimate, FileOrderMovesOnlyTheFrame) {
@@ -157,12 +77,43 @@ estimation::EstimationInput of_distances(const MeasuredHoles& set) {
   return input;
 }
 
+/// Points and distances of exactly known noise.
+estimation::EstimationInput of_both(const Owner& own) {
+  estimation::EstimationInput input = of_distances(own.holes);
+  input.observations.insert(
+      input.observations.begin(),
+      std::make_shared<const observation::ChainLengthReadings>(
+          chain_length_readings(*length_points(own.points), {0.2, 0.3}, 15.0, std::nullopt)));
+  input.noise = {interp::NoiseKnowledge::exact, 0.0};
+  return input;
+}
+
+TEST(Estimate, PointsAndDistancesTogetherKnowMoreThanEither) {
+  for (const Beyond beyond : {Beyond::nothing, Beyond::beam_and_hose}) {
+    const Owner own = owner(1, 4, 3, beyond);
+    const auto sigma_of = [](const estimation::EstimationInput& input) {
+      const auto found = estimation::estimate(input);
+      EXPECT_TRUE(found->converged);
+      return tool_sigma_mm(classic(), found->knowledge.covariance);
+    };
+    const auto both = of_both(own);
+    const double together = sigma_of(both);
+    for (const auto& one : both.observations) {
+      auto alone = both;
+      alone.observations = {one};
+      EXPECT_LT(together, sigma_of(alone)) << one->kind().id;
+    }
+    const auto fit = joint_fit({{"points", own.points}, {"holes", own.holes}});
+    EXPECT_TRUE(fit && fit->estimate.converged);
+  }
+}
+
 TEST(Estimate, UnitResultsUseTheFitsFinalWeights) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     SCOPED_TRACE(seed);
-    auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
-    made->set.distances[3].distance_mm += 10.0;
-    estimation::EstimationInput input = of_distances(made->set);
+    auto made = cut_holes(seed);
+    made.set.distances[3].distance_mm += 10.0;
+    estimation::EstimationInput input = of_distances(made.set);
     // The fifth iteration is the first that may reject a reading.
     input.most_passes = 5;
     const auto cut_short = estimation::estimate(input);
@@ -185,13 +136,8 @@ TEST(Estimate, UnitResultsUseTheFitsFinalWeights) {
 
 TEST(Estimate, LeftOutUnitEqualsAFitWithoutIt) {
   const Owner own = owner(8, 4, 3);
-  estimation::EstimationInput input = of_distances(own.holes);
-  const auto observation = std::make_shared<const observation::ChainLengthReadings>(
-      chain_length_readings(*length_points(own.points), {0.2, 0.3}, 15.0, std::nullopt));
-  input.observations.insert(input.observations.begin(), observation);
-  input.noise = {interp::NoiseKnowledge::exact, 0.0};
-  const auto units = static_cast<Eigen::Index>(observation->units().size() +
-                                               own.holes.distances.size());
+  estimation::EstimationInput input = of_both(own);
+  const auto units = static_cast<Eigen::Index>(own.points.points.size() + own.holes.distances.size());
   input.fixed_weights = Eigen::VectorXd::Ones(units);
   const auto whole = estimation::estimate(input);
   ASSERT_TRUE(whole);

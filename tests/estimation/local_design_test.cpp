@@ -8,7 +8,6 @@
 
 #include "grid/estimation/joint_problem.hpp"
 #include "grid/observation/length_points.hpp"
-#include "grid/observation/length_points.hpp"
 #include "grid/synthetic/generator.hpp"
 
 namespace chaintrue::grid::estimation {
