@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every picture of the atlas: where a line is drawn, the machine with the cause reads what the
-// controller paid out for the command. Anchors that belts find come from an adjustment of the test's
-// own, with planar geometry and differences for derivatives.
+// controller paid out for the command.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "grid/belts/anchor_estimate.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/synthetic/atlas.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
@@ -98,50 +97,6 @@ double span(const model::Anchor& anchor, double x, double y) {
   return std::hypot(x - anchor.x_mm, y - anchor.y_mm);
 }
 
-/// Residuals of a session at anchors (5) and places (2 each).
-Eigen::VectorXd residuals(const MeasuredBelts& session, const Eigen::VectorXd& u) {
-  Eigen::VectorXd r(4 * std::ssize(session.points));
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const double x = u[5 + 2 * at], y = u[6 + 2 * at];
-    const auto& read = session.points[i].lengths_mm;
-    r.segment<4>(4 * at) << read.tl - std::hypot(x - u[0], y - u[1]),
-        read.tr - std::hypot(x - u[2], y - u[3]), read.bl - std::hypot(x, y),
-        read.br - std::hypot(x - u[4], y);
-  }
-  return r;
-}
-
-/// Gauss-Newton with central differences from the true frame.
-model::BeltMachine adjusted(const MeasuredBelts& session) {
-  model::BeltMachine frame = belt_frame();
-  const auto count = std::ssize(session.points);
-  Eigen::VectorXd u(5 + 2 * count);
-  u.head<5>() << frame.anchors.tl.x_mm, frame.anchors.tl.y_mm, frame.anchors.tr.x_mm,
-      frame.anchors.tr.y_mm, frame.anchors.br.x_mm;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto place = model::to_frame(frame, *session.points[static_cast<std::size_t>(i)].commanded);
-    u.segment<2>(5 + 2 * i) << place.x_mm, place.y_mm;
-  }
-  for (int step = 0; step < 30; ++step) {
-    Eigen::MatrixXd jacobian(4 * count, u.size());
-    for (Eigen::Index k = 0; k < u.size(); ++k) {
-      constexpr double kStepMm = 1e-2;
-      Eigen::VectorXd more = u, less = u;
-      more[k] += kStepMm;
-      less[k] -= kStepMm;
-      jacobian.col(k) = (residuals(session, more) - residuals(session, less)) / (2.0 * kStepMm);
-    }
-    u -= jacobian.householderQr().solve(residuals(session, u));
-  }
-  frame.anchors.tl.x_mm = u[0];
-  frame.anchors.tl.y_mm = u[1];
-  frame.anchors.tr.x_mm = u[2];
-  frame.anchors.tr.y_mm = u[3];
-  frame.anchors.br.x_mm = u[4];
-  return frame;
-}
-
 /// The belts controller's anchors while it draws: those set, or those that it found.
 model::BeltMachine believed(const AtlasPicture& picture, double size) {
   if (picture.effect == nullptr) return belt_frame();
@@ -149,7 +104,11 @@ model::BeltMachine believed(const AtlasPicture& picture, double size) {
   spec.columns = spec.rows = 6;
   spec.noise_mm = 0.0;
   spec.hidden = {effect_of(picture, size)};
-  return adjusted(*simulate_belts(belt_frame(), belt_frame(), spec));
+  const MeasuredBelts session = simulate_belts(belt_frame(), belt_frame(), spec).value();
+  const belts::Counting all(session.points.size(), belts::kAllBelts);
+  const auto found =
+      belts::fit_anchors_from(session, {belts::anchors_of(belt_frame()), 0.0, {}}, all);
+  return belts::with_anchors(belt_frame(), found.value().state.anchors);
 }
 
 /// The direction of each length along a line; its first point is reached in the line's direction.

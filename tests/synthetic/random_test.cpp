@@ -2,7 +2,6 @@
 #include "grid/random.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
@@ -115,13 +114,6 @@ TEST(Random, ChoosesNumbersUniformly) {
     chi2 += (n - kCount / kKinds) * (n - kCount / kKinds) / static_cast<double>(kCount / kKinds);
   EXPECT_LT(chi2, 22.5);  // 99.9 % of chi-squared with 6 degrees of freedom
   EXPECT_THROW(static_cast<void>(random.below(0)), std::invalid_argument);
-}
-
-TEST(Random, StreamsAreIndependent) {
-  Random a(1, 2), b(2, 1), c(1, 3);
-  const auto first = a.bits();
-  EXPECT_NE(first, b.bits());
-  EXPECT_NE(first, c.bits());
 }
 
 }  // namespace
