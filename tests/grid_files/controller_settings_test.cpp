@@ -3,7 +3,6 @@
 #include "grid/files/controller_settings.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "grid/files/groundcontrol_file.hpp"
 

@@ -3,7 +3,6 @@
 #include "grid/files/csv_table.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>

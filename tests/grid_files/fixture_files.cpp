@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
+#include <stdexcept>
 
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
@@ -35,89 +33,43 @@ std::vector<std::string> messages_of(const std::vector<Warning>& warnings) {
   return messages;
 }
 
-Outcome grid_outcome(const std::string& text, const std::string& name) {
-  const ReadGrid read = parse_grid(text, name);
-  return {write_grid(read.grid), messages_of(read.warnings), {}};
-}
-
-Outcome machine_outcome(const std::string& text, const std::string& name) {
-  const ReadMachine read = parse_machine_with_warnings(text, name);
-  return {write_machine(read.machine), messages_of(read.warnings), {}};
-}
-
-Outcome points_outcome(const std::string& text, const std::string& name) {
+std::string points_written(const std::vector<model::MarkPoint>& points) {
   std::string written = "x_mm,y_mm\n";
-  for (const model::MarkPoint& point : parse_points(text, name)) {
+  for (const model::MarkPoint& point : points)
     written += fmt::format("{},{}\n", point.x_mm, point.y_mm);
-  }
-  return {written, {}, {}};
+  return written;
 }
 
-Outcome optical_outcome(const std::string& text, const std::string& name) {
+OpticalOptions optical_options() {
   OpticalOptions options;
   options.machine.controller.kind = model::ControllerKind::maslow_classic;
-  return {write_grid(parse_optical(text, name, options).grid), {}, {}};
+  return options;
 }
 
-Outcome groundcontrol_outcome(const std::string& text, const std::string& name) {
-  const ReadMachine read = parse_groundcontrol(text, name);
-  return {write_machine(read.machine), messages_of(read.warnings), {}};
-}
-
-Outcome diagnosis_outcome(const std::string& text, const std::string& name) {
-  return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
-}
-
-Outcome holes_outcome(const std::string& text, const std::string& name) {
-  const ReadHoles read = parse_holes(text, name);
-  return {write_holes(read.holes), messages_of(read.warnings), {}};
-}
-
-Outcome belts_outcome(const std::string& text, const std::string& name) {
-  const ReadBelts read = parse_belts(text, name);
-  return {write_belts(read.belts), messages_of(read.warnings), {}};
-}
-
-Outcome anchors_outcome(const std::string& text, const std::string& name) {
-  return {write_anchors(parse_anchors(text, name)), {}, {}};
-}
-
-Outcome maslow4_outcome(const std::string& text, const std::string& name) {
-  const Maslow4Import read = parse_maslow4(text, name);
-  return {write_belts(read.belts), messages_of(read.warnings), {}};
-}
-
-Outcome plotter_outcome(const std::string& text, const std::string& name) {
-  return {write_plotter(parse_plotter(text, name)), {}, {}};
-}
-
-Outcome drawing_outcome(const std::string& text, const std::string& name) {
-  return {write_drawing(parse_drawing(text, name)), {}, {}};
-}
-
-/// For the controller of a V-plotter.
-Outcome settings_outcome(const std::string& text, const std::string& name) {
-  const ReadPlotter read = parse_plotter_settings(text, name);
-  return {write_plotter(read.plotter), messages_of(read.warnings), {}};
-}
-
-using Reader = std::function<Outcome(const std::string& text, const std::string& name)>;
-
-const std::map<std::string, Reader>& readers() {
-  static const std::map<std::string, Reader> by_kind = {{"grid", grid_outcome},
-                                                        {"machine", machine_outcome},
-                                                        {"points", points_outcome},
-                                                        {"optical", optical_outcome},
-                                                        {"groundcontrol", groundcontrol_outcome},
-                                                        {"diagnosis", diagnosis_outcome},
-                                                        {"holes", holes_outcome},
-                                                        {"belts", belts_outcome},
-                                                        {"anchors", anchors_outcome},
-                                                        {"maslow4", maslow4_outcome},
-                                                        {"plotter", plotter_outcome},
-                                                        {"drawing", drawing_outcome},
-                                                        {"plottersettings", settings_outcome}};
-  return by_kind;
+Outcome outcome_of(const std::string& kind, const std::string& text, const std::string& name) {
+  // What is read is written, and its warnings kept.
+  const auto with_warnings = [](const auto& read, const std::string& written) {
+    return Outcome{written, messages_of(read.warnings), {}};
+  };
+  const auto grid = [&](const auto& read) { return with_warnings(read, write_grid(read.grid)); };
+  const auto machine = [&](const auto& read) { return with_warnings(read, write_machine(read.machine)); };
+  const auto belts = [&](const auto& read) { return with_warnings(read, write_belts(read.belts)); };
+  const auto plotter = [&](const auto& read) { return with_warnings(read, write_plotter(read.plotter)); };
+  const auto holes = [&](const auto& read) { return with_warnings(read, write_holes(read.holes)); };
+  if (kind == "grid") return grid(parse_grid(text, name));
+  if (kind == "machine") return machine(parse_machine_with_warnings(text, name));
+  if (kind == "groundcontrol") return machine(parse_groundcontrol(text, name));
+  if (kind == "holes") return holes(parse_holes(text, name));
+  if (kind == "belts") return belts(parse_belts(text, name));
+  if (kind == "maslow4") return belts(parse_maslow4(text, name));
+  if (kind == "plottersettings") return plotter(parse_plotter_settings(text, name));
+  if (kind == "points") return {points_written(parse_points(text, name)), {}, {}};
+  if (kind == "optical") return {write_grid(parse_optical(text, name, optical_options()).grid), {}, {}};
+  if (kind == "diagnosis") return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
+  if (kind == "anchors") return {write_anchors(parse_anchors(text, name)), {}, {}};
+  if (kind == "plotter") return {write_plotter(parse_plotter(text, name)), {}, {}};
+  if (kind == "drawing") return {write_drawing(parse_drawing(text, name)), {}, {}};
+  throw std::logic_error("no reader of " + kind);
 }
 
 std::vector<std::string> lines_after(const std::string& mark, const std::string& text) {
@@ -171,9 +123,8 @@ std::vector<std::string> remarks_in(const FixtureFile& fixture, const std::strin
 }
 
 Outcome read_text(const std::string& kind, const std::string& text, const std::string& name) {
-  const Reader& reader = readers().at(kind);
   try {
-    return reader(text, name);
+    return outcome_of(kind, text, name);
   } catch (const InputError& error) {
     Outcome outcome;
     for (const InputProblem& problem : error.problems())

@@ -3,7 +3,6 @@
 // of fixtures/good is read with exactly the warnings that it states, and written identically each
 // time.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/grid_files/fixture_files.hpp"
 

@@ -2,7 +2,6 @@
 // Settings of GroundControl, there and back. What single files become: tests/cli/cases/imports.cases.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,6 @@
 // Where a result comes from: the hash against published digests, which files count as read, and what
 // has changed since.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tests/support/files.hpp"
 
 namespace chaintrue::grid::files {
 namespace provenance_test {
@@ -52,20 +52,14 @@ TEST(Sha256, DoesNotDependOnTheChunks) {
 
 class Sources : public testing::Test {
  protected:
-  void SetUp() override {
-    forget_sources();
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  Sources() { forget_sources(); }
   [[nodiscard]] std::string path(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
-    return (folder_ / name).string();
+    return folder_ / name;
   }
 
-  /// For the running test: others run at the same time.
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string("chaintrue_sources_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+ private:
+  testing_support::TemporaryFolder folder_;
 };
 
 TEST_F(Sources, HaveBareNamesAndHashesOfTheirBytes) {

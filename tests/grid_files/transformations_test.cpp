@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <optional>
 
 #include "grid/input_checks/point_checks.hpp"
 #include "grid/random.hpp"
@@ -16,7 +14,6 @@ namespace {
 
 using model::MarkPoint;
 
-constexpr double kMmPerInchOfTests = 25.4;
 constexpr std::size_t kRows = 30;
 
 /// Marks 5 x 6 in rows from below, with a machine error of some millimetres and noise of 0.4 mm.
@@ -40,65 +37,27 @@ MeasuredGrid sound_grid(std::uint64_t seed) {
   return grid;
 }
 
+/// What is written: x = xx x + xy y + x0, and so for y.
 struct Slip {
   const char* name;
-  std::function<MarkPoint(MarkPoint, const model::Machine&)> written;
   ProblemKind kind;
+  double xx, xy, x0, yx, yy, y0;
   bool of_all = true;
 };
 
+// The bed is 2438.4 by 1219.2 mm; the left motor is at (-1489.2, 1072.6).
+constexpr double kPerMm = 1.0 / 25.4;
 const Slip kSlips[] = {
-    {"y from the upper edge down",
-     [](MarkPoint m, const model::Machine& machine) {
-       return MarkPoint{m.x_mm, 0.5 * machine.bed.height_mm - m.y_mm};
-     },
-     ProblemKind::constant_offset},
-    {"y from the upper edge",
-     [](MarkPoint m, const model::Machine& machine) {
-       return MarkPoint{m.x_mm, m.y_mm - 0.5 * machine.bed.height_mm};
-     },
-     ProblemKind::constant_offset},
-    {"from the left motor down",
-     [](MarkPoint m, const model::Machine& machine) {
-       return MarkPoint{m.x_mm - machine.motors.left.x_mm, machine.motors.left.y_mm - m.y_mm};
-     },
-     ProblemKind::constant_offset},
-    {"from the lower right corner leftwards",
-     [](MarkPoint m, const model::Machine& machine) {
-       return MarkPoint{0.5 * machine.bed.width_mm - m.x_mm, m.y_mm + 0.5 * machine.bed.height_mm};
-     },
-     ProblemKind::constant_offset},
-    {"inches",
-     [](MarkPoint m, const model::Machine&) {
-       return MarkPoint{m.x_mm / kMmPerInchOfTests, m.y_mm / kMmPerInchOfTests};
-     },
-     ProblemKind::other_unit},
-    {"x in inches",
-     [](MarkPoint m, const model::Machine&) {
-       return MarkPoint{m.x_mm / kMmPerInchOfTests, m.y_mm};
-     },
-     ProblemKind::other_unit},
-    {"columns exchanged",
-     [](MarkPoint m, const model::Machine&) {
-       return MarkPoint{m.y_mm, m.x_mm};
-     },
-     ProblemKind::axes},
-    {"y downwards",
-     [](MarkPoint m, const model::Machine&) {
-       return MarkPoint{m.x_mm, -m.y_mm};
-     },
-     ProblemKind::axes},
-    {"an inch more in y",
-     [](MarkPoint m, const model::Machine&) {
-       return MarkPoint{m.x_mm, m.y_mm + kMmPerInchOfTests};
-     },
-     ProblemKind::constant_offset,
-     false},
-    {"the tape's 100 mm mark in x",
-     [](MarkPoint m, const model::Machine&) {
-       return MarkPoint{m.x_mm + 100.0, m.y_mm};
-     },
-     ProblemKind::constant_offset}};
+    {"y from the upper edge down", ProblemKind::constant_offset, 1, 0, 0, 0, -1, 609.6},
+    {"y from the upper edge", ProblemKind::constant_offset, 1, 0, 0, 0, 1, -609.6},
+    {"from the left motor down", ProblemKind::constant_offset, 1, 0, 1489.2, 0, -1, 1072.6},
+    {"from the lower right corner leftwards", ProblemKind::constant_offset, -1, 0, 1219.2, 0, 1, 609.6},
+    {"inches", ProblemKind::other_unit, kPerMm, 0, 0, 0, kPerMm, 0},
+    {"x in inches", ProblemKind::other_unit, kPerMm, 0, 0, 0, 1, 0},
+    {"columns exchanged", ProblemKind::axes, 0, 1, 0, 1, 0, 0},
+    {"y downwards", ProblemKind::axes, 1, 0, 0, 0, -1, 0},
+    {"an inch more in y", ProblemKind::constant_offset, 1, 0, 0, 0, 1, 25.4, false},
+    {"the tape's 100 mm mark in x", ProblemKind::constant_offset, 1, 0, 100, 0, 1, 0}};
 
 TEST(Transformations, AreNamedForAllRowsAndForATail) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -108,20 +67,20 @@ TEST(Transformations, AreNamedForAllRowsAndForATail) {
       // The middle of the list, and a place where no row of marks begins.
       for (const std::size_t from : {std::size_t{0}, kRows / 2, kRows / 2 + 2}) {
         if (from == 0 && !slip.of_all) continue;
+        SCOPED_TRACE(testing::Message() << slip.name << " from " << from << ", seed " << seed);
         MeasuredGrid spoilt = sound;
-        for (std::size_t i = from; i < kRows; ++i)
-          spoilt.points[i].mark = slip.written(spoilt.points[i].mark, *sound.machine);
+        for (std::size_t i = from; i < kRows; ++i) {
+          MarkPoint& m = spoilt.points[i].mark;
+          m = {slip.xx * m.x_mm + slip.xy * m.y_mm + slip.x0, slip.yx * m.x_mm + slip.yy * m.y_mm + slip.y0};
+        }
         const auto found = check_points(spoilt).whole;
-        ASSERT_TRUE(found) << slip.name << " from " << from << ", seed " << seed;
-        EXPECT_EQ(found->kind, slip.kind) << slip.name << " from " << from << ", seed " << seed << ": "
-                                          << found->sentence();
-        if (from == 0) {
-          EXPECT_FALSE(found->from_row) << slip.name << ", seed " << seed << ": " << found->sentence();
-        } else {
-          // A mark that reads the same either way may be on either side.
-          ASSERT_TRUE(found->from_row) << slip.name << ", seed " << seed << ": " << found->sentence();
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->kind, slip.kind) << found->sentence();
+        ASSERT_EQ(found->from_row.has_value(), from != 0) << found->sentence();
+        // A mark that reads the same either way may be on either side.
+        if (from != 0) {
           EXPECT_NEAR(static_cast<double>(*found->from_row), static_cast<double>(from), 1.0)
-              << slip.name << ", seed " << seed << ": " << found->sentence();
+              << found->sentence();
         }
       }
     }

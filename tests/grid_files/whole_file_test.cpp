@@ -2,11 +2,9 @@
 #include "grid/files/whole_file.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "grid/files/input_error.hpp"

@@ -12,7 +12,7 @@
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/effects/catalogue.hpp"
-#include "tests/grid_files/damaged_logs.hpp"
+#include "tests/lab/real_machines/damaged_logs.hpp"
 
 namespace chaintrue::grid {
 namespace {
