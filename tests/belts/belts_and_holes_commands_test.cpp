@@ -92,30 +92,26 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
 };
 
 TEST_F(BeltAndHoleCommands, TheFitDoesNotDependOnFileOrder) {
-  const Outcome fit = run("fit belts.json --with holes.json -v -o anchors.json");
-  ASSERT_EQ(fit.code, 0) << fit.err;
+  const Outcome fit = done("fit belts.json --with holes.json -v -o anchors.json");
   EXPECT_THAT(fit.err, HasSubstr("24 distances"));
-  ASSERT_EQ(run("fit holes.json --with belts.json -o other.json").code, 0);
+  done("fit holes.json --with belts.json -o other.json");
   EXPECT_EQ(without_origin(content_of(folder_ / "anchors.json")),
             without_origin(content_of(folder_ / "other.json")));
   const std::string text = content_of(folder_ / "anchors.json");
   const auto found = grid::files::parse_anchors(text, "a.json");
   EXPECT_EQ(grid::files::write_anchors(found, grid::files::made_by_of(text, "a.json")), text);
-  const Outcome alone = run("fit holes.json -o alone.json");
-  EXPECT_EQ(alone.code, 0) << alone.err;
+  const Outcome alone = done("fit holes.json -o alone.json");
   EXPECT_THAT(alone.err, HasSubstr("24 distances"));
 }
 
 TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsAccuratelyOnTheUnmodifiedController) {
-  ASSERT_EQ(run("fit belts.json --with holes.json -o anchors.json").code, 0);
-  const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
-  ASSERT_EQ(made.code, 0) << made.err;
+  done("fit belts.json --with holes.json -o anchors.json");
+  done("gcode compensate part.nc --map anchors.json -o part.true.nc");
   const model::BeltMachine& believed = set_.holes.machine;
   const double before = residual_mm(content_of(folder_ / "part.nc"), believed);
   const double after = residual_mm(content_of(folder_ / "part.true.nc"), believed);
   std::cout << "tool off the outline, mm: " << before << " as it is, " << after << " compensated\n";
-  const Outcome asked = run("gcode verify part.nc part.true.nc --map anchors.json --json");
-  ASSERT_EQ(asked.code, 0) << asked.err;
+  const Outcome asked = done("gcode verify part.nc part.true.nc --map anchors.json --json");
   const double stated = grid::files::Json::parse(asked.out).at("expected_mm").get<double>();
   std::cout << "stated, mm: " << stated << "\n";
   // One draw of few independent parts, and a half wave of the tool's between nine holes, which their
@@ -124,19 +120,15 @@ TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsAccuratelyOnTheUnmodifiedCont
   EXPECT_GT(before, 1.0);  // 0.4 % of the 800 and 400 mm from the middle to an edge
   // A third of the tool's displacement from its belts: nine holes resolve a half wave between them.
   EXPECT_LT(after, 1.0);
-  const Outcome verified = run("gcode verify part.nc part.true.nc --map anchors.json");
-  EXPECT_EQ(verified.code, 0) << verified.err;
+  done("gcode verify part.nc part.true.nc --map anchors.json");
   EXPECT_EQ(run("gcode verify part.nc part.nc --map anchors.json").code, 1);
-  const Outcome lengths = run("gcode lengths part.nc --map anchors.json");
-  ASSERT_EQ(lengths.code, 0) << lengths.err;
+  const Outcome lengths = done("gcode lengths part.nc --map anchors.json");
   EXPECT_THAT(lengths.out, HasSubstr("line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm"));
 }
 
 TEST_F(BeltAndHoleCommands, PastedAnchorsLeaveOnlyTheBend) {
-  ASSERT_EQ(run("fit belts.json --with holes.json -o anchors.json").code, 0);
-  const Outcome made =
-      run("gcode compensate part.nc --map anchors.json --machine anchors.json -o part.true.nc");
-  ASSERT_EQ(made.code, 0) << made.err;
+  done("fit belts.json --with holes.json -o anchors.json");
+  done("gcode compensate part.nc --map anchors.json --machine anchors.json -o part.true.nc");
   const auto found = grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "a.json");
   const model::BeltMachine pasted = grid::files::machine_as_pasted(found.fit);
   const double before = residual_mm(content_of(folder_ / "part.nc"), pasted);
@@ -148,22 +140,18 @@ TEST_F(BeltAndHoleCommands, PastedAnchorsLeaveOnlyTheBend) {
 }
 
 TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsOnly) {
-  ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
-  const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
-  ASSERT_EQ(made.code, 0) << made.err;
+  done("fit belts.json -o anchors.json");
+  const Outcome made = done("gcode compensate part.nc --map anchors.json -o part.true.nc");
   // The same error, and the same of the scale, from the commands that look at a program.
   const std::string words = "That is in millimetres of belt";
   EXPECT_THAT(made.err, HasSubstr(words));
-  const Outcome verified = run("gcode verify part.nc part.true.nc --map anchors.json");
-  EXPECT_EQ(verified.code, 0) << verified.err;
+  const Outcome verified = done("gcode verify part.nc part.true.nc --map anchors.json");
   EXPECT_THAT(verified.out, HasSubstr(words));
   EXPECT_THAT(run("gcode verify part.nc part.true.nc --map anchors.json --json").out,
               testing::Not(HasSubstr("\"expected_mm\": null")));
   EXPECT_THAT(run("gcode check part.nc --map anchors.json").out, HasSubstr(words));
   // Its page shows the frame of the anchors, not half of the usual bed of a chain machine.
-  const Outcome page =
-      run("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");
-  ASSERT_EQ(page.code, 0) << page.err;
+  const Outcome page = done("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");
   const std::string html = content_of(folder_ / "page.html");
   EXPECT_THAT(html, HasSubstr("sheet_x_min_mm"));
   EXPECT_THAT(html, testing::Not(HasSubstr("-1219.2")));

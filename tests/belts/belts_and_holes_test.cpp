@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "grid/belts/belt_map.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "tests/belts/holes_simulation.hpp"

@@ -3,7 +3,6 @@
 /// Laws in the lengths of four belts: found besides a listed cause, reported, written to the file,
 /// drawn, and not found if there is none.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

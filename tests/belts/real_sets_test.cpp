@@ -3,8 +3,6 @@
 // program. The readings stay in ../shared/data.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/repeated_pulls.hpp"
 #include "tests/belts/published_readings.hpp"

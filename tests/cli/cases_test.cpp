@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs the cases of tests/cli/cases: a suite a file, a test a case (case_file.hpp).
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 

@@ -28,6 +28,12 @@ class CommandFixture : public testing::Test {
   [[nodiscard]] Outcome run(const std::string& arguments) const {
     return run_line("chaintrue " + arguments);
   }
+  /// The same of a command that must succeed.
+  Outcome done(const std::string& arguments) const {
+    Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << arguments << "\n" << outcome.out << outcome.err;
+    return outcome;
+  }
   /// Runs any shell line in the folder.
   [[nodiscard]] Outcome run_line(const std::string& shell) const {
     return testing_support::run_line(folder_, shell);

@@ -2,7 +2,6 @@
 // A drawing's fit instead of a map: G-code for a plotter with Marlin whose gondola tilts and whose
 // pins are not level, for which Marlin has no setting. Pens hang by tests/lab/generator.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
@@ -34,21 +33,17 @@ constexpr double kMiddleX = 600.0, kMiddleY = 900.0;
 const std::string kSteep = " --steepest-correction 0.1";
 
 Json stated_plotter(const std::string& firmware) {
-  return {{"file_type", "chaintrue_plotter"},
-          {"format_version", "1.0"},
-          {"set",
-           {{"firmware", firmware},
-            {"machine",
-             {{"name", "string pen"},
-              {"pin_spacing_mm", kSpacingMm},
-              {"motors", "wall"},
-              {"gondola", {{"spacing_mm", 60}, {"pen_below_mm", 30}, {"mass_below_mm", 40}, {"mass_kg", 0.4}}},
-              {"area", {{"left_mm", -350}, {"right_mm", 350}, {"top_mm", -300}, {"bottom_mm", -900}}}}},
-            {"steps_per_mm", {{"left", 80}, {"right", 80}}},
-            {"home", {{"x_mm", 0}, {"y_mm", -700}}},
-            {"pins_middle", {{"x_mm", kMiddleX}, {"y_mm", kMiddleY}}},
-            {"pen", {{"up", "M280 P0 S90"}, {"down", "M280 P0 S30"}}},
-            {"feed_mm_per_min", 1800}}}};
+  Json plotter = Json::parse(R"({
+  "file_type": "chaintrue_plotter", "format_version": "1.0",
+  "set": {"machine": {
+      "name": "string pen", "pin_spacing_mm": 1200, "motors": "wall",
+      "gondola": {"spacing_mm": 60, "pen_below_mm": 30, "mass_below_mm": 40, "mass_kg": 0.4},
+      "area": {"left_mm": -350, "right_mm": 350, "top_mm": -300, "bottom_mm": -900}},
+    "steps_per_mm": {"left": 80, "right": 80}, "home": {"x_mm": 0, "y_mm": -700},
+    "pins_middle": {"x_mm": 600, "y_mm": 900},
+    "pen": {"up": "M280 P0 S90", "down": "M280 P0 S30"}, "feed_mm_per_min": 1800}})");
+  plotter["set"]["firmware"] = firmware;
+  return plotter;
 }
 
 /// Wider by 5 mm, the right pin 7 mm high, cords hung 6 and 3 mm long, one counted 1.5 mm in a metre.
@@ -93,15 +88,13 @@ class PlotterGcode : public testing_support::CommandFixture {
   /// found.json of a drawing that the hidden plotter drew.
   void fit(const std::string& firmware = "marlin") const {
     write("plotter.json", stated_plotter(firmware).dump(1));
-    const Outcome start = run("start plotter.json first");
-    ASSERT_EQ(start.code, 0) << start.err;
+    done("start plotter.json first");
     const Json drawing = Json::parse(content_of(folder_ / "first" / "drawing.json"));
     write("drawing.json",
           testing_support::ruled(
               drawing, [&](double x, double y) { return hidden_.pen(x, y); }, 0.3, 11)
               .dump(1));
-    const Outcome fitted = run("fit drawing.json -o found.json");
-    ASSERT_EQ(fitted.code, 0) << fitted.err;
+    done("fit drawing.json -o found.json");
   }
   [[nodiscard]] std::array<double, 2> drawn(const std::array<double, 2>& command) const {
     const auto pen = hidden_.pen(command[0], command[1]);
@@ -128,8 +121,7 @@ double worst_distance(const std::vector<std::array<double, 2>>& corners, double 
 
 TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
   fit();
-  const Outcome square = run("square --map found.json --size-mm 500 --gcode square.gcode");
-  ASSERT_EQ(square.code, 0) << square.err;
+  const Outcome square = done("square --map found.json --size-mm 500 --gcode square.gcode");
   const std::string program = content_of(folder_ / "square.gcode");
   EXPECT_THAT(program, AllOf(HasSubstr("M280 P0 S30\n"), Not(HasSubstr("Z")), Not(HasSubstr("("))));
   std::vector<std::array<double, 2>> corners;
@@ -139,14 +131,12 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
   const double before = worst_distance(corners, 500.0);
   EXPECT_GT(before, 3.0);
   // square agrees for the fitted plotter: a ruler's readings are within their noise.
-  const Outcome sides = run("square --map found.json --size-mm 500 --json");
-  ASSERT_EQ(sides.code, 0) << sides.err;
+  const Outcome sides = done("square --map found.json --size-mm 500 --json");
   const Json predicted = Json::parse(sides.out);
   EXPECT_NEAR(predicted["sides"]["left"]["length_mm"], apart(corners[0], corners[1]), 0.6);
   EXPECT_NEAR(predicted["sides"]["top"]["length_mm"], apart(corners[1], corners[2]), 0.6);
 
-  const Outcome made = run("gcode compensate square.gcode --map found.json -o true.gcode" + kSteep);
-  ASSERT_EQ(made.code, 0) << made.err;
+  const Outcome made = done("gcode compensate square.gcode --map found.json -o true.gcode" + kSteep);
   EXPECT_THAT(made.err, HasSubstr("Expect cuts within about 0."));
   const std::string compensated = content_of(folder_ / "true.gcode");
   EXPECT_THAT(compensated,
@@ -180,28 +170,23 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
   EXPECT_LT(bow, 0.3);
   EXPECT_LT(worst_distance(found, 500.0), 0.2 * before);
 
-  const Outcome verified = run("gcode verify square.gcode true.gcode --map found.json" + kSteep);
-  EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
+  done("gcode verify square.gcode true.gcode --map found.json" + kSteep);
   const Outcome plain = run("gcode verify square.gcode square.gcode --map found.json");
   EXPECT_EQ(plain.code, 1);
 }
 
 TEST_F(PlotterGcode, FluidNcGetsTheSameProgram) {
   fit("fluidnc");
-  ASSERT_EQ(run("square --map found.json --size-mm 300 --at 450 200 --gcode square.gcode").code, 0);
-  const Outcome made = run("gcode compensate square.gcode --map found.json -o true.gcode --report path.html" + kSteep);
-  ASSERT_EQ(made.code, 0) << made.err;
+  done("square --map found.json --size-mm 300 --at 450 200 --gcode square.gcode");
+  done("gcode compensate square.gcode --map found.json -o true.gcode --report path.html" + kSteep);
   EXPECT_TRUE(exists("path.html"));
-  EXPECT_EQ(run("gcode verify square.gcode true.gcode --map found.json" + kSteep).code, 0);
-  const Outcome checked = run("gcode check square.gcode --map found.json" + kSteep);
-  EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
-  const Outcome there = run("query found.json 600 200 --json");
-  ASSERT_EQ(there.code, 0) << there.err;
+  done("gcode verify square.gcode true.gcode --map found.json" + kSteep);
+  const Outcome checked = done("gcode check square.gcode --map found.json" + kSteep);
+  const Outcome there = done("query found.json 600 200 --json");
   const Json lengths = Json::parse(there.out);
   const Json& first = lengths.is_array() ? lengths[0] : lengths;
-  const Outcome back = run("query found.json --json --inverse " + first["left_mm"].dump() + " " +
+  const Outcome back = done("query found.json --json --inverse " + first["left_mm"].dump() + " " +
                            first["right_mm"].dump());
-  ASSERT_EQ(back.code, 0) << back.err;
   EXPECT_NEAR(Json::parse(back.out)["x_mm"], 600.0, 1e-5);  // lengths are printed to 1e-6 mm
   EXPECT_NEAR(Json::parse(back.out)["y_mm"], 200.0, 1e-5);
 }

@@ -2,7 +2,6 @@
 // The progress display, by a clock under the test's control; and that long computations report
 // their steps.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdio>
 #include <future>

@@ -2,7 +2,6 @@
 // At a terminal: long work shows its progress, and Ctrl-C stops it without leaving files behind.
 // The timing is tested in progress_test.cpp.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -50,7 +49,7 @@ class Terminal : public testing_support::CommandFixture {
 // Ten million rows, written as they are computed: no machine is done before the first word.
 TEST_F(Terminal, ControlCStopsAndClearsTheProgress) {
   write("b.nc", "G21 G90\nG0 X-1000 Y0\nG1 X1000 Y0 F500\nM2\n");
-  ASSERT_EQ(run("fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o m.json").code, 0);
+  done("fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o m.json");
   const Seen screen =
       stopped_after("s left", "gcode lengths b.nc --map m.json --every-mm 0.0002 -o l.csv");
   EXPECT_THAT(screen.text,

@@ -3,7 +3,6 @@
 // there (tools/cli/facts.hpp). The options are those of --help; that each other one changes the
 // answer is tried in tests/lab/inputs.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <map>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,6 @@
 /// Results must be the same if the functions of the C library round in the other direction: searches that
 /// stop at a threshold, ties broken by rounding and differences that are pure rounding would differ here, and
 /// differ between machines.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

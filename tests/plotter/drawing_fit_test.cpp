@@ -94,7 +94,6 @@ TEST(DrawingFit, FindsAMuralsZeroAndStraightensItsLines) {
   EXPECT_NEAR(zero.found, 23.0, 4.0 * zero.sigma) << "seed 1";
 }
 
-
 TEST(DrawingFit, ReportsNothingOnASoundMachine) {
   const PlotterMachine stated = model::mural(1400.0);
   const auto fit = fit_drawing(measured(stated, PlotterFirmware::mural, stated, 0.5, 1));

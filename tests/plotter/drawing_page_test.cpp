@@ -3,7 +3,6 @@
 #include "grid/plotter/drawing_page.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>

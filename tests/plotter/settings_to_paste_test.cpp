@@ -4,7 +4,6 @@
 #include "grid/plotter/settings_to_paste.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -14,7 +13,7 @@ namespace {
 using model::PlotterFirmware;
 using testing::ElementsAre;
 
-TestDrawing drawing_of(PlotterFirmware firmware, const model::PlotterMachine& stated) {
+TestDrawing drawing_of(PlotterFirmware firmware, const model::PlotterMachine& stated = {}) {
   TestDrawing drawing = planned_drawing(stated, firmware);
   drawing.pins_middle = {0.0, 500.0};
   return drawing;
@@ -35,12 +34,11 @@ TEST(SettingsToPaste, HomedOffsetIsAMuralsZero) {
 }
 
 TEST(SettingsToPaste, FluidncHasBothPinsAndBothScales) {
-  const model::PlotterMachine stated;
-  model::PlotterMachine truth = stated;
+  model::PlotterMachine truth;
   truth.pin_spacing_mm = 1204.0;
   truth.pin_rise_mm = 6.0;
   truth.scale_mm_per_m = {1.0, -2.0};
-  TestDrawing drawing = drawing_of(PlotterFirmware::fluidnc, stated);
+  TestDrawing drawing = drawing_of(PlotterFirmware::fluidnc);
   drawing.steps_per_mm = {80.0, 80.0};
   EXPECT_THAT(settings_to_paste(drawing, truth),
               ElementsAre("kinematics:",
@@ -57,10 +55,9 @@ TEST(SettingsToPaste, FluidncHasBothPinsAndBothScales) {
 }
 
 TEST(SettingsToPaste, SetThePenPositionInMarlin) {
-  const model::PlotterMachine stated;
-  model::PlotterMachine truth = stated;
+  model::PlotterMachine truth;
   truth.zero_mm = {5.0, 5.0};
-  TestDrawing drawing = drawing_of(PlotterFirmware::marlin, stated);
+  TestDrawing drawing = drawing_of(PlotterFirmware::marlin);
   drawing.home = model::BedPoint{0.0, -800.0};
   const auto lines = settings_to_paste(drawing, truth);
   // Cords of 1000 mm that are 5 mm shorter: sqrt(995^2 - 600^2) = 793.74 below the pins.
@@ -73,22 +70,20 @@ TEST(SettingsToPaste, SetThePenPositionInMarlin) {
 }
 
 TEST(SettingsToPaste, PolargraphHasOneScale) {
-  const model::PlotterMachine stated;
-  model::PlotterMachine truth = stated;
+  model::PlotterMachine truth;
   truth.scale_mm_per_m = {3.0, 1.0};
-  EXPECT_THAT(settings_to_paste(drawing_of(PlotterFirmware::polargraph, stated),
+  EXPECT_THAT(settings_to_paste(drawing_of(PlotterFirmware::polargraph),
                                 truth),
               ElementsAre("machine.width=1200.0",
                           "machine.motors.mmPerRev=<the present value times 0.998004>"));
 }
 
 TEST(SettingsToPaste, MakeTheControllerCountCordsCorrectly) {
-  const model::PlotterMachine stated;
-  model::PlotterMachine truth = stated;
+  model::PlotterMachine truth;
   truth.pin_spacing_mm = 1204.0;
   truth.zero_mm = {5.0, 5.0};
   truth.scale_mm_per_m = {1.0, -2.0};
-  TestDrawing drawing = drawing_of(PlotterFirmware::fluidnc, stated);
+  TestDrawing drawing = drawing_of(PlotterFirmware::fluidnc);
   drawing.steps_per_mm = {80.0, 80.0};
   drawing.home = model::BedPoint{0.0, -800.0};
   const SetPlotter next = once_typed_in(drawing, truth);
