@@ -66,9 +66,7 @@ grid::MeasuredGrid measured(const std::vector<MarkPoint>& places) {
 }
 
 CompensationMap fitted(const grid::MeasuredGrid& grid) {
-  auto map = grid::fit(grid);
-  if (!map) throw std::runtime_error(map.error().sentence());
-  return *std::move(map);
+  return grid::fit(grid).value();
 }
 
 struct BedError {

@@ -23,9 +23,7 @@ class HolesCommands : public testing_support::CommandFixture {
 };
 
 TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
-  const Outcome plan =
-      run("plan --machine " + classic_ + " --holes 9 --edges --tape-sigma-mm 0.5 -o list.csv");
-  ASSERT_EQ(plan.code, 0) << plan.err;
+  done("plan --machine " + classic_ + " --holes 9 --edges --tape-sigma-mm 0.5 -o list.csv");
   // The owner cuts the holes of the list on a sheet that lies 6 mm to the right, and writes the
   // tape's readings into the third column.
   const std::string list = content_of(folder_ / "list.csv");
@@ -60,9 +58,8 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
           return fmt::format("{:.1f}", made->set.distances.at(reading++).distance_mm);
         }));
   ASSERT_EQ(reading, made->set.distances.size());
-  const Outcome fit = run("fit readings.csv --machine " + classic_ + " -o map.json");
-  ASSERT_EQ(fit.code, 0) << fit.err;
-  EXPECT_EQ(run("check map.json readings.csv --machine " + classic_).code, 0);
+  done("fit readings.csv --machine " + classic_ + " -o map.json");
+  done("check map.json readings.csv --machine " + classic_);
   const grid::CompensationMap map = grid::files::read_map(folder_ / "map.json");
   // Half a millimetre of tape and of the sheet's size; three times that would be a gross error.
   EXPECT_LT(testing_support::tool_rms_mm(map, made->truth, spec.sheet), 1.5);

@@ -2,11 +2,9 @@
 // The fit to distances: left-out predictions compared with refits, the truth recovered without noise,
 // bad readings named.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "grid/files/map_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "model/calibration/setting.hpp"
 #include "tests/holes/hole_sets.hpp"
@@ -17,6 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing_support::classic;
 using testing_support::nine_holes;
+using testing_support::cut_holes;
 using testing_support::usual_holes;
 
 /// Nine holes with each edge measured from two of them.
@@ -110,15 +109,15 @@ TEST(HolesFit, ALargerSheetMovesEachEdgeByHalfTheDifference) {
 }
 
 TEST(HolesFit, PlacesAFreeSheetByTheCommandedHoles) {
-  const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(11));
-  const auto fit = joint_fit(made->set);
+  const auto made = cut_holes(11);
+  const auto fit = joint_fit(made.set);
   ASSERT_TRUE(fit);
   double x = 0.0;
   double y = 0.0;
   double turn = 0.0;
   for (std::size_t i = 0; i < fit->distances.front().holes.size(); ++i) {
     const model::MarkPoint at = fit->distances.front().holes[i].predicted;
-    const model::BedPoint wanted = made->set.holes[i].commanded;
+    const model::BedPoint wanted = made.set.holes[i].commanded;
     x += at.x_mm - wanted.x_mm;
     y += at.y_mm - wanted.y_mm;
     turn += wanted.x_mm * (at.y_mm - wanted.y_mm) - wanted.y_mm * (at.x_mm - wanted.x_mm);
@@ -156,14 +155,14 @@ TEST(HolesFit, LeftOutPredictionEqualsAFitWithoutTheReading) {
 }
 
 TEST(HolesFit, NamesABadReadingAndRejectsIt) {
-  auto made = synthetic::simulate_holes(nine_holes(), usual_holes(1));
-  made->set.distances[1].distance_mm -= 10.0;
-  const auto fit = joint_fit(made->set);
+  auto made = cut_holes(1);
+  made.set.distances[1].distance_mm -= 10.0;
+  const auto fit = joint_fit(made.set);
   ASSERT_TRUE(fit) << "seed 1";
   for (std::size_t k = 0; k < fit->distances.front().distances.size(); ++k)
     EXPECT_EQ(fit->distances.front().distances[k].rejected, k == 1) << "seed 1, distance " << k;
   EXPECT_THAT(fit->map.contents().notes.front(),
-              testing::AllOf(HasSubstr(words_of(made->set, made->set.distances[1])),
+              testing::AllOf(HasSubstr(words_of(made.set, made.set.distances[1])),
                              HasSubstr("shorter than the others predict")));
 }
 
@@ -180,8 +179,8 @@ TEST(HolesFit, ReportsAForgottenHookOffsetIfTheFitFails) {
 }
 
 TEST(HolesFit, MapRoundTripsAndEqualsTheFittedMachine) {
-  const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(21));
-  const auto fit = joint_fit(made->set);
+  const auto made = cut_holes(21);
+  const auto fit = joint_fit(made.set);
   const CompensationMap map = fit->map;
   for (const FittedHole& hole : fit->distances.front().holes) {
     const auto answer = map.query(hole.predicted);
@@ -191,10 +190,7 @@ TEST(HolesFit, MapRoundTripsAndEqualsTheFittedMachine) {
     EXPECT_NEAR(answer->lengths.left_mm, hole.lengths.left_mm, 0.01);
     EXPECT_NEAR(answer->lengths.right_mm, hole.lengths.right_mm, 0.01);
   }
-  const std::string text = files::write_map(map);
-  const CompensationMap again = files::parse_map(text, "map.json");
-  EXPECT_EQ(files::write_map(again), text);
-  EXPECT_EQ(again.contents().distances->used, map.contents().distances->used);
+  testing_support::expect_round_trip(map);
 }
 
 TEST(HolesFit, ThrowsOnBrokenPreconditions) {
@@ -209,7 +205,7 @@ TEST(HolesFit, ThrowsOnBrokenPreconditions) {
 
 // A taped motor spacing is a reading of the machine, for holes as for a grid.
 TEST(HolesFit, AReadingOfTheMotorSpacingMovesTheMotors) {
-  MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(5))->set;
+  MeasuredHoles set = cut_holes(5).set;
   const double without_mm = spacing(joint_fit(set)->estimate.machine);
   for (const double other_mm : {-10.0, 10.0}) {
     set.readings = {{ReadingOf::motor_spacing, "", without_mm + other_mm, 0.01}};

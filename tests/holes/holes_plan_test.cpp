@@ -2,7 +2,6 @@
 // Plans of holes: a fit reaches the predicted accuracy, plans are better than a lattice, and rounds
 // converge.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,6 @@
 // Checks of a map after a change of the machine, with five points and 0.3 mm of noise, and points
 // planned for it.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
@@ -38,7 +37,8 @@ const MeasuredMachine& mapped() {
   return one;
 }
 
-MeasuredGrid five_points(const model::Machine& truth, Random& random) {
+MeasuredGrid five_points(const model::Machine& truth, std::uint64_t seed) {
+  Random random(seed);
   return read_at(kFive, truth, random);
 }
 
@@ -119,8 +119,7 @@ TEST(CheckPlan, NumbersOutOfRangeThrow) {
 }
 
 TEST(MapCheck, ProbabilitiesSumToOneAndFollowTheVerdicts) {
-  Random random(3);
-  const auto check = check_map(mapped().map, five_points(mapped().truth, random));
+  const auto check = check_map(mapped().map, five_points(mapped().truth, 3));
   double sum = 0.0;
   std::array<double, 3> by_verdict{};
   for (const CheckHypothesis& hypothesis : check->hypotheses) {
@@ -136,8 +135,7 @@ TEST(MapCheck, ReportsWhatOnePointCannotDetermine) {
   // One point, 1 mm too long on one chain: a zero, a pitch, or the point itself.
   model::Machine machine = mapped().truth;
   machine.chain_zero.left_mm += 1.5;
-  Random random(9);
-  MeasuredGrid grid = five_points(machine, random);
+  MeasuredGrid grid = five_points(machine, 9);
   grid.points.resize(1);
   const auto check = check_map(mapped().map, grid);
   ASSERT_TRUE(check);
@@ -146,8 +144,7 @@ TEST(MapCheck, ReportsWhatOnePointCannotDetermine) {
 }
 
 TEST(MapCheck, NamesASingleBadPoint) {
-  Random random(5);
-  MeasuredGrid grid = five_points(mapped().truth, random);
+  MeasuredGrid grid = five_points(mapped().truth, 5);
   grid.points[3].lengths->left_mm += 14.0;
   const auto check = check_map(mapped().map, grid);
   EXPECT_EQ(check->hypotheses.front().what, model::Change::bad_point);
@@ -156,23 +153,21 @@ TEST(MapCheck, NamesASingleBadPoint) {
 }
 
 TEST(MapCheck, HolesFindASkippedToothAndAGrownPitch) {
-  const auto made =
-      synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_holes(4));
-  const auto first = joint_fit(made->set);
-  const CompensationMap map = first->map;
-  synthetic::HolesSpec again = testing_support::usual_holes(5);
-  const auto unchanged =
-      synthetic::simulate_holes(testing_support::nine_holes(), again, made->truth);
-  EXPECT_EQ(check_map(map, unchanged->set)->verdict, CheckVerdict::valid);
-  model::Machine skipped = made->truth;
+  const auto made = testing_support::cut_holes(4);
+  const CompensationMap map = joint_fit(made.set)->map;
+  const auto verdict = [&map](const model::Machine& truth) {
+    const auto again = synthetic::simulate_holes(
+        testing_support::nine_holes(), testing_support::usual_holes(5), truth);
+    return check_map(map, again->set)->verdict;
+  };
+  EXPECT_EQ(verdict(made.truth), CheckVerdict::valid);
+  model::Machine skipped = made.truth;
   skipped.chain_zero.left_mm += 6.35;
-  const auto with_skip = synthetic::simulate_holes(testing_support::nine_holes(), again, skipped);
-  EXPECT_NE(check_map(map, with_skip->set)->verdict, CheckVerdict::valid);
-  model::Machine worn = made->truth;
+  EXPECT_NE(verdict(skipped), CheckVerdict::valid);
+  model::Machine worn = made.truth;
   grow(worn, "both");
   grow(worn, "both");
-  const auto with_wear = synthetic::simulate_holes(testing_support::nine_holes(), again, worn);
-  EXPECT_EQ(check_map(map, with_wear->set)->verdict, CheckVerdict::measure_again);
+  EXPECT_EQ(verdict(worn), CheckVerdict::measure_again);
 }
 
 /// Probabilities of the machine's possible changes, among these alone.
@@ -203,10 +198,9 @@ TEST(MapCheck, RepeatsOfAMarkEqualSingleReadings) {
   const MeasuredMachine& one = mapped();
   model::Machine machine = one.truth;
   machine.chain_zero.left_mm += 0.3;  // several hypotheses are left
-  Random random(kSeed);
   MeasuredGrid together;
-  for (int k = 0; k < 4; ++k) {
-    const MeasuredGrid again = five_points(machine, random);
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    const MeasuredGrid again = five_points(machine, kSeed + k);
     together.noise = again.noise;
     together.points.insert(together.points.end(), again.points.begin(), again.points.end());
   }
@@ -223,25 +217,24 @@ TEST(MapCheck, RepeatsOfAMarkEqualSingleReadings) {
 }
 
 TEST(MapCheck, RepeatsOfADistanceEqualSingleReadings) {
-  const auto made =
-      synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_holes(4));
-  const CompensationMap map = joint_fit(made->set)->map;
-  MeasuredHoles together = made->set;
-  MeasuredHoles mean = made->set;
+  const auto made = testing_support::cut_holes(4);
+  const CompensationMap map = joint_fit(made.set)->map;
+  MeasuredHoles together = made.set;
+  MeasuredHoles mean = made.set;
   Random random(23);
-  for (std::size_t k = 0; k < made->set.distances.size(); ++k) {
-    HoleDistance again = made->set.distances[k];
+  for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
+    HoleDistance again = made.set.distances[k];
     std::swap(again.from, again.to);
     again.distance_mm += 0.5 * random.normal();
     again.sigma_mm = 0.7;
     together.distances.push_back(again);
-    const double first = 1.0 / std::pow(sigma_of(made->set, made->set.distances[k]), 2);
+    const double first = 1.0 / std::pow(sigma_of(made.set, made.set.distances[k]), 2);
     const double second = 1.0 / std::pow(0.7, 2);
     HoleDistance& one = mean.distances[k];
     one.distance_mm = (first * one.distance_mm + second * again.distance_mm) / (first + second);
     one.sigma_mm = 1.0 / std::sqrt(first + second);
   }
-  ASSERT_EQ(check_map(map, together)->residuals.size(), made->set.distances.size());
+  ASSERT_EQ(check_map(map, together)->residuals.size(), made.set.distances.size());
   expect_equal(of_the_machine(map, {"together", together}),
                of_the_machine(map, {"mean", mean}),
                1e-9);  // rounding
@@ -250,7 +243,8 @@ TEST(MapCheck, RepeatsOfADistanceEqualSingleReadings) {
 /// Readings at marks of a displaced sheet.
 MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet,
                         const model::Machine& machine,
-                        Random& random) {
+                        std::uint64_t seed) {
+  Random random(seed);
   std::vector<MarkPoint> places;
   for (const MarkPoint& mark : kFive) {
     const model::BedPoint place = sheet.to_bed(mark);
@@ -263,9 +257,8 @@ MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet,
 }
 
 TEST(MapCheck, ASheetLaidAsideIsNoChangeOfTheMachine) {
-  Random random(31);
   SCOPED_TRACE("seed 31");
-  MeasuredGrid grid = on_a_sheet({10.0, 0.0, 0.005}, mapped().truth, random);
+  MeasuredGrid grid = on_a_sheet({10.0, 0.0, 0.005}, mapped().truth, 31);
   EXPECT_EQ(check_map(mapped().map, grid)->verdict, CheckVerdict::valid);
   // A sheet stated to lie exactly is assumed to do so.
   grid.sheet.reset();
@@ -273,16 +266,14 @@ TEST(MapCheck, ASheetLaidAsideIsNoChangeOfTheMachine) {
 }
 
 TEST(MapCheck, AChainThatSkippedAToothIsFoundOnASheetLaidAside) {
-  Random random(32);
   model::Machine skipped = mapped().truth;
   skipped.chain_zero.left_mm += 6.35;
-  const auto check = check_map(mapped().map, on_a_sheet({10.0, 0.0, 0.005}, skipped, random));
+  const auto check = check_map(mapped().map, on_a_sheet({10.0, 0.0, 0.005}, skipped, 32));
   EXPECT_EQ(check->verdict, CheckVerdict::valid_after_rezeroing) << "seed 32";
 }
 
 TEST(MapCheck, AHandLaidSheetWithZeroSigmasIsExact) {
-  Random random(33);
-  MeasuredGrid exact = five_points(mapped().truth, random);
+  MeasuredGrid exact = five_points(mapped().truth, 33);
   MeasuredGrid laid = exact;
   laid.sheet = SheetUncertainty{0.0, 0.0};
   // A sheet held to 1e-6 mm and 1e-9 rad against noise of 0.3 mm.
@@ -321,8 +312,7 @@ TEST(MapCheck, RemovesEffectsOfPaperAndVisit) {
 }
 
 TEST(MapCheck, ReportsAPointOffTheMap) {
-  Random random(2);
-  MeasuredGrid grid = five_points(mapped().truth, random);
+  MeasuredGrid grid = five_points(mapped().truth, 2);
   grid.points[0].mark = {5000.0, 0.0};
   const auto check = check_map(mapped().map, grid);
   ASSERT_FALSE(check);

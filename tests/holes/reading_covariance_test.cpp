@@ -7,14 +7,12 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 
 #include "grid/random.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
 
 Eigen::MatrixXd normal(Random& random, Eigen::Index rows, Eigen::Index cols) {
   return Eigen::MatrixXd::NullaryExpr(rows, cols, [&random] { return random.normal(); });

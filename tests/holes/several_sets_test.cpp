@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Several sets of one machine in one fit, and an unknown tape zero offset.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -15,10 +14,11 @@ namespace {
 
 using testing::HasSubstr;
 using testing_support::nine_holes;
+using testing_support::cut_holes;
 using testing_support::usual_holes;
 
 TEST(UnknownTapeZero, EachFileHasItsOffset) {
-  MeasuredHoles first = synthetic::simulate_holes(nine_holes(), usual_holes(8))->set;
+  MeasuredHoles first = cut_holes(8).set;
   first.tape.tape_zero_offset_sigma_mm = 5.0;
   MeasuredHoles second = first;
   for (HoleDistance& distance : second.distances) distance.distance_mm += 3.0;
@@ -30,15 +30,15 @@ TEST(UnknownTapeZero, EachFileHasItsOffset) {
 }
 
 TEST(JointFit, TwoSetsLowerTheError) {
-  const auto first = synthetic::simulate_holes(nine_holes(), usual_holes(8));
-  const auto second = synthetic::simulate_holes(nine_holes(), usual_holes(9), first->truth);
+  const auto first = cut_holes(8);
+  const auto second = synthetic::simulate_holes(nine_holes(), usual_holes(9), first.truth);
   const auto sigma_of_fit = [](const Measured& sets) {
     const auto fit = joint_fit(sets);
     return tool_sigma_mm(*sets.machine(), fit->estimate.knowledge.covariance) /
            fit->estimate.noise_factor;
   };
-  EXPECT_LT(sigma_of_fit({{"first", first->set}, {"second", second->set}}),
-            std::min(sigma_of_fit(first->set), sigma_of_fit(second->set)));
+  EXPECT_LT(sigma_of_fit({{"first", first.set}, {"second", second->set}}),
+            std::min(sigma_of_fit(first.set), sigma_of_fit(second->set)));
 }
 
 /// A session of 28 marks on the machine that cuts the holes.
@@ -109,7 +109,7 @@ TEST(SessionZeros, MapBelongsToTheFirstSession) {
 }
 
 TEST(SessionZeros, HolesShareTheMachinesZeros) {
-  const MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(6))->set;
+  const MeasuredHoles set = cut_holes(6).set;
   const auto fit = joint_fit({{"holes", set}, {"grid", marks_of(5)}, {"more", marks_of(7)}});
   ASSERT_TRUE(fit) << fit.error().sentence();
   EXPECT_FALSE(fit->estimate.observations[0].zeros);
@@ -118,11 +118,11 @@ TEST(SessionZeros, HolesShareTheMachinesZeros) {
 }
 
 TEST(UnknownTapeZero, AbsorbsAConstantAddedToEveryReading) {
-  auto made = synthetic::simulate_holes(nine_holes(), usual_holes(12));
-  made->set.tape.tape_zero_offset_sigma_mm = 1000.0;
-  const auto before = joint_fit(made->set);
-  for (HoleDistance& distance : made->set.distances) distance.distance_mm += 3.0;
-  const auto after = joint_fit(made->set);
+  auto made = cut_holes(12);
+  made.set.tape.tape_zero_offset_sigma_mm = 1000.0;
+  const auto before = joint_fit(made.set);
+  for (HoleDistance& distance : made.set.distances) distance.distance_mm += 3.0;
+  const auto after = joint_fit(made.set);
   ASSERT_TRUE(before && after);
   ASSERT_TRUE(before->distances.front().tape_zero);
   // An offset known to a metre is practically unknown: a millionth of the shift remains.
@@ -134,10 +134,10 @@ TEST(UnknownTapeZero, AbsorbsAConstantAddedToEveryReading) {
 }
 
 TEST(UnknownTapeZero, IsReportedIfNonzero) {
-  auto made = synthetic::simulate_holes(nine_holes(), usual_holes(14));
-  for (HoleDistance& distance : made->set.distances) distance.distance_mm += 4.0;
-  made->set.tape.tape_zero_offset_sigma_mm = 2.0;
-  const auto fit = joint_fit(made->set);
+  auto made = cut_holes(14);
+  for (HoleDistance& distance : made.set.distances) distance.distance_mm += 4.0;
+  made.set.tape.tape_zero_offset_sigma_mm = 2.0;
+  const auto fit = joint_fit(made.set);
   ASSERT_TRUE(fit);
   EXPECT_THAT(fit->map.contents().notes, testing::Contains(HasSubstr("Every tape distance reads")));
 }
@@ -146,10 +146,10 @@ TEST(UnknownTapeZero, IsReportedIfNonzero) {
 TEST(TapeZero, UnstatedIsRemovedAndReported) {
   for (const double zero_mm : {6.35, -5.0}) {
     SCOPED_TRACE(testing::Message() << zero_mm << " mm, seed 3");
-    auto made = synthetic::simulate_holes(nine_holes(), usual_holes(3));
-    const auto sound = joint_fit(made->set);
-    for (HoleDistance& distance : made->set.distances) distance.distance_mm += zero_mm;
-    const auto fit = joint_fit(made->set);
+    auto made = cut_holes(3);
+    const auto sound = joint_fit(made.set);
+    for (HoleDistance& distance : made.set.distances) distance.distance_mm += zero_mm;
+    const auto fit = joint_fit(made.set);
     ASSERT_TRUE(sound && fit);
     EXPECT_THAT(sound->map.contents().notes,
                 testing::Not(testing::Contains(HasSubstr("Every tape distance"))));

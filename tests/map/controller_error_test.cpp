@@ -8,6 +8,7 @@
 
 #include "grid/map/fit.hpp"
 #include "model/controllers/payout.hpp"
+#include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue::grid::misses {
 namespace {
@@ -39,12 +40,9 @@ struct Session {
     MeasuredGrid grid;
     grid.machine = file;
     grid.noise = StatedNoise{0.05, 0.05, 15.0};
-    for (int row = 0; row < 5; ++row) {
-      for (int column = 0; column < 9; ++column) {
-        const BedPoint command{-1080.0 + 270.0 * column, -510.0 + 255.0 * row};
-        const BedPoint mark = reached(command);
-        grid.points.push_back({{mark.x_mm, mark.y_mm}, std::nullopt, command, std::nullopt});
-      }
+    for (const BedPoint& command : testing_support::commands(9, 5)) {
+      const BedPoint mark = reached(command);
+      grid.points.push_back({{mark.x_mm, mark.y_mm}, std::nullopt, command, std::nullopt});
     }
     return grid;
   }

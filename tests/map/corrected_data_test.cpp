@@ -4,7 +4,6 @@
 #include "grid/map/corrected_data.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include "grid/map/fit.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "model/controllers/payout.hpp"
+#include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -20,12 +21,8 @@ MeasuredGrid grid_of_a_tool_that_hangs_low() {
   MeasuredGrid grid;
   grid.machine = machine;
   grid.noise = StatedNoise{0.1, 0.1, 15.0};
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 7; ++column) {
-      const model::BedPoint sent{-1080.0 + 360.0 * column, -510.0 + 340.0 * row};
-      grid.points.push_back({{sent.x_mm, sent.y_mm - kLowMm}, std::nullopt, sent, std::nullopt});
-    }
-  }
+  for (const model::BedPoint& sent : testing_support::commands(7, 4))
+    grid.points.push_back({{sent.x_mm, sent.y_mm - kLowMm}, std::nullopt, sent, std::nullopt});
   return grid;
 }
 

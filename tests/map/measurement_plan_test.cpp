@@ -4,11 +4,9 @@
 #include "grid/planning/measurement_plan.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "grid/observation/length_points.hpp"
 #include "interp/planner_nodes.hpp"

@@ -3,11 +3,11 @@
 #include "grid/map/settings_to_type.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "grid/map/fit.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/reading_model.hpp"
+#include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -42,15 +42,11 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   MeasuredGrid grid;
   grid.machine = machine;
   grid.noise = StatedNoise{0.1, 0.1, 15.0};
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 7; ++column) {
-      const model::BedPoint command{-1080.0 + 360.0 * column, -510.0 + 340.0 * row};
-      grid.points.push_back(
-          {model::identity_placement(*true_one->command(*answer->lengths(command))),
-           std::nullopt,
-           command,
-           std::nullopt});
-    }
+  for (const model::BedPoint& command : testing_support::commands(7, 4)) {
+    grid.points.push_back({model::identity_placement(*true_one->command(*answer->lengths(command))),
+                           std::nullopt,
+                           command,
+                           std::nullopt});
   }
   return grid;
 }
@@ -163,14 +159,11 @@ TEST(SettingsToType, EqualTheMachineOfTheMap) {
   grid.machine = imported_machine();
   grid.noise = StatedNoise{0.01, 0.01, 15.0};
   const auto chains = model::make_chain_mechanism(machine);
-  for (int row = 0; row < 5; ++row) {
-    for (int column = 0; column < 9; ++column) {
-      const model::BedPoint at{-1100.0 + 275.0 * column, -500.0 + 250.0 * row};
-      grid.points.push_back({model::identity_placement(at),
-                             *chains->first_lengths({at.x_mm, at.y_mm}),
-                             std::nullopt,
-                             std::nullopt});
-    }
+  for (const model::BedPoint& at : testing_support::commands(9, 5)) {
+    grid.points.push_back({model::identity_placement(at),
+                           *chains->first_lengths({at.x_mm, at.y_mm}),
+                           std::nullopt,
+                           std::nullopt});
   }
   const auto map = fit(grid);
   ASSERT_TRUE(map) << map.error().sentence();

@@ -7,9 +7,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <functional>
 #include <vector>
 
+#include "grid/files/map_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/synthetic/generator.hpp"
@@ -40,6 +40,16 @@ inline const grid::CompensationMap& sagging_map() {
   return map;
 }
 
+/// Commands over the bed but for its margin, row by row.
+inline std::vector<model::BedPoint> commands(int columns, int rows) {
+  std::vector<model::BedPoint> all;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column)
+      all.push_back({2160.0 * column / (columns - 1) - 1080.0, 1020.0 * row / (rows - 1) - 510.0});
+  }
+  return all;
+}
+
 /// Root mean square of a map's tool error, over a raster of the bed within the points.
 template <class Map>
 double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& answer) {
@@ -58,6 +68,21 @@ double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& 
     }
   }
   return std::sqrt(squares / count);
+}
+
+/// Its file is read as the same map and written again to the byte.
+inline void expect_round_trip(const grid::CompensationMap& map, double relative_sigma = 1e-6) {
+  const std::string text = grid::files::write_map(map);
+  const grid::CompensationMap read = grid::files::parse_map(text, "map.json");
+  EXPECT_EQ(grid::files::write_map(read), text);
+  for (const model::MarkPoint p : {model::MarkPoint{-700.0, 333.0}, {0.0, 0.0}, {1200.0, -600.0}}) {
+    const auto a = map.query(p), b = read.query(p);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (!a) continue;
+    EXPECT_EQ(a->lengths.left_mm, b->lengths.left_mm);
+    EXPECT_EQ(a->lengths.right_mm, b->lengths.right_mm);
+    EXPECT_NEAR(a->sigma.left_mm, b->sigma.left_mm, relative_sigma * a->sigma.left_mm);
+  }
 }
 
 /// For a map's lengths, at places within the points.

@@ -2,7 +2,6 @@
 // One map evaluated by many threads, and many fits at once: the same bits as sequentially.
 #include <gtest/gtest.h>
 
-#include <stdexcept>
 #include <vector>
 
 #include "grid/files/map_file.hpp"
@@ -16,9 +15,7 @@ namespace {
 constexpr int kThreads = 4;
 
 grid::MeasuredGrid session(std::uint64_t seed) {
-  auto made = grid::synthetic::generate(model::Machine{}, testing_support::usual_spec(seed));
-  if (!made) throw std::runtime_error("no session");
-  return made->grid;
+  return grid::synthetic::generate(model::Machine{}, testing_support::usual_spec(seed)).value().grid;
 }
 
 std::vector<double> answers(const grid::CompensationMap& map) {
