@@ -3,7 +3,6 @@
 /// The mutations and the checks.
 #include "tests/fuzz/gcode_fuzz.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "tests/gcode/formula_target.hpp"

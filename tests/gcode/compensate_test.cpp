@@ -2,24 +2,21 @@
 /// \file
 /// Compensated files, run on a simulated controller and machine, follow the intended path;
 /// uncompensated ones do not.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/gcode/compensated_program.hpp"
 #include "tests/gcode/corpus.hpp"
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/program_events.hpp"
-#include "tools/gcode/compensator.hpp"
-#include "tools/gcode/verifier.hpp"
+#include "tests/support/files.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -28,50 +25,6 @@ using testing_support::kCorpus;
 using testing_support::test_name;
 
 constexpr double kToleranceMm = 0.05;
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-struct Compensated {
-  std::string text;
-  CompensateSummary summary;
-  Findings findings;
-};
-
-Result<Compensated> compensate(const std::string& program,
-                               const Corrector& corrector,
-                               CompensateOptions options = {},
-                               Dialect dialect = {}) {
-  Compensated result;
-  Compensator compensator(
-      corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
-  auto source = LineSource::from_text(program);
-  const auto summary = compensator.run(source, dialect);
-  if (!summary) return tl::unexpected(summary.error());
-  result.summary = *summary;
-  result.findings = compensator.findings();
-  return result;
-}
-
-VerifySummary verified(const std::string& original,
-                       const std::string& run,
-                       const Corrector& corrector,
-                       VerifyOptions options,
-                       Dialect dialect = {}) {
-  auto a = LineSource::from_text(original);
-  auto b = LineSource::from_text(run);
-  const auto summary = verify(a, b, corrector, dialect, options);
-  if (!summary) {
-    ADD_FAILURE() << (summary.error().in_original ? "original: " : "output: ")
-                  << summary.error().problem.message();
-    return {};
-  }
-  return *summary;
-}
 
 /// Real files that LinuxCNC or this program refuses, that do not fit the bed, or that the output
 /// language cannot express; by name, since otherwise every test of this program would read all of
@@ -145,7 +98,7 @@ class RealFile : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
-  const std::string original = read(kCorpus / GetParam());
+  const std::string original = testing_support::read_text(kCorpus / GetParam());
   for (const NamedDisplacement& named : displacements()) {
     SCOPED_TRACE(named.name);
     const FormulaMap map(named.displacement);
@@ -171,7 +124,7 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
 }
 
 TEST_P(RealFile, IdentityKeepsIt) {
-  const std::string original = read(kCorpus / GetParam());
+  const std::string original = testing_support::read_text(kCorpus / GetParam());
   const FormulaMap map([](model::BedPoint) { return model::BedPoint{}; });
   const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
   CompensateOptions options;

@@ -3,47 +3,17 @@
 /// The number of commands, and play. What is not compensated: tests/cli/cases/gcode_programs.cases.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
+#include "tests/gcode/compensated_program.hpp"
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/program_events.hpp"
-#include "tools/gcode/compensator.hpp"
 #include "tools/gcode/simulated_machine.hpp"
-#include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode {
 namespace {
 
 const PlainKinematics kPlain;
-
-struct Outcome {
-  std::string text;
-  CompensateSummary summary;
-};
-
-Outcome compensate_within(const std::string& program, const Corrector& corrector, CompensateOptions options = {}) {
-  Outcome result;
-  Compensator compensator(
-      corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
-  auto source = LineSource::from_text(program);
-  const auto summary = compensator.run(source, {});
-  EXPECT_TRUE(summary) << summary.error().message();
-  EXPECT_EQ(compensator.findings().problem_count, 0U);
-  if (summary) result.summary = *summary;
-  return result;
-}
-
-VerifySummary verified_within(const std::string& original,
-                              const std::string& run,
-                              const Corrector& corrector,
-                              const VerifyOptions& options = {}) {
-  auto a = LineSource::from_text(original);
-  auto b = LineSource::from_text(run);
-  const auto summary = verify(a, b, corrector, {}, options);
-  EXPECT_TRUE(summary) << summary.error().problem.message();
-  return summary ? *summary : VerifySummary{};
-}
 
 TEST(SimulatedMachine, ReadsWordsInTheControllersPrecision) {
   const FormulaMap map(random_smooth_displacement(5));
@@ -95,9 +65,10 @@ TEST(Compensator, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
       ASSERT_GT(good, t);
       t = good;
     }
-    const auto outcome = compensate_within(program, corrector);
+    const auto outcome = compensate(program, corrector).value();
+    EXPECT_EQ(outcome.findings.problem_count, 0U);
     EXPECT_LE(static_cast<double>(outcome.summary.commands - 1), 1.5 * least) << "least " << least;
-    EXPECT_EQ(verified_within(program, outcome.text, corrector).fault, "");
+    EXPECT_EQ(verified(program, outcome.text, corrector).fault, "");
   }
 }
 
@@ -111,12 +82,12 @@ TEST(Compensator, TakesUpPlayWhereAChainReverses) {
       "Y-200 I100 J0\nG1 X300 Y-150\n";
   VerifyOptions verify_options;
   verify_options.half_play_mm = {0.25, 0.3};
-  const auto ignored = compensate_within(program, corrector);
-  EXPECT_GT(verified_within(program, ignored.text, corrector, verify_options).largest_mm(), 0.2);
+  const auto ignored = compensate(program, corrector).value();
+  EXPECT_GT(verified(program, ignored.text, corrector, verify_options).largest_mm(), 0.2);
   CompensateOptions options;
   options.half_play_mm = verify_options.half_play_mm;
-  const auto corrected = compensate_within(program, corrector, options);
-  EXPECT_EQ(verified_within(program, corrected.text, corrector, verify_options).fault, "");
+  const auto corrected = compensate(program, corrector, options).value();
+  EXPECT_EQ(verified(program, corrected.text, corrector, verify_options).fault, "");
 }
 
 }  // namespace

@@ -4,11 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
-#include <string_view>
 
 #include "tests/gcode/formula_target.hpp"
 
@@ -16,12 +13,9 @@ namespace chaintrue::gcode {
 namespace {
 
 /// 0.1 mm on the left half, 0.3 on the right; nothing was measured above 500 mm.
-class HalvesMap final : public grid::LengthMap {
+class HalvesMap final : public StubMap {
  public:
-  [[nodiscard]] std::span<const std::string_view> length_names() const override {
-    static constexpr std::array<std::string_view, 2> kNames = {"left", "right"};
-    return kNames;
-  }
+  HalvesMap() : StubMap({-1e4, 1e4, -1e4, 1e4}) {}
   [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint p) const override {
     return model::ChainLengths{p.x_mm, p.y_mm};
@@ -41,10 +35,6 @@ class HalvesMap final : public grid::LengthMap {
       model::ChainLengths l) const override {
     return model::BedPoint{l.left_mm, l.right_mm};
   }
-  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
-
- private:
-  interp::Rectangle domain_{-1e4, 1e4, -1e4, 1e4};
 };
 
 Move feed(Point from, Point to, std::size_t line) {

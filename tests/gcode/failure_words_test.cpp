@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why a machine cannot hold the tool is part of the message about the line.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "grid/map/compensation_map.hpp"
 #include "model/reading_model.hpp"
-#include "tools/gcode/corrector.hpp"
+#include "tests/gcode/stub_map.hpp"
 #include "tools/gcode/reports.hpp"
 
 namespace chaintrue::gcode {
@@ -16,29 +15,21 @@ using model::PoseReason;
 using ::testing::HasSubstr;
 
 /// A machine without any reachable position.
-class NoPose final : public grid::LengthMap {
+class NoPose final : public StubMap {
  public:
-  explicit NoPose(PoseReason why) : failure_(grid::unreachable(model::mechanism_failure(why))) {}
+  explicit NoPose(PoseReason why)
+      : StubMap({-1000.0, 1000.0, -500.0, 500.0}),
+        failure_(grid::unreachable(model::mechanism_failure(why))) {}
   [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint) const override {
     return tl::unexpected(failure_);
-  }
-  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
-      model::BedPoint) const override {
-    return tl::unexpected(failure_);
-  }
-  [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
-    return grid::MapStatus::inside;
   }
   [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
       model::ChainLengths) const override {
     return tl::unexpected(failure_);
   }
-  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
-  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
 
  private:
-  interp::Rectangle domain_{-1000.0, 1000.0, -500.0, 500.0};
   grid::MapFailure failure_;
 };
 

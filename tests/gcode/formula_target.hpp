@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/gcode/corrector.hpp"
+#include "tests/gcode/stub_map.hpp"
 
 namespace chaintrue::gcode {
 
@@ -30,10 +30,11 @@ class PlainKinematics final : public model::ControllerKinematics {
 };
 
 /// lengths(p) = p + displacement(p).
-class FormulaMap final : public grid::LengthMap {
+class FormulaMap final : public StubMap {
  public:
   using Displacement = std::function<model::BedPoint(model::BedPoint)>;
-  explicit FormulaMap(Displacement displacement) : displacement_(std::move(displacement)) {}
+  explicit FormulaMap(Displacement displacement)
+      : StubMap({-1400.0, 1400.0, -800.0, 800.0}), displacement_(std::move(displacement)) {}
 
   [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint p) const override {
@@ -41,16 +42,6 @@ class FormulaMap final : public grid::LengthMap {
       return tl::unexpected(grid::MapReason::outside_map);
     const model::BedPoint d = displacement_(p);
     return model::ChainLengths{p.x_mm + d.x_mm, p.y_mm + d.y_mm};
-  }
-  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
-      model::BedPoint p) const override {
-    const auto found = lengths(p);
-    if (!found) return tl::unexpected(found.error());
-    return grid::LengthsAnswer{
-        Eigen::Vector2d(found->left_mm, found->right_mm), {0.1, 0.1}, std::nullopt, status(p)};
-  }
-  [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
-    return grid::MapStatus::inside;
   }
   /// Fixed point: the displacement's gradient is a few percent, so 30 steps reach rounding.
   [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
@@ -65,11 +56,8 @@ class FormulaMap final : public grid::LengthMap {
     }
     return p;
   }
-  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
-  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
 
  private:
-  interp::Rectangle domain_{-1400.0, 1400.0, -800.0, 800.0};
   Displacement displacement_;
 };
 

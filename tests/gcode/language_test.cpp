@@ -3,7 +3,6 @@
 /// The language beyond fixtures/gcode/corpus: notes by name, and messages. Refusals, ends of lines and
 /// words: tests/cli/cases/gcode_programs.cases.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>

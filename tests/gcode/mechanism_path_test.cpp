@@ -4,12 +4,9 @@
 /// program does not.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "grid/map/mechanism_map.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
-#include "tools/gcode/compensator.hpp"
-#include "tools/gcode/verifier.hpp"
+#include "tests/gcode/compensated_program.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -45,30 +42,16 @@ TEST(MechanismPath, CompensatesAndVerifiesAStraightPathOfAnUnknownMechanism) {
   const Believes controller(model::ToyMechanism(-1000.0, 1200.0));
   const Corrector corrector(map, controller, firmware(model::ControllerKind::ideal));
   const std::string program = "G21 G90\nG0 X-300 Y-1000\nG1 X280 Y-1150 F1000\nM2\n";
-  std::string output;
-  Compensator compensator(
-      corrector, CompensateOptions{}, [&](std::string_view bytes) { output += bytes; });
-  auto source = LineSource::from_text(program);
-  const auto summary = compensator.run(source, {});
-  ASSERT_TRUE(summary) << summary.error().message();
-  EXPECT_TRUE(compensator.findings().problems.empty());
+  const auto output = compensate(program, corrector);
+  ASSERT_TRUE(output) << output.error().message();
+  EXPECT_TRUE(output->findings.problems.empty());
   // Nails that are 3 and 6 mm off move the tool by about as much.
-  EXPECT_GT(summary->largest_correction_mm, 1.0);
-
-  const auto holds = [&](const std::string& run) {
-    auto a = LineSource::from_text(program);
-    auto b = LineSource::from_text(run);
-    const auto verdict = verify(a, b, corrector, {}, {});
-    EXPECT_TRUE(verdict);
-    return verdict && verdict->holds();
-  };
-  EXPECT_TRUE(holds(output)) << output;
-  EXPECT_FALSE(holds(program));
-
-  auto far = LineSource::from_text("G21 G90\nG0 X-300 Y-1000\nG1 X2000 Y-1000 F1000\nM2\n");
-  Compensator refuses(corrector, CompensateOptions{}, [](std::string_view) {});
-  ASSERT_TRUE(refuses.run(far, {}));
-  EXPECT_FALSE(refuses.findings().problems.empty());
+  EXPECT_GT(output->summary.largest_correction_mm, 1.0);
+  EXPECT_TRUE(verified(program, output->text, corrector).holds()) << output->text;
+  EXPECT_FALSE(verified(program, program, corrector).holds());
+  const auto far = compensate("G21 G90\nG0 X-300 Y-1000\nG1 X2000 Y-1000 F1000\nM2\n", corrector);
+  ASSERT_TRUE(far);
+  EXPECT_FALSE(far->findings.problems.empty());
 }
 
 }  // namespace

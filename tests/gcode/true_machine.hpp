@@ -4,16 +4,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "tools/gcode/corrector.hpp"
+#include "tests/gcode/stub_map.hpp"
 
 namespace chaintrue::gcode::testing_support {
 
-class TrueMachine final : public grid::LengthMap {
+class TrueMachine final : public StubMap {
  public:
   explicit TrueMachine(const model::Machine& machine)
-      : kinematics_(model::make_controller_kinematics(machine)) {}
+      : StubMap({-1219.2, 1219.2, -609.6, 609.6}),
+        kinematics_(model::make_controller_kinematics(machine)) {}
 
   [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint point) const override {
@@ -21,27 +21,14 @@ class TrueMachine final : public grid::LengthMap {
     if (!found) return tl::unexpected(grid::MapReason::unreachable);
     return *found;
   }
-  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
-      model::BedPoint point) const override {
-    const auto found = lengths(point);
-    if (!found) return tl::unexpected(found.error());
-    return grid::LengthsAnswer{
-        Eigen::Vector2d(found->left_mm, found->right_mm), {}, std::nullopt, status(point)};
-  }
   [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
       model::ChainLengths lengths) const override {
     const auto found = kinematics_->command(lengths);
     if (!found) return tl::unexpected(grid::MapReason::unreachable);
     return *found;
   }
-  [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
-    return grid::MapStatus::inside;
-  }
-  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
-  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
 
  private:
-  interp::Rectangle domain_{-1219.2, 1219.2, -609.6, 609.6};
   std::unique_ptr<const model::ControllerKinematics> kinematics_;
 };
 

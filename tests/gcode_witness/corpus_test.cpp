@@ -3,7 +3,6 @@
 /// The corpus: our interpreter's moves and refusals compared with the stored answers of LinuxCNC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <map>
 #include <set>

@@ -3,7 +3,6 @@
 /// Compensated files on a simulated machine, checked by a follower that shares no code with
 /// tools/gcode; and that follower checked against LinuxCNC's stored moves and distances known in
 /// closed form.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -122,10 +122,5 @@ TEST(LinuxcncKinematics, OutsideTheTableBothDirectionsFail) {
   EXPECT_EQ(module.forward(nowhere, pose), -1);
 }
 
-TEST(LinuxcncKinematics, SameMapSameBytes) {
-  const MapInFrame map(sagging_map());
-  EXPECT_EQ(linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source, linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source);
-}
-
 }  // namespace
 }  // namespace chaintrue::grid::files

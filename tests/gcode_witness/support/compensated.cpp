@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/gcode_witness/support/compensated.hpp"
 
-#include <stdexcept>
-
 #include "grid/files/grid_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/map/map_for_settings.hpp"

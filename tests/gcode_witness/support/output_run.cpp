@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <map>
-#include <optional>
 #include <sstream>
 
 #include "tests/gcode_witness/follower/strict_reader.hpp"

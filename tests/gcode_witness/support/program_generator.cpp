@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/gcode_witness/support/program_generator.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "tests/gcode_witness/support/program_writer.hpp"
 

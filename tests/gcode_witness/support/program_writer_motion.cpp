@@ -3,7 +3,6 @@
 /// Lines, arcs, cycles.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
