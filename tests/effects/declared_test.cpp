@@ -2,7 +2,6 @@
 /// \file
 /// Declared effects: problems of a declaration, units of names, and variables of places.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "model/effects/catalogue.hpp"
 #include "model/effects/declared_effect.hpp"
@@ -141,62 +140,52 @@ TEST(DeclaredEffect, APlaceIsComparedWithTheOneVariableOfItsUnit) {
 }
 
 TEST(DeclaredEffect, ReportsItsErrors) {
-  EXPECT_EQ(own_problem([](Declaration& d) { d.id = "drift"; }),
-            "/id: drift: another name, because the catalogue has an effect with this one; to replace "
-            "it, use \"instead_of\"");
-  EXPECT_THAT(own_problem([](Declaration& d) { d.id = "Wave 2"; }),
-              HasSubstr("/id: Wave 2: a name of small letters"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.instead_of = "chain_sag"; }),
-              HasSubstr("because formulas cannot change the equilibrium"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.instead_of = "rust"; }),
-              HasSubstr("/instead_of: rust"));
-  EXPECT_EQ(own_problem([](Declaration& d) { d.sides = {EffectSide::x}; }),
-            "/sides/0: x: left, right or both, because it acts on a chain");
-  EXPECT_EQ(own_problem([](Declaration& d) { d.parameters[0].lower = 9.0; }),
-            "/parameters/0/lower: 9: a number below \"upper\"");
-  EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[0].nominal = 9.0; }),
-              HasSubstr("/parameters/0/nominal: 9"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[0].nominal = 0.0; }),
-              HasSubstr("not the value without effect"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[0].prior_sigma = 0.0; }),
-              HasSubstr("above 0"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[1].name = "turn"; }),
-              HasSubstr("nothing else in the formula has"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.parameters[1].name = "phase_deg"; }),
-              HasSubstr("a name that ends in a unit"));
-  EXPECT_THAT(own_problem([](Declaration& d) {
-                d.parameters[1].role = ParameterRole::size;
-                d.parameters[1].null = -1.0;
-              }),
-              HasSubstr("one size and at most one place"));
-  EXPECT_THAT(own_problem([](Declaration& d) {
-                d.parameters[0].integer = true;
-                d.parameters[0].nominal = 1.0;
-              }),
-              HasSubstr("uses whole numbers"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.parameters.clear(); }), HasSubstr("0 parameters"));
-  EXPECT_EQ(own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * L0 / turn"; }),
-            "/parameters/1/name: phase_rad: a parameter that the formula uses, or none");
-  EXPECT_EQ(own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * sin(phase)"; }),
-            "/adds_mm@19: phase: a name that this formula may use: amplitude_mm, phase_rad, phi, "
-            "S, L0, T, H, x, y, turn, pitch, r, d, side, mm, N, pi");
-  EXPECT_EQ(own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * T * sin(phase_rad)"; }),
-            "/adds_mm@0: a formula in mm N: one whose units come out as mm");
-  EXPECT_THAT(
-      own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * d * sin(phi + phase_rad)"; }),
-      HasSubstr("d with parameters only"));
-  EXPECT_THAT(own_problem([](Declaration& d) { d.adds_mm = ""; }),
-              HasSubstr("no formula: \"adds_mm\" or \"elongation\""));
-  EXPECT_THAT(own_problem([](Declaration& d) {
-                d.adds_x_mm = "amplitude_mm";
-                d.adds_mm = "";
-              }),
-              HasSubstr("it acts on a chain"));
-  EXPECT_THAT(own_problem([](Declaration& d) {
-                d.acts_on = ActsOn::visit;
-                d.adds_mm = "amplitude_mm";
-              }),
-              HasSubstr("the number of the visit"));
+  const std::pair<std::function<void(Declaration&)>, const char*> slips[] = {
+      {[](Declaration& d) { d.id = "drift"; },
+       "/id: drift: another name, because the catalogue has an effect with this one; to replace "
+       "it, use \"instead_of\""},
+      {[](Declaration& d) { d.id = "Wave 2"; },
+       "/id: Wave 2: a name of small letters"},
+      {[](Declaration& d) { d.instead_of = "chain_sag"; },
+       "because formulas cannot change the equilibrium"},
+      {[](Declaration& d) { d.instead_of = "rust"; },
+       "/instead_of: rust"},
+      {[](Declaration& d) { d.sides = {EffectSide::x}; },
+       "/sides/0: x: left, right or both, because it acts on a chain"},
+      {[](Declaration& d) { d.parameters[0].lower = 9.0; },
+       "/parameters/0/lower: 9: a number below \"upper\""},
+      {[](Declaration& d) { d.parameters[0].nominal = 9.0; },
+       "/parameters/0/nominal: 9"},
+      {[](Declaration& d) { d.parameters[0].nominal = 0.0; },
+       "not the value without effect"},
+      {[](Declaration& d) { d.parameters[0].prior_sigma = 0.0; },
+       "above 0"},
+      {[](Declaration& d) { d.parameters[1].name = "turn"; },
+       "nothing else in the formula has"},
+      {[](Declaration& d) { d.parameters[1].name = "phase_deg"; },
+       "a name that ends in a unit"},
+      {[](Declaration& d) { d.parameters[1].role = ParameterRole::size; d.parameters[1].null = -1.0; },
+       "one size and at most one place"},
+      {[](Declaration& d) { d.parameters[0].integer = true; d.parameters[0].nominal = 1.0; },
+       "uses whole numbers"},
+      {[](Declaration& d) { d.parameters.clear(); },
+       "0 parameters"},
+      {[](Declaration& d) { d.adds_mm = "amplitude_mm * L0 / turn"; },
+       "/parameters/1/name: phase_rad: a parameter that the formula uses, or none"},
+      {[](Declaration& d) { d.adds_mm = "amplitude_mm * sin(phase)"; },
+       "/adds_mm@19: phase: a name that this formula may use: amplitude_mm, phase_rad, phi, "
+       "S, L0, T, H, x, y, turn, pitch, r, d, side, mm, N, pi"},
+      {[](Declaration& d) { d.adds_mm = "amplitude_mm * T * sin(phase_rad)"; },
+       "/adds_mm@0: a formula in mm N: one whose units come out as mm"},
+      {[](Declaration& d) { d.adds_mm = "amplitude_mm * d * sin(phi + phase_rad)"; },
+       "d with parameters only"},
+      {[](Declaration& d) { d.adds_mm = ""; },
+       "no formula: \"adds_mm\" or \"elongation\""},
+      {[](Declaration& d) { d.adds_x_mm = "amplitude_mm"; d.adds_mm = ""; },
+       "it acts on a chain"},
+      {[](Declaration& d) { d.acts_on = ActsOn::visit; d.adds_mm = "amplitude_mm"; },
+       "the number of the visit"}};
+  for (const auto& [change, words] : slips) EXPECT_THAT(own_problem(change), HasSubstr(words));
 }
 
 TEST(DeclaredEffect, ReportsWhereItIsNotFinite) {

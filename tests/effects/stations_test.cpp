@@ -3,7 +3,6 @@
 /// Each equation of the catalogue, recomputed here from the equilibrium; their order; the rules of
 /// hysteresis.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -54,15 +53,15 @@ Pose pose_at(const EquilibriumParameters& parameters, BedPoint p) {
 }
 
 TEST(MarkFrame, ScalesAndSkewsMarks) {
-  const MarkFrame x_long(machine_with({{"tape_scale", "x", {{"scale", 0.001}}}}));
-  EXPECT_NEAR(x_long.written({1000.0, 500.0}).x_mm, 1001.0, kRoundingMm);
-  EXPECT_NEAR(x_long.written({1000.0, 500.0}).y_mm, 500.0, kRoundingMm);
-  const MarkFrame y_short(machine_with({{"tape_scale", "y", {{"scale", -0.001}}}}));
-  EXPECT_NEAR(y_short.written({1000.0, 500.0}).x_mm, 1000.0, kRoundingMm);
-  EXPECT_NEAR(y_short.written({1000.0, 500.0}).y_mm, 499.5, kRoundingMm);
-  const MarkFrame skewed(machine_with({{"axes_skew", "", {{"angle_rad", 0.002}}}}));
-  EXPECT_NEAR(skewed.written({1000.0, 500.0}).x_mm, 1001.0, kRoundingMm);
-  EXPECT_NEAR(skewed.written({1000.0, 500.0}).y_mm, 500.0, kRoundingMm);
+  for (const auto& [effect, x_mm, y_mm] :
+       {std::tuple(AppliedEffect{"tape_scale", "x", {{"scale", 0.001}}}, 1001.0, 500.0),
+        {AppliedEffect{"tape_scale", "y", {{"scale", -0.001}}}, 1000.0, 499.5},
+        {AppliedEffect{"axes_skew", "", {{"angle_rad", 0.002}}}, 1001.0, 500.0}}) {
+    SCOPED_TRACE(effect.effect + effect.side);
+    const MarkPoint written = MarkFrame(machine_with({effect})).written({1000.0, 500.0});
+    EXPECT_NEAR(written.x_mm, x_mm, kRoundingMm);
+    EXPECT_NEAR(written.y_mm, y_mm, kRoundingMm);
+  }
 }
 
 TEST(MarkFrame, ScalesBeforeItSkews) {
