@@ -48,7 +48,7 @@ TEST(ProgressState, ReportsShareAndTimeLeft) {
   EXPECT_EQ(state.words(),
             "sweep: 11 s, where the holes are cut, pass 3, 100 % done, about 0 s left");
   state.note({"settings", 1, 1, -1.0, 4});
-  EXPECT_EQ(state.words(), "sweep: 11 s, settings, pass 4 until it settles");
+  EXPECT_EQ(state.words(), "sweep: 11 s, settings, pass 4 until it converges");
 }
 
 /// Everything that was written to it.
