@@ -10,24 +10,20 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-# Programs of random sets and long loops: tried when no other has failed.
-LATE = re.compile(r"sealed|planted|slips|torture|generator|inputs")
 MOST_CASES = 400  # in one filter: a command line is finite
 
 
 class Entry(NamedTuple):
-    """A line of ctest's list: a test program, a shard or a case of it, or another command."""
+    """A line of ctest's list: a part of a test program, or another command."""
     name: str
     command: list
     environment: dict
     folder: str
     cases: list  # Suite.Name of each; empty: not a GoogleTest program
 
-
-class Program(NamedTuple):
-    path: str
-    name: str
-    entries: list
+    @property
+    def program(self):
+        return Path(self.command[0]).name
 
 
 class Failure(NamedTuple):
@@ -84,40 +80,20 @@ class Suite:
         self.seconds = {}      # of each command that passed
         listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, check=True,
                                 capture_output=True, text=True, errors="replace").stdout
-        self.programs = self._grouped(json.loads(listed)["tests"])
+        self.entries = [self._entry(test) for test in json.loads(listed)["tests"]
+                        if "command" in test and not _properties(test).get("DISABLED")]
 
-    def _grouped(self, tests):
-        programs = {}
-        for test in tests:
-            properties = _properties(test)
-            if "command" not in test or properties.get("DISABLED"):
-                continue
-            path = test["command"][0]
-            is_program = str(self.build / "tests") in path
-            key = path if is_program else test["name"]
-            programs.setdefault(key, []).append((test, properties))
-        return [Program(key, Path(key).name if key.startswith("/") else key, self._entries(of))
-                for key, of in programs.items()]
-
-    def _entries(self, tests):
-        single = [re.match(r"--gtest_filter=([\w/.]+)$", " ".join(test["command"][1:2]))
-                  for test, _ in tests]
-        folder = tests[0][1].get("WORKING_DIRECTORY", str(self.build))
-        if len(tests) > 1 and all(single):  # one entry a case: the program as a whole
-            path = tests[0][0]["command"][0]
-            return [Entry(Path(path).name, [path], {}, folder, [m.group(1) for m in single])]
-        entries = []
-        for test, properties in tests:
-            environment = dict(v.split("=", 1) for v in properties.get("ENVIRONMENT", []))
-            folder = properties.get("WORKING_DIRECTORY", str(self.build))
-            command = test["command"]
-            in_tests = str(self.build / "tests") in command[0]
-            cases = _cases_of(command, os.environ | environment, folder) if in_tests else []
-            if not cases:  # ctest knows what a pass is
-                command = ["ctest", "--test-dir", str(self.build), "-R",
-                           "^" + re.escape(test["name"]) + "$", "--output-on-failure"]
-            entries.append(Entry(test["name"], command, environment, folder, cases))
-        return entries
+    def _entry(self, test):
+        properties = _properties(test)
+        environment = dict(v.split("=", 1) for v in properties.get("ENVIRONMENT", []))
+        folder = properties.get("WORKING_DIRECTORY", str(self.build))
+        command = test["command"]
+        in_tests = str(self.build / "tests") in command[0]
+        cases = _cases_of(command, os.environ | environment, folder) if in_tests else []
+        if not cases:  # ctest knows what a pass is
+            command = ["ctest", "--test-dir", str(self.build), "-R",
+                       "^" + re.escape(test["name"]) + "$", "--output-on-failure"]
+        return Entry(test["name"], command, environment, folder, cases)
 
     def first_failure(self, fault, folder, tell):
         """The first test that fails with a fault and passes without; None if all pass."""
@@ -136,25 +112,19 @@ class Suite:
         return None
 
     def _order(self, fault, folder):
-        """Tests named like the fault, then programs: those of the folder, the others, the late."""
+        """Tests named like the fault, then all: those of the folder first."""
         near = re.compile(fault.near, re.IGNORECASE)
-        entries = [(program, entry) for program in self.programs for entry in program.entries]
-        for program, entry in sorted(entries, key=lambda e: self._rank(e, folder)):
-            if LATE.search(program.name):
-                continue
-            cases = [c for c in entry.cases if near.search(f"{program.name}/{entry.name}/{c}")][:MOST_CASES]
-            if cases:
+        entries = sorted(self.entries, key=lambda entry: self._rank(entry, folder))
+        for entry in entries:
+            cases = [c for c in entry.cases if near.search(f"{entry.program}/{entry.name}/{c}")][:MOST_CASES]
+            if cases or not entry.cases and near.search(entry.name):
                 yield entry, cases
-            elif not entry.cases and near.search(entry.name):
-                yield entry, []
-        for program, entry in sorted(entries, key=lambda e: self._rank(e, folder)):
+        for entry in entries:
             yield entry, entry.cases
 
-    def _rank(self, item, folder):
-        program, entry = item
+    def _rank(self, entry, folder):
         is_near = any(word in entry.name for word in folder)
-        is_late = bool(LATE.search(program.name))
-        return (is_late, not entry.cases, not is_near, self.seconds.get(entry.name, 60.0))
+        return (not entry.cases, not is_near, self.seconds.get(entry.name, 60.0))
 
     def _is_caught(self, failure, fault):
         """Whether a test fails alone with the fault again, and passes without."""
@@ -173,7 +143,7 @@ class Suite:
         if fault:
             environment["CHAINTRUE_MUTANT"] = fault
             left_out = left_out | self.excluded
-        program = Path(entry.command[0]).name
+        program = entry.program
         skipped = [t[len(program) + 1:] for t in left_out if t.startswith(program + "/")]
         if entry.name in left_out or (cases and set(cases) <= set(skipped)):
             return None
