@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 
 namespace chaintrue::sealed::firmware {
 namespace {
@@ -34,11 +33,6 @@ TEST(FirmwareAnchors, ExactSpansGiveTheFrameBack) {
     EXPECT_NEAR(found.anchors[j][1], kAnchors[j][1], kConvergedMm);
   }
   for (const double off : lower_off_mm(found, exact_spans())) EXPECT_NEAR(off, 0.0, kConvergedMm);
-}
-
-TEST(FirmwareAnchors, RefuseFewerThanFivePlaces) {
-  EXPECT_THROW((void)firmware_anchors(std::vector<Spans>(4)),
-               std::invalid_argument);
 }
 
 }  // namespace

@@ -55,57 +55,11 @@ Road road_of(std::vector<Hidden> hidden,
   return {std::move(set), *std::move(plain), *std::move(own)};
 }
 
-TEST(Road, FindingWearAndBeamFlexLowersTheError) {
-  double plain_mm2 = 0.0;
-  double own_mm2 = 0.0;
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const Road road = road_of({{Cause::chain_pitch_error, Where::left, 0.0015},
-                               {Cause::beam_flex, Where::nowhere, 0.012}},
-                              60,
-                              seed);
-    EXPECT_THAT(road.own.built_on, Not(IsEmpty())) << "seed " << seed;
-    plain_mm2 += std::pow(road.plain_mm(), 2);
-    own_mm2 += std::pow(road.own_mm(), 2);
-  }
-  EXPECT_LT(own_mm2, plain_mm2);
-}
-
-TEST(Road, ASkippedToothIsRemovedFromTheReadings) {
-  for (const std::uint64_t seed : {1, 2}) {
-    const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
-    ASSERT_THAT(road.own.built_on, SizeIs(1)) << "seed " << seed;
-    EXPECT_EQ(road.own.built_on.front().cause.effect->id, "tooth_skip");
-    // A map of 34 readings of 0.4 mm is accurate to some 0.25 mm; 0.5 is twice that.
-    EXPECT_LT(road.own_mm(), 0.5) << "seed " << seed;
-    EXPECT_GT(road.plain_mm(), 1.0) << "seed " << seed;
-  }
-}
-
 /// The list of start with a zero that moves during the session.
 generator::SealedSet set_of_start(const Hidden& hidden, std::uint64_t seed) {
   generator::Recipe recipe = recipe_of_start();
   recipe.exactly = {hidden};
   return generator::draw_set(recipe, seed);
-}
-
-TEST(Road, ASessionWithAnotherZeroDoesNotPullTheMap) {
-  generator::Recipe recipe = recipe_of_start();
-  recipe.kind = generator::Mix::nothing;
-  for (const std::uint64_t seed : {1, 2}) {
-    const generator::SealedSet set = generator::draw_set(recipe, seed);
-    const auto first = grid::files::parse_grid(set.grid_text, "first.json").grid;
-    const auto second = grid::files::parse_grid(another_session(set, 5.0, seed), "second.json").grid;
-    const auto alone = grid::joint_fit(first);
-    const auto both = grid::joint_fit({{"first", first}, {"second", second}});
-    ASSERT_TRUE(alone && both);
-    const auto of_alone = map_errors(set, alone->map);
-    const auto of_both = map_errors(set, both->map);
-    ASSERT_TRUE(of_alone && of_both);
-    // Over 400 places of one map true and stated differ by chance, which has some seven free
-    // directions: 1.8 is beyond 2 in 1000 of them.
-    EXPECT_LT(of_both->true_rms_mm, 1.8 * of_both->stated_rms_mm);
-    EXPECT_LT(of_both->true_rms_mm, 0.5) << "5 mm moved";
-  }
 }
 
 TEST(Road, AnEventOfOneSessionIsRemovedFromThatSession) {
@@ -194,19 +148,6 @@ TEST(Road, AnUncorrectedCauseEntersTheExpectedError) {
   EXPECT_GT(open, 0) << "drift looks like other causes where marks are visited in rows";
 }
 
-// The fit treats a skipped tooth as noise: it expected 0.7 mm when the tool was 4 mm off.
-TEST(Road, OmittedNumbersAreReportedIfTheyContradictTheFit) {
-  for (const std::uint64_t seed : {1, 2}) {
-    const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
-    const grid::MapContents& plain = road.plain.map.contents();
-    EXPECT_THAT(plain.notes, ::testing::Contains(::testing::HasSubstr("The larger number is reported")));
-    // Noise of 0.2 mm in a chain and 0.3 mm in each coordinate is below 0.3 mm^2 at the tool.
-    EXPECT_GT(plain.accuracy.expected_tool.rms_mm,
-              std::sqrt(std::pow(plain.accuracy.blocked.tool.rms_mm, 2) - 0.3))
-        << "seed " << seed;
-  }
-}
-
 TEST(Road, APossibleTapeErrorIsOfferedForDecision) {
   const std::vector<Hidden> both = {{Cause::chain_pitch_error, Where::both, 0.002}};
   const Road asked = road_of(both, 60, 1);
@@ -219,45 +160,6 @@ TEST(Road, APossibleTapeErrorIsOfferedForDecision) {
   const Road accepted = road_of(both, 60, 1, true);
   for (const OfferedCause& offered : accepted.own.offered)
     EXPECT_EQ(offered.reason, OfferedCause::Reason::gains_nothing);
-}
-
-TEST(Road, ATapeErrorAlongOneAxisChangesNoMap) {
-  const Road road = road_of({{Cause::tape_scale, Where::x, 0.0015}}, 60, 1);
-  EXPECT_THAT(road.own.built_on, IsEmpty());
-  ASSERT_THAT(road.own.offered, Not(IsEmpty()));
-  EXPECT_EQ(road.own.offered.front().reason, OfferedCause::Reason::is_paper);
-}
-
-TEST(Road, SigmasAreMultipliedOutsideThePointsOnly) {
-  generator::Recipe recipe;
-  recipe.points = 60;
-  recipe.kind = generator::Mix::nothing;
-  recipe.extent = generator::Extent::left_side;
-  const generator::SealedSet set = generator::draw_set(recipe, 1);
-  const auto plain =
-      grid::joint_fit(grid::Measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid));
-  ASSERT_TRUE(plain) << plain.error().sentence();
-  constexpr double kFactor = 1.5;
-  // Both as their files have them, which round.
-  const auto filed = [](const grid::CompensationMap& map) {
-    return grid::files::parse_map(grid::files::write_map(map), "map.json");
-  };
-  const grid::CompensationMap one = filed(plain->map);
-  const grid::CompensationMap map = filed(plain->map.with_sigma_beyond(kFactor));
-  const interp::Rectangle& domain = map.contents().domain;
-  int beyond = 0;
-  for (double share = 0.0; share <= 1.0; share += 0.05) {
-    const model::MarkPoint mark{domain.x_min + share * domain.width(), 0.0};
-    const auto before = one.query(mark);
-    const auto after = map.query(mark);
-    ASSERT_TRUE(before && after) << share;
-    const bool is_beyond = after->status == grid::MapStatus::extrapolated;
-    beyond += is_beyond ? 1 : 0;
-    // The factor is squared and a root taken: rounding.
-    EXPECT_NEAR(after->tool_sigma_mm / before->tool_sigma_mm, is_beyond ? kFactor : 1.0, 1e-12)
-        << share;
-  }
-  EXPECT_GT(beyond, 0);
 }
 
 }  // namespace

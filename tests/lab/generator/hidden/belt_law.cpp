@@ -13,12 +13,12 @@ constexpr double kTurnMm = 43.975;
 
 }  // namespace
 
-PatternSite site_of(const BeltFrame& frame,
+Site site_of(const BeltFrame& frame,
                     std::size_t belt,
                     const std::array<double, 2>& place,
                     double length_mm) {
   const auto& anchor = frame.anchors[belt];
-  PatternSite site{{place[0], place[1]}, {}, {}};
+  Site site{{place[0], place[1]}, {}, {}};
   site.angle_rad[belt] = std::atan2(std::abs(place[1] - anchor[1]), std::abs(place[0] - anchor[0]));
   site.length_mm[belt] = length_mm;
   return site;

@@ -29,9 +29,9 @@ inline constexpr std::size_t kBeltLawsOfOne = 6;
                                        const std::vector<std::array<double, 2>>& places,
                                        Dice& dice);
 /// The argument of a law in this belt, at a position and the belt's length there.
-[[nodiscard]] PatternSite site_of(const BeltFrame& frame,
-                                  std::size_t belt,
-                                  const std::array<double, 2>& place,
-                                  double length_mm);
+[[nodiscard]] Site site_of(const BeltFrame& frame,
+                           std::size_t belt,
+                           const std::array<double, 2>& place,
+                           double length_mm);
 
 }  // namespace chaintrue::generator

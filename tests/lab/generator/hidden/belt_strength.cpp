@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/hidden/belt_strength.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 namespace chaintrue::generator {
@@ -31,15 +30,14 @@ AnchorProjection::AnchorProjection(const BeltFrame& frame,
       if (i == 3) design(row, 4) = -ux;
     }
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design);
-  taken_ = qr.householderQ() * Eigen::MatrixXd::Identity(design.rows(), design.cols());
+  taken_ = Projection(design);
 }
 
 Eigen::VectorXd AnchorProjection::left_of(const std::vector<FourLengths>& change) const {
   Eigen::VectorXd off(4 * static_cast<Eigen::Index>(change.size()));
   for (Eigen::Index k = 0; k < off.size(); ++k)
     off(k) = change[static_cast<std::size_t>(k / 4)][static_cast<std::size_t>(k % 4)];
-  return off - taken_ * (taken_.transpose() * off);
+  return taken_.left_of(off);
 }
 
 }  // namespace chaintrue::generator

@@ -4,11 +4,11 @@
 /// coordinates and the position of each point.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
 #include "generator/hidden/belts.hpp"
+#include "generator/hidden/strength.hpp"
 
 namespace chaintrue::generator {
 
@@ -22,7 +22,7 @@ class AnchorProjection {
   [[nodiscard]] Eigen::VectorXd left_of(const std::vector<FourLengths>& change) const;
 
  private:
-  Eigen::MatrixXd taken_;  ///< orthonormal columns
+  Projection taken_;
 };
 
 }  // namespace chaintrue::generator

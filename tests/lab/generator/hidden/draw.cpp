@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "generator/hidden/grid_text.hpp"
+#include "generator/hidden/unlisted.hpp"
 
 namespace chaintrue::generator {
 namespace {
@@ -16,25 +17,6 @@ namespace {
 /// sets stay what they are.
 constexpr std::size_t kDrawn = kCauses - 1;
 
-constexpr std::pair<Mix, std::string_view> kMixes[] = {
-    {Mix::single, "single"},
-    {Mix::nothing, "nothing"},
-    {Mix::heavy, "heavy"},
-    {Mix::wrong_noise, "wrong_noise"},
-    {Mix::uneven_noise, "uneven_noise"},
-    {Mix::two, "two"},
-    {Mix::three, "three"},
-    {Mix::unlisted, "unlisted"},
-    {Mix::bad_points, "bad_points"},
-    {Mix::bad_points_and_effect, "bad_points_and_effect"},
-    {Mix::no_order, "no_order"},
-    {Mix::rounded, "rounded"},
-    {Mix::alongside, "beside"},
-    {Mix::two_alongside, "two_beside"},
-    {Mix::pattern, "pattern"},
-    {Mix::near, "near"},
-};
-
 /// Interval of delta, drawn log-uniformly.
 struct Range {
   double from = 6.0;
@@ -42,7 +24,7 @@ struct Range {
 };
 
 TrueMachine stated_machine(const Recipe& recipe, Dice& dice) {
-  TrueMachine m = recipe.machine.value_or(TrueMachine{});
+  TrueMachine m;
   if (!recipe.other_machines) return m;
   const double half = std::round(dice.uniform(1400.0, 1750.0));
   const double up = std::round(dice.uniform(1000.0, 1350.0));
@@ -200,22 +182,23 @@ bool is_separable(const Yardstick& yardstick, const SizedEffect& truth) {
 }
 
 // Scaled so that the part not explained by the catalogue has a delta of 10 to 20.
-void draw_unlisted(const Yardstick& yardstick, Answer& answer, Dice& dice) {
+Disturbance draw_unlisted(const Yardstick& yardstick, double& left_over_delta, Dice& dice) {
   const auto rivals = yardstick.rivals();
   for (int n = 0; n < 200; ++n) {
-    Unlisted u = draw_oddity(static_cast<Oddity>(dice.below(kOddities)), dice);
-    std::vector<Vec2> shifts;
-    for (const Visit& v : yardstick.visits()) shifts.push_back(shift(u, v.place));
-    const Signature s = yardstick.signature_of_shifts(shifts);
-    const double whole = s.norm(), left = unexplained(s, rivals);
+    const auto shift = draw_oddity(dice);
+    const auto of_size = [&](double mm) {
+      return Disturbance{true, [=](const Site& site) {
+                           const Vec2 own = shift(site.place);
+                           return Vec2{mm * own.x, mm * own.y};
+                         }};
+    };
+    const double left = unexplained(yardstick.signature_of(of_size(1.0)), rivals);
     if (!(left > 1e-3)) continue;
-    u.size_mm = dice.log_uniform(10.0, 20.0) / left;
+    const double size_mm = dice.log_uniform(10.0, 20.0) / left;
     // A larger size would be noticed.
-    if (u.size_mm > 12.0) continue;
-    answer.unlisted = u;
-    answer.left_over_delta = left * u.size_mm;
-    answer.whole_delta = whole * u.size_mm;
-    return;
+    if (size_mm > 12.0) continue;
+    left_over_delta = left * size_mm;
+    return of_size(size_mm);
   }
   throw std::runtime_error("draw_unlisted: nothing fits");
 }
@@ -237,29 +220,16 @@ std::vector<HiddenMachine::Note> written_down(const Recipe& recipe,
                                               const std::vector<Hidden>& hidden,
                                               NoiseLevel noise,
                                               Dice& dice) {
-  const bool heavy = recipe.kind == Mix::heavy;
-  const double towards = dice.uniform(-std::numbers::pi, std::numbers::pi);
-  const auto draw = [&] { return heavy ? dice.heavy_tailed() : dice.normal(); };
-  const auto rounded = [&](double value) {
-    return recipe.kind == Mix::rounded ? 0.5 * std::round(2.0 * value) : value;
-  };
+  (void)dice.uniform();  // keeps the frozen sets as they are
+  const auto draw = [&] { return recipe.kind == Mix::heavy ? dice.heavy_tailed() : dice.normal(); };
   std::vector<HiddenMachine::Note> notes;
   for (std::size_t i = 0; i < visits.size(); ++i) {
-    const Vec2 p = visits[i].place;
-    double factor = 1.0;
-    if (recipe.kind == Mix::uneven_noise) {
-      const double along = (p.x / 1200.0 * std::cos(towards) + p.y / 600.0 * std::sin(towards)) /
-                           std::numbers::sqrt2;
-      factor = 1.0 + 2.0 * std::max(0.0, along);
-    }
-    const Vec2 mark = written(p, hidden);
+    const Vec2 mark = written(visits[i].place, hidden);
     HiddenMachine::Note note;
     note.number = visits[i].number;
-    note.mark.x = rounded(mark.x + factor * noise.position_mm * draw());
-    note.mark.y = rounded(mark.y + factor * noise.position_mm * draw());
-    for (std::size_t c = 0; c < 2; ++c) {
-      note.lengths[c] = rounded(exact[i][c] + factor * noise.length_mm * draw());
-    }
+    note.mark.x = mark.x + noise.position_mm * draw();
+    note.mark.y = mark.y + noise.position_mm * draw();
+    for (std::size_t c = 0; c < 2; ++c) note.lengths[c] = exact[i][c] + noise.length_mm * draw();
     notes.push_back(note);
   }
   return notes;
@@ -287,8 +257,6 @@ void slip(std::vector<HiddenMachine::Note>& notes, Answer& answer, Dice& dice) {
 std::size_t effects_in(Mix mix) {
   switch (mix) {
     case Mix::single:
-    case Mix::no_order:
-    case Mix::rounded:
     case Mix::bad_points_and_effect:
     case Mix::alongside:
       return 1;
@@ -364,8 +332,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   Answer answer;
   const auto drawn_order = static_cast<Order>(order_dice.below(kOrders));
   answer.order = recipe.order.value_or(drawn_order);
-  Layout layout = layout_of(recipe.points);
-  layout.extent = recipe.extent;
+  const Layout layout = layout_of(recipe.points);
   const auto visits = true_visits(
       recipe.list_of_start ? list_of_start() : plan_visits(layout, answer.order, order_dice),
       place_dice);
@@ -391,21 +358,20 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
     }
     answer.separable = is_separable(*yardstick, effects.front());
   }
-  if (recipe.kind == Mix::unlisted) draw_unlisted(*yardstick, answer, effect_dice);
+  HiddenMachine machine(stated, truth, answer.hidden);
+  if (recipe.kind == Mix::unlisted) machine.suffers(draw_unlisted(*yardstick, answer.left_over_delta, effect_dice));
   if (has_pattern(recipe.kind)) {
     Dice pattern_dice(seed, "pattern");
     answer.pattern = draw_pattern(*yardstick, rules_of(recipe), signatures, pattern_dice);
+    machine.suffers(answer.pattern->disturbance);
   }
 
   if (recipe.law) {
     Dice law_dice(seed, "law");
     answer.law = draw_law(*yardstick, *recipe.law, law_dice);
+    machine.suffers(disturbance_of(answer.law->law));
   }
 
-  HiddenMachine machine(stated, truth, answer.hidden);
-  if (answer.unlisted) machine.suffers(*answer.unlisted);
-  if (answer.pattern) machine.suffers(answer.pattern->pattern);
-  if (answer.law) machine.suffers(answer.law->law);
   machine.went_to(visits);
   const auto exact = machine.exact(visits);
   if (!exact) throw std::runtime_error("draw_set: the hidden machine cannot reach a mark");
@@ -415,12 +381,8 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
 
   WrittenGrid grid;
   grid.stated = stated;
-  grid.stated_noise = noise;
-  if (recipe.kind == Mix::wrong_noise) answer.noise_ratio = noise_dice.log_uniform(0.7, 1.5);
-  answer.noise_ratio = recipe.noise_ratio.value_or(answer.noise_ratio);
-  grid.stated_noise = {noise.length_mm * answer.noise_ratio,
-                       noise.position_mm * answer.noise_ratio};
-  grid.with_order = recipe.kind != Mix::no_order;
+  const double ratio = recipe.kind == Mix::wrong_noise ? noise_dice.log_uniform(0.7, 1.5) : 1.0;
+  grid.stated_noise = {noise.length_mm * ratio, noise.position_mm * ratio};
   grid.notes = std::move(notes);
   std::string text = grid_text(grid);
   return {std::move(text), std::move(answer), std::move(machine), noise, std::move(grid.notes)};

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "generator/hidden/effects.hpp"
@@ -27,7 +28,6 @@
 #include "generator/hidden/pattern.hpp"
 #include "generator/hidden/session.hpp"
 #include "generator/hidden/strength.hpp"
-#include "generator/hidden/unlisted.hpp"
 
 namespace chaintrue::generator {
 
@@ -36,18 +36,30 @@ enum class Mix {
   nothing,
   heavy,         ///< nothing hidden, noise with heavy tails
   wrong_noise,   ///< nothing hidden, stated noise 0.7 to 1.5 times the true one
-  uneven_noise,  ///< nothing hidden, noise up to three times larger in one part of the bed
   two,
   three,
   unlisted,
   bad_points,             ///< 10 % of the marks miswritten, nothing hidden
   bad_points_and_effect,  ///< the same with an effect of delta 12
-  no_order,               ///< as single, without visiting numbers
-  rounded,                ///< as single, read to 0.5 mm
   alongside,              ///< as single, with a pattern that is not collinear with it
   two_alongside,          ///< as two, with a pattern
   pattern,                ///< a pattern alone, delta 6 to 30
   near,                   ///< a pattern alone that is collinear with an effect of the catalogue
+};
+inline constexpr std::pair<Mix, std::string_view> kMixes[] = {
+    {Mix::single, "single"},
+    {Mix::nothing, "nothing"},
+    {Mix::heavy, "heavy"},
+    {Mix::wrong_noise, "wrong_noise"},
+    {Mix::two, "two"},
+    {Mix::three, "three"},
+    {Mix::unlisted, "unlisted"},
+    {Mix::bad_points, "bad_points"},
+    {Mix::bad_points_and_effect, "bad_points_and_effect"},
+    {Mix::alongside, "beside"},
+    {Mix::two_alongside, "two_beside"},
+    {Mix::pattern, "pattern"},
+    {Mix::near, "near"},
 };
 [[nodiscard]] std::string_view word(Mix mix);
 [[nodiscard]] std::optional<Mix> mix_of(std::string_view word);
@@ -59,22 +71,17 @@ struct Recipe {
   std::optional<double> delta;
   /// Draws another geometry, feed, tilt and weight as well.
   bool other_machines = false;
-  Extent extent = Extent::whole;
   /// This cause instead of a drawn one; its strength is still drawn.
   std::optional<Cause> cause;
   std::optional<Order> order;
-  /// The list of `chaintrue start` in place of `points`, `extent` and the order.
+  /// The list of `chaintrue start` in place of `points` and the order.
   bool list_of_start = false;
   /// Exactly these instead of any drawn effects.
   std::vector<Hidden> exactly;
-  /// The stated machine, instead of the classic one.
-  std::optional<TrueMachine> machine;
   /// Factor on the usual errors of the settings.
   double settings_off = 1.0;
-  /// The true noise; stated correctly unless the mix or noise_ratio differ.
+  /// The true noise; stated correctly unless the mix differs.
   NoiseLevel noise;
-  /// Stated over true noise.
-  std::optional<double> noise_ratio;
   /// For the mixes with a pattern.
   PatternGroup patterns = PatternGroup::smooth;
   /// A law or a field as well.
@@ -87,14 +94,11 @@ struct Answer {
   std::vector<double> delta;  ///< of each on its own
   /// The first's delta is sufficient to separate it from any other effect outside its class.
   bool separable = false;
-  std::optional<Unlisted> unlisted;
-  double left_over_delta = 0.0;  ///< of the unlisted, the part that no effect explains
-  double whole_delta = 0.0;
+  double left_over_delta = 0.0;  ///< of an unlisted disturbance, the part that no effect explains
   std::optional<SizedPattern> pattern;
   std::optional<SizedLaw> law;
   std::vector<std::size_t> bad_points;
   Order order = Order::rows;
-  double noise_ratio = 1.0;  ///< stated over true
 };
 
 /// The machine of a set: it can be measured again. Not thread safe.
@@ -124,19 +128,16 @@ class HiddenMachine {
   [[nodiscard]] const TrueMachine& stated() const { return stated_; }
   [[nodiscard]] const TrueMachine& truth() const { return truth_; }
   [[nodiscard]] const std::vector<Hidden>& hidden() const { return hidden_; }
-  void suffers(Unlisted what) { unlisted_ = what; }
-  void suffers(const Pattern& what) { pattern_ = what; }
-  void suffers(const HiddenLaw& what) { law_ = what; }
-  /// Noise-free readings of a whole session, unlisted disturbances included.
+  void suffers(std::optional<Disturbance> what) { disturbance_ = std::move(what); }
+  [[nodiscard]] const std::optional<Disturbance>& disturbance() const { return disturbance_; }
+  /// Noise-free readings of a whole session, the disturbance included.
   [[nodiscard]] std::optional<std::vector<Lengths>> exact(std::span<const Visit> visits) const;
 
  private:
   TrueMachine stated_;
   TrueMachine truth_;  ///< settings off, effects not yet applied
   std::vector<Hidden> hidden_;
-  std::optional<Unlisted> unlisted_;
-  std::optional<Pattern> pattern_;
-  std::optional<HiddenLaw> law_;
+  std::optional<Disturbance> disturbance_;
   std::vector<Visit> visits_;
 };
 

@@ -49,12 +49,12 @@ std::string grid_text(const WrittenGrid& g) {
   for (std::size_t i = 0; i < g.notes.size(); ++i) {
     const HiddenMachine::Note& n = g.notes[i];
     fmt::format_to(out,
-                   R"(  {{"x_mm": {:.4f}, "y_mm": {:.4f}, "left_mm": {:.4f}, "right_mm": {:.4f})",
+                   R"(  {{"x_mm": {:.4f}, "y_mm": {:.4f}, "left_mm": {:.4f}, "right_mm": {:.4f}, "order": {})",
                    n.mark.x,
                    n.mark.y,
                    n.lengths[0],
-                   n.lengths[1]);
-    if (g.with_order) fmt::format_to(out, R"(, "order": {})", n.number);
+                   n.lengths[1],
+                   n.number);
     text += i + 1 < g.notes.size() ? "},\n" : "}\n";
   }
   text += " ]}\n";

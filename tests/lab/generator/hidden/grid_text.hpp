@@ -15,7 +15,6 @@ struct WrittenGrid {
   StatedSigmas sigmas;
   NoiseLevel stated_noise;
   double dof = 12.0;
-  bool with_order = true;
   std::vector<HiddenMachine::Note> notes;
 };
 [[nodiscard]] std::string grid_text(const WrittenGrid& grid);

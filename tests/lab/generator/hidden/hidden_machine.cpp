@@ -12,35 +12,25 @@ HiddenMachine::HiddenMachine(TrueMachine stated, TrueMachine truth, std::vector<
 std::optional<std::vector<Lengths>> HiddenMachine::exact(std::span<const Visit> visits) const {
   const TrueMachine with = altered(truth_, hidden_);
   std::vector<Visit> where(visits.begin(), visits.end());
-  if (unlisted_) {
-    for (Visit& v : where) {
-      const Vec2 d = shift(*unlisted_, v.place);
-      v.place = {v.place.x + d.x, v.place.y + d.y};
-    }
-  }
-  if (law_ && law_->moves_tool) {
-    // The law's argument is the place where the mark is.
+  if (disturbance_ && disturbance_->moves_tool) {
+    // Its argument is the place where the mark is.
     const auto at_marks = rests(with, where);
     if (!at_marks) return std::nullopt;
-    const std::vector<Vec2> moved = law_at(*law_, where, *at_marks);
+    const std::vector<Site> sites = sites_of(where, *at_marks);
     for (std::size_t i = 0; i < where.size(); ++i) {
-      where[i].place = {where[i].place.x + moved[i].x, where[i].place.y + moved[i].y};
+      const Vec2 moved = disturbance_->at(sites[i]);
+      where[i].place = {where[i].place.x + moved.x, where[i].place.y + moved.y};
     }
   }
   const auto at_rest = rests(with, where);
   if (!at_rest) return std::nullopt;
   std::vector<Lengths> read = readings(with, hidden_, where, *at_rest);
-  if (pattern_) {
-    const auto extra = extra_lengths(*pattern_, where, *at_rest);
+  if (disturbance_ && !disturbance_->moves_tool) {
+    const std::vector<Site> sites = sites_of(where, *at_rest);
     for (std::size_t i = 0; i < read.size(); ++i) {
-      for (std::size_t c = 0; c < 2; ++c) read[i][c] += extra[i][c];
-    }
-  }
-  if (law_ && !law_->moves_tool) {
-    const std::vector<Vec2> extra = law_at(*law_, where, *at_rest);
-    for (std::size_t i = 0; i < read.size(); ++i) {
-      read[i][0] += extra[i].x;
-      read[i][1] += extra[i].y;
+      const Vec2 extra = disturbance_->at(sites[i]);
+      read[i][0] += extra.x;
+      read[i][1] += extra.y;
     }
   }
   return read;

@@ -118,7 +118,7 @@ bool is_slope(LawFamily family) {
          family == LawFamily::slope_oblique;
 }
 
-double law_value(const HiddenLaw& law, const PatternSite& site) {
+double law_value(const HiddenLaw& law, const Site& site) {
   const Vec2 p = site.place;
   const auto slope = [&](double along) {
     return std::max(0.0, law.sign * (along - law.place)) / 1000.0;
@@ -166,30 +166,18 @@ double law_value(const HiddenLaw& law, const PatternSite& site) {
 
 double drawn_law_strength(Dice& dice) { return dice.log_uniform(12.0, 40.0); }
 
-std::vector<Vec2> law_at(const HiddenLaw& law,
-                         std::span<const Visit> visits,
-                         const std::vector<Rest>& at_rest) {
-  std::vector<Vec2> all;
-  for (const PatternSite& site : sites_of(visits, at_rest)) {
-    const double own = law.size_mm * law_value(law, site);
-    all.push_back(law.component == 0 ? Vec2{own, 0.0} : Vec2{0.0, own});
-  }
-  return all;
+Disturbance disturbance_of(const HiddenLaw& law) {
+  return {law.moves_tool, [law](const Site& site) {
+            const double own = law.size_mm * law_value(law, site);
+            return law.component == 0 ? Vec2{own, 0.0} : Vec2{0.0, own};
+          }};
 }
 
 SizedLaw draw_law(const Yardstick& yardstick, LawFamily family, Dice& dice) {
   const auto rivals = yardstick.rivals();
   for (int n = 0; n < 2000; ++n) {
     HiddenLaw law = drawn(family, dice);
-    const std::vector<Vec2> at = law_at(law, yardstick.visits(), yardstick.at_rest());
-    Signature s;
-    if (law.moves_tool) {
-      s = yardstick.signature_of_shifts(at);
-    } else {
-      std::vector<Lengths> extra;
-      for (const Vec2& one : at) extra.push_back({one.x, one.y});
-      s = yardstick.signature_of_lengths(extra);
-    }
+    const Signature s = yardstick.signature_of(disturbance_of(law));
     const double left = unexplained(s, rivals);
     if (!(left > 1e-3)) continue;
     const double delta = drawn_law_strength(dice);

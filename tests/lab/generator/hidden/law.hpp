@@ -8,12 +8,10 @@
 /// of many waves with random directions and phases, whose lengths have the spectrum of its covariance.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string_view>
 #include <vector>
 
-#include "generator/hidden/pattern.hpp"
+#include "generator/hidden/random.hpp"
 #include "generator/hidden/strength.hpp"
 
 namespace chaintrue::generator {
@@ -64,7 +62,7 @@ struct HiddenLaw {
 /// The waves of a field, by its extent and direction.
 void draw_waves(HiddenLaw& law, Dice& dice);
 /// For size 1: a slope per 1000 mm.
-[[nodiscard]] double law_value(const HiddenLaw& law, const PatternSite& site);
+[[nodiscard]] double law_value(const HiddenLaw& law, const Site& site);
 
 struct SizedLaw {
   HiddenLaw law;
@@ -76,9 +74,6 @@ struct SizedLaw {
 /// Place, extent, entry and size; the size at most 6 mm, of a slope 12. \throws std::runtime_error if 2000 draws find
 /// none.
 [[nodiscard]] SizedLaw draw_law(const Yardstick& yardstick, LawFamily family, Dice& dice);
-/// Its shift of the tool, or addition to the readings, at each site.
-[[nodiscard]] std::vector<Vec2> law_at(const HiddenLaw& law,
-                                       std::span<const Visit> visits,
-                                       const std::vector<Rest>& at_rest);
+[[nodiscard]] Disturbance disturbance_of(const HiddenLaw& law);
 
 }  // namespace chaintrue::generator

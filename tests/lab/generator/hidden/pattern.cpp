@@ -19,43 +19,30 @@ double largest_cosine(const Signature& own, std::span<const Signature> others) {
 
 }  // namespace
 
-double field(const Pattern& pattern, const PatternSite& site) {
-  const Vec2 from{site.place.x - pattern.centre.x, site.place.y - pattern.centre.y};
-  switch (pattern.family) {
-    case PatternFamily::dent:
-      return std::exp(-0.5 * (from.x * from.x + from.y * from.y) /
-                      (pattern.extent_mm * pattern.extent_mm));
-    case PatternFamily::wave: {
-      const double along =
-          std::cos(pattern.direction_rad) * from.x + std::sin(pattern.direction_rad) * from.y;
-      return std::sin(2.0 * std::numbers::pi * along / pattern.extent_mm + pattern.phase_rad);
-    }
-    default:
-      return other_field(pattern, site);
-  }
-}
-
-Pattern draw_family(PatternGroup group, Dice& dice) {
+Field draw_family(PatternGroup group, Dice& dice) {
   if (group == PatternGroup::other) return draw_other_family(dice);
-  Pattern p;
-  const auto extent = [&](double narrowest, double widest, double shortest, double longest) {
-    return p.family == PatternFamily::dent ? dice.uniform(narrowest, widest)
-                                           : dice.uniform(shortest, longest);
+  const bool is_dent = dice.sign() > 0.0;
+  const Vec2 centre{dice.uniform(-1000.0, 1000.0), dice.uniform(-450.0, 450.0)};
+  const double direction = dice.uniform(-std::numbers::pi, std::numbers::pi);
+  const double phase = dice.uniform(-std::numbers::pi, std::numbers::pi);
+  const auto drawn = [&](double narrowest, double widest, double shortest, double longest) {
+    return is_dent ? dice.uniform(narrowest, widest) : dice.uniform(shortest, longest);
   };
-  p.family = dice.sign() > 0.0 ? PatternFamily::dent : PatternFamily::wave;
-  p.centre = {dice.uniform(-1000.0, 1000.0), dice.uniform(-450.0, 450.0)};
-  p.direction_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
-  p.phase_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
-  p.extent_mm = group == PatternGroup::short_scale ? extent(90.0, 150.0, 250.0, 450.0)
-                : group == PatternGroup::broad     ? extent(400.0, 900.0, 1200.0, 3000.0)
-                                                   : extent(180.0, 320.0, 500.0, 900.0);
-  return p;
+  const double extent = group == PatternGroup::short_scale ? drawn(90.0, 150.0, 250.0, 450.0)
+                        : group == PatternGroup::broad     ? drawn(400.0, 900.0, 1200.0, 3000.0)
+                                                           : drawn(180.0, 320.0, 500.0, 900.0);
+  return [=](const Site& site) {
+    const Vec2 from{site.place.x - centre.x, site.place.y - centre.y};
+    if (is_dent) return std::exp(-0.5 * (from.x * from.x + from.y * from.y) / (extent * extent));
+    const double along = std::cos(direction) * from.x + std::sin(direction) * from.y;
+    return std::sin(2.0 * std::numbers::pi * along / extent + phase);
+  };
 }
 
-std::vector<PatternSite> sites_of(std::span<const Visit> visits, const std::vector<Rest>& at_rest) {
-  std::vector<PatternSite> sites;
+std::vector<Site> sites_of(std::span<const Visit> visits, const std::vector<Rest>& at_rest) {
+  std::vector<Site> sites;
   for (std::size_t i = 0; i < visits.size(); ++i) {
-    PatternSite& site = sites.emplace_back(PatternSite{visits[i].place, {}, {}});
+    Site& site = sites.emplace_back(Site{visits[i].place, {}, {}});
     for (std::size_t c = 0; c < 2; ++c) {
       site.angle_rad[c] = at_rest[i].chain[c].angle_rad;
       site.length_mm[c] = at_rest[i].chain[c].length_mm;
@@ -64,35 +51,26 @@ std::vector<PatternSite> sites_of(std::span<const Visit> visits, const std::vect
   return sites;
 }
 
-std::vector<Lengths> extra_lengths(const Pattern& pattern,
-                                   std::span<const Visit> visits,
-                                   const std::vector<Rest>& at_rest) {
-  std::vector<Lengths> extra;
-  for (const PatternSite& site : sites_of(visits, at_rest)) {
-    const double height = pattern.height_mm * field(pattern, site);
-    extra.push_back({height * pattern.entry[0], height * pattern.entry[1]});
-  }
-  return extra;
-}
-
 SizedPattern draw_pattern(const Yardstick& yardstick,
                           const PatternRules& rules,
                           std::span<const Signature> alongside,
                           Dice& dice) {
   const auto rivals = rules.near ? yardstick.rivals() : std::vector<Rival>{};
   for (int n = 0; n < 20000; ++n) {
-    Pattern p = draw_family(rules.group, dice);
+    const Field field = draw_family(rules.group, dice);
     const double entry = dice.uniform(-std::numbers::pi, std::numbers::pi);
-    p.entry = {std::cos(entry), std::sin(entry)};
-    p.height_mm = dice.uniform(1.0, 2.0);
-    const auto extra = extra_lengths(p, yardstick.visits(), yardstick.at_rest());
-    const Signature own = yardstick.signature_of_lengths(extra);
+    const double height = dice.uniform(1.0, 2.0);
+    const Disturbance disturbance{false, [=](const Site& site) {
+                                    const double own = height * field(site);
+                                    return Vec2{own * std::cos(entry), own * std::sin(entry)};
+                                  }};
+    const Signature own = yardstick.signature_of(disturbance);
     const double delta = own.norm();
     if (!(delta >= rules.least_delta && delta <= rules.most_delta)) continue;
     double rho = largest_cosine(own, alongside);
     for (const Rival& r : rivals) rho = std::max(rho, likeness(own, r));
     if (rules.near ? rho < 0.9 || rho > 0.98 : rho >= 0.5) continue;
-    return {p, delta, rho};
+    return {disturbance, delta, rho};
   }
   throw std::runtime_error("draw_pattern: nothing fits");
 }

@@ -9,12 +9,10 @@
 /// of the analysis and not used in its development.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "generator/hidden/effects.hpp"
+#include "generator/hidden/disturbance.hpp"
 #include "generator/hidden/random.hpp"
 #include "generator/hidden/strength.hpp"
 
@@ -27,58 +25,19 @@ enum class PatternGroup {
   other,        ///< other families
 };
 
-enum class PatternFamily {
-  dent,
-  wave,
-  fold,         ///< linear on either side of a line, bent along it
-  column_band,  ///< one upright strip of the bed
-  chain_angle,  ///< a function of one chain's angle
-  edge_heave,   ///< rises towards one edge of the bed
-  patch,        ///< constant over a part of the bed and outside it, a short slope between
-  length_steps  ///< along one chain's length: a few levels with slopes between
-};
-
-/// Argument of a field: the tool's position, and the chains' or belts' angles and lengths there.
-struct PatternSite {
-  Vec2 place;
-  std::array<double, 4> angle_rad{};
-  std::array<double, 4> length_mm{};
-};
-[[nodiscard]] std::vector<PatternSite> sites_of(std::span<const Visit> visits,
-                                                const std::vector<Rest>& at_rest);
-
-struct Pattern {
-  PatternFamily family = PatternFamily::dent;
-  double height_mm = 1.0;
-  Lengths entry{1.0, 0.0};     ///< its share in each chain; a unit vector
-  Vec2 centre;                 ///< of a dent or patch; a point of a line
-  double direction_rad = 0.0;  ///< a wave's run; across a line
-  double extent_mm = 0.0;      ///< one sigma, wavelength, width
-  double phase_rad = 0.0;
-  std::size_t chain = 0;          ///< whose angle or length it depends on
-  std::array<double, 8> knots{};  ///< further parameters of a family
-};
-
-/// For height 1: that is about its maximum over the bed.
-[[nodiscard]] double field(const Pattern& pattern, const PatternSite& site);
-/// The other families.
-[[nodiscard]] double other_field(const Pattern& pattern, const PatternSite& site);
-
-/// Family, position and extent; of height 1.
-[[nodiscard]] Pattern draw_family(PatternGroup group, Dice& dice);
-[[nodiscard]] Pattern draw_other_family(Dice& dice);
-
-/// Its addition to the chains at each site.
-[[nodiscard]] std::vector<Lengths> extra_lengths(const Pattern& pattern,
-                                                 std::span<const Visit> visits,
-                                                 const std::vector<Rest>& at_rest);
-
-/// A pattern with its strength in the data and its collinearity with the hidden causes.
+/// Its addition to the chains, for a height of 1 to 2 mm, with its strength in the data and its collinearity with the
+/// hidden causes.
 struct SizedPattern {
-  Pattern pattern;
+  Disturbance disturbance;
   double delta = 0.0;
   double rho = 0.0;  ///< largest |cosine| with the given signatures, or with any effect
 };
+
+/// Family, position and extent; of height 1, which is about its maximum over the bed.
+[[nodiscard]] Field draw_family(PatternGroup group, Dice& dice);
+/// The other families.
+[[nodiscard]] Field draw_other_family(Dice& dice);
+
 struct PatternRules {
   PatternGroup group = PatternGroup::smooth;
   /// Height 1 to 2 mm; a strength outside this range is drawn again.

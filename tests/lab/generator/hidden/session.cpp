@@ -15,24 +15,11 @@ std::string_view word(Order order) {
 }
 
 Layout layout_of(int points) {
-  Layout layout;
-  if (points == 28) return layout;
-  if (points == 60) {
-    layout.columns = 10;
-    layout.rows = 6;
-  } else if (points == 117) {
-    layout.columns = 13;
-    layout.rows = 9;
-  } else if (points == 200) {
-    layout.columns = 20;
-    layout.rows = 10;
-  } else if (points == 465) {
-    layout.columns = 31;
-    layout.rows = 15;
-  } else {
-    throw std::invalid_argument("layout_of: " + std::to_string(points) + " marks");
+  constexpr int kLayouts[][2] = {{7, 4}, {10, 6}, {13, 9}, {20, 10}, {31, 15}};
+  for (const auto& [columns, rows] : kLayouts) {
+    if (columns * rows == points) return {columns, rows};
   }
-  return layout;
+  throw std::invalid_argument("layout_of: " + std::to_string(points) + " marks");
 }
 
 std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& dice) {
@@ -46,10 +33,6 @@ std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& d
       const int i = serpentine && o % 2 == 1 ? inner - 1 - k : k;
       const int column = by_rows ? i : o;
       const int row = by_rows ? o : i;
-      const bool edge_column = column == 0 || column == layout.columns - 1;
-      const bool edge_row = row == 0 || row == layout.rows - 1;
-      if (layout.extent == Extent::without_corners && edge_column && edge_row) continue;
-      if (layout.extent == Extent::left_side && 2 * column > layout.columns) continue;
       const double u = 2.0 * column / (layout.columns - 1) - 1.0;
       const double v = 2.0 * row / (layout.rows - 1) - 1.0;
       marks.push_back({{u * layout.half_width_mm, v * layout.half_height_mm}, 0, false});

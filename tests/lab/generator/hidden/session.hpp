@@ -15,15 +15,11 @@ enum class Order { rows, columns, serpentine_rows, serpentine_columns, random };
 inline constexpr std::size_t kOrders = 5;
 [[nodiscard]] std::string_view word(Order order);
 
-/// Part of the bed with marks.
-enum class Extent { whole, without_corners, left_side };
-
 struct Layout {
   int columns = 7;
   int rows = 4;
   double half_width_mm = 1200.0;
   double half_height_mm = 600.0;
-  Extent extent = Extent::whole;
   int repeats = 6;
 };
 /// 28, 60, 117, 200 or 465 marks. \throws std::invalid_argument for another number.

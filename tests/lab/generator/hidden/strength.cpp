@@ -39,6 +39,11 @@ std::optional<std::vector<Lengths>> difference(const TrueMachine& plus,
   return slope;
 }
 
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
 std::vector<Visit> moved(std::span<const Visit> visits, double dx, double dy) {
   std::vector<Visit> result(visits.begin(), visits.end());
   for (Visit& v : result) v.place = {v.place.x + dx, v.place.y + dy};
@@ -46,6 +51,15 @@ std::vector<Visit> moved(std::span<const Visit> visits, double dx, double dy) {
 }
 
 }  // namespace
+
+Projection::Projection(const Eigen::MatrixXd& columns) : taken_(orthonormal(columns)) {}
+
+Signature Projection::left_of(const Eigen::VectorXd& rows) const {
+  Signature all = Signature::Zero(taken_.rows());
+  all.head(rows.size()) = rows;
+  all -= taken_ * (taken_.transpose() * all);
+  return all;
+}
 
 std::optional<Yardstick> Yardstick::make(const TrueMachine& machine,
                                          std::span<const Visit> visits,
@@ -96,8 +110,7 @@ std::optional<Yardstick> Yardstick::make(const TrueMachine& machine,
     a(rows + k, k) = 1.0 / (k < 4 ? stated.motor_mm : stated.zero_mm);
   }
   y.by_setting_ = a;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
-  y.settings_ = qr.householderQ() * Eigen::MatrixXd::Identity(rows + kSettings, kSettings);
+  y.settings_ = Projection(a);
   return y;
 }
 
@@ -110,13 +123,6 @@ Eigen::VectorXd Yardstick::whitened(std::span<const Lengths> pairs) const {
     rows[r + 1] = w[1] * pairs[i][0] + w[2] * pairs[i][1];
   }
   return rows;
-}
-
-Signature Yardstick::projected(Eigen::VectorXd rows) const {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(settings_.rows());
-  all.head(rows.size()) = rows;
-  all -= settings_ * (settings_.transpose() * all);
-  return all;
 }
 
 std::optional<Signature> Yardstick::signature(std::span<const Hidden> effects) const {
@@ -138,20 +144,25 @@ std::optional<Signature> Yardstick::signature(std::span<const Hidden> effects) c
     read[i][0] -= plain_[i][0] + j[0] * dx + j[1] * dy;
     read[i][1] -= plain_[i][1] + j[2] * dx + j[3] * dy;
   }
-  return projected(whitened(read));
+  return settings_.left_of(whitened(read));
 }
 
-Signature Yardstick::signature_of_shifts(std::span<const Vec2> shift) const {
-  std::vector<Lengths> pairs(shift.size());
-  for (std::size_t i = 0; i < shift.size(); ++i) {
+Signature Yardstick::signature_of(const Disturbance& disturbance) const {
+  std::vector<Lengths> pairs;
+  const std::vector<Site> sites = sites_of(visits_, rests_);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Vec2 own = disturbance.at(sites[i]);
     const auto& j = slopes_[i];
-    pairs[i] = {j[0] * shift[i].x + j[1] * shift[i].y, j[2] * shift[i].x + j[3] * shift[i].y};
+    if (disturbance.moves_tool)
+      pairs.push_back({j[0] * own.x + j[1] * own.y, j[2] * own.x + j[3] * own.y});
+    else
+      pairs.push_back({own.x, own.y});
   }
-  return projected(whitened(pairs));
+  return signature_of_lengths(pairs);
 }
 
 Signature Yardstick::signature_of_lengths(std::span<const Lengths> extra) const {
-  return projected(whitened(extra));
+  return settings_.left_of(whitened(extra));
 }
 
 std::vector<double> Yardstick::angles(std::size_t chain) const {
@@ -165,17 +176,14 @@ std::vector<Rival> Yardstick::rivals() const {
   constexpr int kPlaces = 24;
   std::vector<Rival> all;
   const auto add = [&](const CauseCard& c, Where where, std::span<const double> places) {
-    Eigen::MatrixXd columns(settings_.rows(), static_cast<Eigen::Index>(places.size()));
+    Eigen::MatrixXd columns(by_setting_.rows(), static_cast<Eigen::Index>(places.size()));
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Hidden one[] = {{c.cause, where, c.usual, places[k]}};
       const auto s = signature(one);
       if (!s || !(s->norm() > 1e-9)) return;
       columns.col(static_cast<Eigen::Index>(k)) = *s;
     }
-    Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-    all.push_back({c.cause,
-                   where,
-                   qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols())});
+    all.push_back({c.cause, where, orthonormal(columns)});
   };
   for (const CauseCard& c : cards()) {
     for (const Where where : c.sides) {

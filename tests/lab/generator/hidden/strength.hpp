@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/hidden/effects.hpp"
+#include "generator/hidden/disturbance.hpp"
 
 namespace chaintrue::generator {
 
@@ -43,6 +43,18 @@ struct Rival {
   Eigen::MatrixXd basis;  ///< orthonormal columns
 };
 
+/// What a change leaves after projection orthogonal to columns.
+class Projection {
+ public:
+  Projection() = default;
+  explicit Projection(const Eigen::MatrixXd& columns);
+  /// Rows that are missing at the end are zero.
+  [[nodiscard]] Signature left_of(const Eigen::VectorXd& rows) const;
+
+ private:
+  Eigen::MatrixXd taken_;  ///< orthonormal
+};
+
 class Yardstick {
  public:
   /// Empty if the machine cannot reach a visit.
@@ -52,11 +64,9 @@ class Yardstick {
                                        StatedSigmas stated);
 
   [[nodiscard]] std::optional<Signature> signature(std::span<const Hidden> effects) const;
-  /// For marks whose true positions are `shift` away from the assumed ones.
-  [[nodiscard]] Signature signature_of_shifts(std::span<const Vec2> shift) const;
+  [[nodiscard]] Signature signature_of(const Disturbance& disturbance) const;
   /// For readings that are `extra` too large.
   [[nodiscard]] Signature signature_of_lengths(std::span<const Lengths> extra) const;
-
   /// The whole catalogue at its usual sizes and at places all over the session.
   [[nodiscard]] std::vector<Rival> rivals() const;
 
@@ -75,7 +85,6 @@ class Yardstick {
   [[nodiscard]] Eigen::VectorXd whitened(std::span<const Lengths> pairs) const;
 
  private:
-  [[nodiscard]] Signature projected(Eigen::VectorXd rows) const;
 
   TrueMachine machine_;
   std::vector<Visit> visits_;
@@ -84,7 +93,7 @@ class Yardstick {
   std::vector<std::array<double, 4>> slopes_;
   std::vector<std::array<double, 3>> whitening_;
   Eigen::MatrixXd by_setting_;
-  Eigen::MatrixXd settings_;  ///< orthonormal
+  Projection settings_;
 };
 
 /// Largest |cosine| between a signature and those of a rival.

@@ -7,71 +7,68 @@
 ///   input_slips --machines 10 --clean 400
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
-#include <string>
+#include <map>
 
 #include "input_slips/judge/kinds.hpp"
+#include "sealed/command/campaign.hpp"
 
 namespace {
 
 using namespace chaintrue::slips;
+using chaintrue::sealed::PlannedSet;
 
-struct Arguments {
-  int machines = 10;
-  int clean = 400;
-  std::uint64_t first_seed = 1;
-  bool show = false;
-};
+const std::string kClean = ":clean";
 
-void print_outcome(const Outcome& outcome) {
-  fmt::print("    expected {} {}{}\n",
-             outcome.expected.place,
-             outcome.expected.words.front(),
-             outcome.expected.refused ? ", refused" : "");
-  for (const std::string& message : outcome.reported.messages) fmt::print("      {}\n", message);
+std::string word_of(const Kind& kind) {
+  std::string text = fmt::format("{}/{}:slip", word(kind.way), kind.id);
+  std::ranges::replace(text, ' ', '_');
+  return text;
+}
+
+std::vector<chaintrue::sealed::RateRow> all_rows() {
+  std::vector<chaintrue::sealed::RateRow> rows;
+  for (const Kind& kind : kinds()) rows.push_back({std::string(word(kind.way)), kind.id, word_of(kind), {"named"}});
+  rows.push_back({"all kinds", "identified", "slip", {"named"}, 0.0, 1e9, {}, 0.97});
+  rows.push_back({"no slip", "accepted without a message", "clean", {"accepted"}, 0.0, 1e9, {}, 0.99});
+  return rows;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Arguments arguments;
-  CLI::App app("How often a gross slip in a measured file is named");
-  app.add_option("--machines", arguments.machines, "Of each kind");
-  app.add_option("--clean", arguments.clean, "Sessions without a slip, of all ways together");
-  app.add_option("--first-seed", arguments.first_seed, "Of the first machine");
-  app.add_flag("--show", arguments.show, "Tell what was said where a slip was not named");
-  CLI11_PARSE(app, argc, argv);
-  int named = 0;
-  int all = 0;
-  int fewest = arguments.machines;
-  for (const Kind& kind : kinds()) {
-    int of_kind = 0;
-    for (int i = 0; i < arguments.machines; ++i) {
-      const Outcome outcome = try_kind(kind, arguments.first_seed + static_cast<std::uint64_t>(i));
-      of_kind += outcome.is_named ? 1 : 0;
-      if (!outcome.is_named && arguments.show) print_outcome(outcome);
-    }
-    fmt::print("{:10}{:36}{:3} of {}\n", word(kind.way), kind.id, of_kind, arguments.machines);
-    std::fflush(stdout);
-    named += of_kind;
-    all += arguments.machines;
-    fewest = std::min(fewest, of_kind);
-  }
-  fmt::print("{} kinds: {} of {} named ({:.1f} %), fewest of a kind {}\n",
-             kinds().size(),
-             named,
-             all,
-             100.0 * named / std::max(all, 1),
-             fewest);
-  int alarms = 0;
-  for (int i = 0; i < arguments.clean; ++i) {
+  chaintrue::sealed::Campaign campaign("How often a gross slip in a measured file is named", argc, argv);
+  campaign.sets = 10;
+  int clean = 400;
+  campaign.app.add_option("--machines", campaign.sets, "Of each kind");
+  campaign.app.add_option("--clean", clean, "Sessions without a slip, of all ways together");
+  std::map<std::string, const Kind*> by_word;
+  for (const Kind& kind : kinds()) by_word[word_of(kind)] = &kind;
+  const auto list = [&] {
+    std::vector<std::string> words;
+    for (const Kind& kind : kinds()) words.push_back(word_of(kind));
+    std::vector<PlannedSet> sets = campaign.sets_of(words);
     constexpr std::uint64_t kOtherSeeds = 1000;
-    const Way way = kWays[i % 4];
-    const auto said = false_alarms(way, arguments.first_seed + kOtherSeeds + static_cast<std::uint64_t>(i));
-    if (said.empty()) continue;
-    ++alarms;
-    if (arguments.show) fmt::print("    {} {}: {}\n", word(way), i, said.front());
-  }
-  fmt::print("{} of {} clean sessions were not accepted without a word\n", alarms, arguments.clean);
+    for (int i = 0; i < clean; ++i) {
+      const std::uint64_t seed = campaign.first_seed + kOtherSeeds + static_cast<std::uint64_t>(i);
+      sets.push_back({std::string(word(kWays[i % 4])) + kClean, seed});
+    }
+    return sets;
+  };
+  const auto run = [&](const PlannedSet& set) {
+    chaintrue::sealed::Outcome outcome{.kind = set.kind, .seed = set.seed};
+    std::vector<std::string> said;
+    if (set.kind.ends_with(kClean)) {
+      said = false_alarms(*std::ranges::find(kWays, outcome.group(), word), set.seed);
+      outcome.add("accepted", said.empty());
+    } else {
+      const Outcome tried = try_kind(*by_word.at(set.kind), set.seed);
+      outcome.add("named", tried.is_named);
+      said = tried.reported.messages;
+      const auto& [words, place, refused] = tried.expected;
+      said.push_back(fmt::format("expected {} {}{}", place, words.front(), refused ? ", refused" : ""));
+    }
+    if (campaign.show && outcome.facts.empty()) fmt::print("{}\n", fmt::join(said, "\n  "));
+    return std::vector{outcome};
+  };
+  return campaign.run(list, run, all_rows());
 }

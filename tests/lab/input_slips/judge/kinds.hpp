@@ -22,12 +22,12 @@ struct Expected {
 };
 
 struct Kind {
-  const char* id;
+  std::string id;
   Way way;
   std::function<Expected(Session& session, generator::Dice& dice)> spoil;
 };
 
-/// Forty and a few.
+/// Those of kinds.tsv.
 [[nodiscard]] const std::vector<Kind>& kinds();
 
 struct Outcome {

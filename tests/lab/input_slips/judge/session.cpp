@@ -52,7 +52,7 @@ std::vector<Hidden> usual_effect(std::uint64_t seed) {
 grid::MeasuredGrid commands_of(std::uint64_t seed) {
   Dice dice(seed, "commands");
   const TrueMachine truth = generator::with_settings_off({}, 1.0, dice);
-  const std::vector<Hidden> effects = usual_effect(seed);
+  const generator::HiddenMachine machine(TrueMachine{}, truth, usual_effect(seed));
   grid::MeasuredGrid grid;
   grid.name = "commanded";
   grid.machine = model::Machine{};
@@ -71,7 +71,7 @@ grid::MeasuredGrid commands_of(std::uint64_t seed) {
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const model::BedPoint near = *grid.points[i].commanded;
     const Vec2 place =
-        sealed::place_reached(truth, effects, (*paid_out)[i].lengths, {near.x_mm, near.y_mm});
+        sealed::place_reached(machine, (*paid_out)[i].lengths, {near.x_mm, near.y_mm});
     grid.points[i].mark = {rounded(place.x + 0.4 * dice.normal(), 0.1),
                            rounded(place.y + 0.4 * dice.normal(), 0.1)};
   }
@@ -79,7 +79,7 @@ grid::MeasuredGrid commands_of(std::uint64_t seed) {
 }
 
 grid::MeasuredHoles holes_of(std::uint64_t seed) {
-  grid::MeasuredHoles set = sealed::hidden_holes(usual_effect(seed), seed);
+  grid::MeasuredHoles set = sealed::cut_holes(usual_effect(seed), seed).set;
   for (grid::HoleDistance& distance : set.distances)
     distance.distance_mm = rounded(distance.distance_mm, 0.5);
   return set;

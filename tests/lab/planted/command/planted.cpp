@@ -8,81 +8,60 @@
 ///   planted now.txt --most 0                                      # the table of what there is
 ///   planted now.txt --scan C.csv --scan D.csv --against before.txt
 ///   planted references.txt --scan C.csv --scan D.csv --reference  # diagnoses the whole scans
-///
-/// Exit code 1: a row is worse; 3: a file cannot be read, or has other draws.
+#include <fmt/format.h>
+
+#include <fstream>
+
 #include "planted/judge/planted_rates.hpp"
-#include "sealed/command/sets.hpp"
-
-namespace {
-
-using namespace chaintrue;
-using planted::Outcome;
-
-struct Arguments {
-  sealed::OutcomeFile file;
-  std::vector<std::string> scans;
-  std::string settings = CHAINTRUE_SHARED_DATA "/holey/groundcontrol_2018-09-01b.ini";
-  std::string references = CHAINTRUE_FIXTURES "/planted/references.txt";
-  bool reference = false;
-  std::uint64_t seed = 1;
-  std::size_t draws = 36;
-};
-
-std::vector<planted::Scan> read_scans(const Arguments& arguments) {
-  std::vector<planted::Scan> scans;
-  for (const std::string& path : arguments.scans)
-    scans.push_back(planted::read_scan(path, arguments.settings));
-  return scans;
-}
-
-int write_references(const Arguments& arguments) {
-  std::vector<planted::Reference> references;
-  for (const planted::Scan& scan : read_scans(arguments))
-    references.push_back(planted::make_reference(scan));
-  std::ofstream file(arguments.file.file, std::ios::binary);
-  file << planted::text_of(references);
-  file.close();
-  if (!file) throw std::invalid_argument(arguments.file.file + " cannot be written");
-  return 0;
-}
-
-int run_all(const Arguments& arguments) {
-  if (arguments.reference) return write_references(arguments);
-  const std::vector<planted::Reference> references = planted::read_references(arguments.references);
-  const std::vector<planted::Scan> scans = read_scans(arguments);
-  // In turn of the scans, so that each part of the list has all of them.
-  std::vector<sealed::PlannedSet> list;
-  for (std::size_t k = 0; k < arguments.draws; ++k) {
-    for (const planted::Scan& scan : scans) list.push_back({scan.name, arguments.seed + k});
-  }
-  std::vector<Outcome> outcomes = arguments.file.known();
-  const auto draw = [&](const sealed::PlannedSet& set) {
-    const auto scan = std::ranges::find(scans, set.kind, &planted::Scan::name);
-    auto [plain, planted] = planted::run_draw(*scan, references, set.seed);
-    return std::vector<Outcome>{std::move(plain), std::move(planted)};
-  };
-  arguments.file.run(list, ":planted", draw, outcomes);
-  planted::set_facts(outcomes, references);
-  sealed::write_outcomes(arguments.file.file, outcomes);
-  fmt::print("{}", planted::planted_table(outcomes, references));
-  if (arguments.file.against.empty()) return 0;
-  std::vector<Outcome> before = sealed::sorted(sealed::read_outcomes(arguments.file.against));
-  planted::set_facts(before, references);
-  return arguments.file.print_comparison(before, outcomes, planted::planted_rows());
-}
-
-}  // namespace
+#include "sealed/command/campaign.hpp"
 
 int main(int argc, char** argv) {
-  Arguments arguments;
-  CLI::App app("The rates of the diagnosis on real scans with a known cause added");
-  arguments.file.offer(app);
-  app.add_option("--scan", arguments.scans, "A scan of the optical calibration; may be repeated")
-      ->check(CLI::ExistingFile);
-  app.add_option("--settings", arguments.settings, "The machine's groundcontrol.ini");
-  app.add_option("--references", arguments.references, "Diagnoses of the whole scans, frozen");
-  app.add_flag("--reference", arguments.reference, "Write FILE as such references");
-  app.add_option("--seed", arguments.seed, "Of the first draw; each has the next");
-  app.add_option("--draws", arguments.draws, "Of each scan");
-  return chaintrue::sealed::run_command(app, argc, argv, [&] { return run_all(arguments); });
+  using namespace chaintrue;
+  using planted::Outcome;
+  sealed::Campaign campaign("The rates of the diagnosis on real scans with a known cause added", argc, argv);
+  campaign.sets = 36;
+  std::vector<std::string> paths;
+  std::string settings = CHAINTRUE_SHARED_DATA "/holey/groundcontrol_2018-09-01b.ini";
+  std::string frozen = CHAINTRUE_FIXTURES "/planted/references.txt";
+  bool is_reference = false;
+  CLI::App& app = campaign.app;
+  app.add_option("--scan", paths, "A scan of the optical calibration; may be repeated")->check(CLI::ExistingFile);
+  app.add_option("--settings", settings, "The machine's groundcontrol.ini");
+  app.add_option("--references", frozen, "Diagnoses of the whole scans, frozen");
+  app.add_flag("--reference", is_reference, "Write FILE as such references");
+  app.add_option("--draws", campaign.sets, "Of each scan");
+
+  std::vector<planted::Scan> scans;
+  std::vector<planted::Reference> references;
+  const auto list = [&] {
+    for (const std::string& path : paths) scans.push_back(planted::read_scan(path, settings));
+    references = planted::read_references(frozen);
+    std::vector<std::string> names;
+    for (const planted::Scan& scan : scans) names.push_back(scan.name);
+    // In turn of the scans, so that each part of the list has all of them.
+    std::vector<sealed::PlannedSet> all = campaign.sets_of(names);
+    std::ranges::stable_sort(all, {}, &sealed::PlannedSet::seed);
+    return all;
+  };
+  app.final_callback([&] {
+    if (!is_reference) return;
+    for (const std::string& path : paths) references.push_back(make_reference(planted::read_scan(path, settings)));
+    std::ofstream file(campaign.file, std::ios::binary);
+    if (!(file << planted::text_of(references))) throw CLI::FileError(campaign.file + " cannot be written");
+    throw CLI::Success();
+  });
+  campaign.finish = [&](std::vector<Outcome>& outcomes) {
+    planted::set_facts(outcomes, references);
+    const sealed::Calibration calibration = planted::claims_held_against(outcomes, references);
+    fmt::print("Stated probabilities, {} claims whose truth is known: calibration error {:.3f}\n\n",
+               calibration.claims(),
+               calibration.error());
+  };
+  return campaign.run(
+      list,
+      [&](const sealed::PlannedSet& set) {
+        auto [plain, planted] = run_draw(*std::ranges::find(scans, set.kind, &planted::Scan::name), references, set.seed);
+        return std::vector<Outcome>{std::move(plain), std::move(planted)};
+      },
+      sealed::rows_of("planted"));
 }

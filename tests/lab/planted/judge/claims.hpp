@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a diagnosis claims: each class of causes with its probability, as one word of text, and the
-/// classes of a whole scan, against which the claims of its parts are held.
-///
-///   tape_scale:x=0.9991
-///   chain_pitch_error:both~tape_scale:both=0.1204
+/// What a diagnosis claims: each class of causes with its probability; and the classes of a whole scan,
+/// against which the claims of its parts are held.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "grid/diagnosis/diagnosis.hpp"
 #include "planted/judge/smooth_field.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::planted {
 
-struct Claim {
-  std::vector<std::string> members;  ///< effect:side; the one that gives the class its name first
-  double probability = 0.0;
+using sealed::Claim;
 
-  [[nodiscard]] bool means(std::string_view id) const;
-  bool operator==(const Claim&) const = default;
-};
 /// To four digits, those of 0.001 and more.
 [[nodiscard]] std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] std::string word_of(const Claim& claim);
-/// \throws std::invalid_argument with the word if it is not one.
-[[nodiscard]] Claim parse_claim(const std::string& word);
-
 /// For the likeliest class that has a member in common; 0 where there is none.
 [[nodiscard]] double probability_in(const std::vector<Claim>& claims, const Claim& of);
 

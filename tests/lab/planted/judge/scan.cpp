@@ -164,7 +164,6 @@ Draw draw_planted(const Scan& scan, const std::vector<Reference>& references, st
   const generator::Signature signature = session.yardstick.signature_of_lengths(added);
   const SmoothField& field = reference_of(references, scan.name).field;
   draw.strength = strength_given(field, session, signature);
-  draw.white = strength_given({1.0, 0.0, 0.0, 0.0, 1.0}, session, signature);
   if (!draw.with_order) {
     for (auto& point : draw.plain.points) point.order.reset();
   }

@@ -35,7 +35,6 @@ struct Draw {
   grid::MeasuredGrid planted;
   generator::Hidden hidden;
   bool with_order = false;
-  double white = 0.0;     ///< strength against the stated noise alone
   double strength = 0.0;  ///< given the reference's field (smooth_field.hpp)
 };
 /// 60 marks, and a strength of 8 to 20 against the stated noise alone. The same seed has the same cause on every scan: seven in turn, stretch, flex, eccentricity, kink, a zero

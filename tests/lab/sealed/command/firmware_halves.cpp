@@ -1,105 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// firmware_halves: predicts the lower belts at each half of the places from the other half, by the
-/// machine's own fit (firmware_anchors.hpp) and by this program's. Prints the table of
-/// docs/maslow4_rates.md.
+/// machine's own fit (firmware_anchors.hpp) and by this program's. Prints the numbers of
+/// docs/maslow4_rates.md, frame by frame.
 ///
 ///   firmware_halves ../shared/data/maslow4
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "grid/belts/belts_fit.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/whole_file.hpp"
+#include "sealed/command/campaign.hpp"
 #include "sealed/judge/firmware_anchors.hpp"
 
 namespace {
 
-using chaintrue::sealed::Spans;
+using namespace chaintrue;
+using sealed::Spans;
 
-struct Half {
-  double rms_mm = 0.0;
-  double largest_mm = 0.0;
-};
-
-/// Every second place by the others, and those by these.
-Half by_firmware(const std::vector<Spans>& spans) {
-  std::vector<double> off;
-  for (const std::size_t half : {0, 1}) {
-    std::vector<Spans> fitted, predicted;
-    for (std::size_t i = 0; i < spans.size(); ++i)
-      (i % 2 == half ? predicted : fitted).push_back(spans[i]);
-    const auto found = chaintrue::sealed::firmware_anchors(fitted);
-    const auto own = chaintrue::sealed::lower_off_mm(found, predicted);
-    off.insert(off.end(), own.begin(), own.end());
-  }
-  Half result;
-  for (const double one : off) {
-    result.rms_mm += one * one / static_cast<double>(off.size());
-    result.largest_mm = std::max(result.largest_mm, std::abs(one));
-  }
-  result.rms_mm = std::sqrt(result.rms_mm);
-  return result;
-}
-
-void print_row(const std::string& name, const chaintrue::grid::MeasuredBelts& belts) {
-  std::vector<Spans> spans;
+/// Frames by their logs; of five runs of one frame, their numbers.
+sealed::Outcome run_frame(const std::string& folder, const sealed::PlannedSet& set) {
+  grid::files::Maslow4Options options;
+  options.part = static_cast<int>(set.seed);
+  const std::string file = set.kind + ".txt";
+  const auto belts = grid::files::parse_maslow4(grid::files::read_whole_file(folder + "/" + file), file, options).belts;
+  std::vector<Spans> spans, halves[2];
   for (const auto& point : belts.points) {
     const auto& l = point.lengths_mm;
     spans.push_back({l.tl, l.tr, l.bl, l.br});
+    halves[spans.size() % 2].push_back(spans.back());
   }
-  const auto whole = chaintrue::sealed::firmware_anchors(spans);
-  const Half theirs = by_firmware(spans);
-  const auto ours = chaintrue::grid::diagnosis::fit_with_causes(belts);
+  sealed::Outcome outcome{.kind = set.kind + ":run_" + std::to_string(set.seed), .seed = set.seed};
+  outcome.points = static_cast<int>(spans.size());
+  const auto whole = sealed::firmware_anchors(spans);
+  const auto ours = grid::diagnosis::fit_with_causes(belts);
   if (!ours || !ours->half_left_out) {
-    fmt::print("| {} | {} | no fit |\n", name, spans.size());
-    return;
+    outcome.fail();
+    return outcome;
   }
-  const auto& a = whole.anchors;
-  fmt::print("| {} | {} | {:.1f}, {:.1f} | {:.1f}, {:.1f} | {:.1f} | {:.2f} | {:.2f} | {:.1f} | {:.2f} | {:.1f} |\n",
-             name, spans.size(), a[0][0], a[0][1], a[1][0], a[1][1], a[3][0], whole.rms_mm,
-             theirs.rms_mm, theirs.largest_mm, ours->half_left_out->rms_mm,
-             ours->half_left_out->largest_mm);
-  std::fflush(stdout);
+  auto& numbers = outcome.numbers;
+  const char* const names[] = {"tl_x", "tl_y", "tr_x", "tr_y", "bl_x", "bl_y", "br_x", "br_y"};
+  for (std::size_t k = 0; k < 8; ++k) numbers[names[k]] = whole.anchors[k / 2][k % 2];
+  numbers["theirs_mm"] = whole.rms_mm;
+  numbers["ours_predicted_mm"] = ours->half_left_out->rms_mm;
+  numbers["ours_worst_mm"] = ours->half_left_out->largest_mm;
+  double squares = 0.0, count = 0.0;
+  for (const std::size_t half : {0, 1}) {
+    for (const double off : sealed::lower_off_mm(sealed::firmware_anchors(halves[1 - half]), halves[half])) {
+      squares += off * off;
+      ++count;
+      numbers["theirs_worst_mm"] = std::max(numbers["theirs_worst_mm"], std::abs(off));
+    }
+  }
+  numbers["theirs_predicted_mm"] = std::sqrt(squares / count);
+  return outcome;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  sealed::Campaign campaign("The machine's own fit of its anchors and this one, half by half", argc, argv);
+  campaign.show = true;
   std::string folder = "../shared/data/maslow4";
-  CLI::App app("The machine's own fit of its anchors and this one, half by half");
-  app.add_option("folder", folder, "Logs of real machines");
-  CLI11_PARSE(app, argc, argv);
-  fmt::print("| frame | places | their tl | their tr | their br x | their rms | theirs, predicted | at worst | ours, predicted | at worst |\n"
-             "|---|---|---|---|---|---|---|---|---|---|\n");
-  struct Named {
-    const char* name;
-    const char* file;
-    int run;
+  campaign.app.remove_option(campaign.app.get_option("FILE"));
+  campaign.app.add_option("folder", folder, "Logs of real machines");
+  const auto list = [&] {
+    std::vector<sealed::PlannedSet> sets = campaign.sets_of({"concrete_anchors", "frame_rebuilt", "mini_frame"}, 1);
+    const std::vector<sealed::PlannedSet> runs = campaign.sets_of({"ten_runs_1_to_5"}, 5);
+    sets.insert(sets.end(), runs.begin(), runs.end());
+    return sets;
   };
-  for (const Named& set : {Named{"concrete anchors", "concrete_anchors.txt", 1},
-                           Named{"rebuilt wood", "frame_rebuilt.txt", 1},
-                           Named{"small show frame", "mini_frame.txt", 1},
-                           Named{"ten runs, run 1", "ten_runs_1_to_5.txt", 1},
-                           Named{"run 2", "ten_runs_1_to_5.txt", 2},
-                           Named{"run 3", "ten_runs_1_to_5.txt", 3},
-                           Named{"run 4", "ten_runs_1_to_5.txt", 4},
-                           Named{"run 5", "ten_runs_1_to_5.txt", 5}}) {
-    const std::filesystem::path path = std::filesystem::path(folder) / set.file;
-    if (!std::filesystem::exists(path)) continue;
-    chaintrue::grid::files::Maslow4Options options;
-    options.part = set.run;
-    print_row(set.name,
-              chaintrue::grid::files::parse_maslow4(
-                  chaintrue::grid::files::read_whole_file(path), set.file, options)
-                  .belts);
-  }
+  return campaign.run(list, [&](const auto& set) { return std::vector{run_frame(folder, set)}; }, {});
 }

@@ -5,81 +5,89 @@
 /// docs/diagnosis_rates.md. Same options, same table, for any --threads.
 ///
 ///   sealed_draws --sets 2000 --mix single --points mix --threads 2
+#include <fmt/format.h>
+
 #include <map>
 
-#include "sealed/command/sets.hpp"
-#include "sealed/judge/table.hpp"
+#include "sealed/command/campaign.hpp"
+#include "sealed/judge/calibration.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace {
 
-namespace generator = chaintrue::generator;
-using chaintrue::sealed::Trial;
-using chaintrue::sealed::TrialOptions;
+using namespace chaintrue;
+using generator::Mix;
+using generator::PatternGroup;
+using sealed::Outcome;
+
+const std::map<std::string, PatternGroup> kPatterns = {{"smooth", PatternGroup::smooth},
+                                                       {"short_scale", PatternGroup::short_scale},
+                                                       {"broad", PatternGroup::broad},
+                                                       {"other", PatternGroup::other}};
 
 int points_of(const std::string& points, std::uint64_t index) {
   constexpr int kMix[] = {28, 60, 117};
   return points == "mix" ? kMix[index % 3] : std::stoi(points);
 }
 
-const std::map<std::string, generator::Extent> kExtents = {
-    {"whole", generator::Extent::whole},
-    {"without_corners", generator::Extent::without_corners},
-    {"left_side", generator::Extent::left_side}};
-const std::map<std::string, generator::PatternGroup> kPatterns = {
-    {"smooth", generator::PatternGroup::smooth},
-    {"short_scale", generator::PatternGroup::short_scale},
-    {"broad", generator::PatternGroup::broad},
-    {"other", generator::PatternGroup::other}};
+/// By the row of the table of rates that counts them.
+std::string rate_kind_of(const generator::Recipe& recipe) {
+  if (recipe.kind == Mix::alongside || recipe.kind == Mix::two_alongside)
+    return recipe.patterns == PatternGroup::other ? "beside_other" : "beside";
+  return std::string(word(recipe.kind));
+}
 
-Trial run(TrialOptions options, std::uint64_t seed) {
-  try {
-    return chaintrue::sealed::run_trial(options, seed);
-  } catch (const std::exception& trouble) {
-    fmt::print(stderr, "seed {}: {}\n", seed, trouble.what());
-    Trial trial;
-    trial.seed = seed;
-    trial.points = options.recipe.points;
-    trial.failed = true;
-    return trial;
+/// For every cause that is named, alone, among several or in a set; and how often those of 0.95 and more act.
+void print_claims(const std::vector<Outcome>& outcomes) {
+  sealed::Calibration calibration;
+  int sure = 0, right = 0;
+  for (const Outcome& outcome : outcomes) {
+    for (const std::string& word : outcome.named) {
+      const sealed::Claim claim = sealed::parse_claim(word);
+      const bool acts = std::ranges::any_of(outcome.hidden, [&](const auto& id) { return claim.means(id); });
+      calibration.add(claim.probability, acts);
+      sure += claim.probability >= 0.95 ? 1 : 0;
+      right += claim.probability >= 0.95 && acts ? 1 : 0;
+    }
   }
+  fmt::print("{} claims: calibration error {:.3f}; of those of 95 % or more {} of {} are right\n\n",
+             calibration.claims(),
+             calibration.error(),
+             right,
+             sure);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  chaintrue::sealed::Sets sets;
-  TrialOptions options;
-  std::string mix = "single", points = "mix", cause;
-  double delta = 0.0;
-  CLI::App app("Hides a cause in many sets of data and counts how often it is found.");
-  sets.offer(app);
-  app.add_option("--mix", mix, "single, nothing, heavy, wrong_noise, uneven_noise, two, three, unlisted, bad_points, "
-                               "bad_points_and_effect, no_order, rounded, beside, two_beside, pattern, near");
+  sealed::Campaign campaign("Hides a cause in many sets of data and counts how often it is found.", argc, argv);
+  sealed::TrialOptions options{.more = true};
+  generator::Recipe& recipe = options.recipe;
+  std::string mix = "single", points = "mix";
+  std::vector<std::string> mixes;
+  for (const auto& [kind, name] : generator::kMixes) mixes.emplace_back(name);
+  CLI::App& app = campaign.app;
+  app.add_option("--mix", mix, "What is hidden")->check(CLI::IsMember(mixes));
   app.add_option("--points", points, "28, 60, 117, 200, 465 or mix")
       ->check(CLI::IsMember({"28", "60", "117", "200", "465", "mix"}));
-  app.add_option("--patterns", options.recipe.patterns, "smooth, short_scale, broad, other")
+  app.add_option("--patterns", recipe.patterns, "smooth, short_scale, broad, other")
       ->transform(CLI::CheckedTransformer(kPatterns));
-  app.add_option("--delta", delta, "One strength in place of 6 to 22");
-  app.add_option("--cause", cause, "This effect in place of a draw");
-  app.add_option("--extent", options.recipe.extent, "whole, without_corners, left_side")
-      ->transform(CLI::CheckedTransformer(kExtents));
+  app.add_option("--delta", recipe.delta, "One strength in place of 6 to 22");
   app.add_flag("--gain", options.improvement, "Held-out errors, reported and true");
   app.add_flag("--follow-up", options.follow_up, "Measure on where a set is left");
-  app.add_flag("--other-machines", options.recipe.other_machines, "Draw the machine as well");
-  return chaintrue::sealed::run_command(app, argc, argv, [&] {
-    const auto kind = generator::mix_of(mix);
-    if (!kind) throw std::invalid_argument("no such mix: " + mix);
-    options.recipe.kind = *kind;
-    if (delta > 0.0) options.recipe.delta = delta;
-    for (const auto& card : generator::cards()) {
-      if (card.id == cause) options.recipe.cause = card.cause;
-    }
-    if (!cause.empty() && !options.recipe.cause) throw std::invalid_argument("no such effect: " + cause);
-    const std::vector<Trial> trials = sets.each([&](std::uint64_t seed) {
-      TrialOptions own = options;
-      own.recipe.points = points_of(points, seed - sets.first_seed);
-      return run(own, seed);
-    });
-    fmt::print("{}", chaintrue::sealed::markdown(options, trials));
-  });
+  std::vector<sealed::RateRow> rows = sealed::rate_rows();
+  for (sealed::RateRow& row : sealed::rows_of("draws")) rows.push_back(std::move(row));
+  const auto list = [&] {
+    recipe.kind = *generator::mix_of(mix);
+    return campaign.sets_of({rate_kind_of(recipe)});
+  };
+  campaign.finish = [](std::vector<Outcome>& outcomes) { print_claims(outcomes); };
+  return campaign.run(
+      list,
+      [&](const sealed::PlannedSet& set) {
+        sealed::TrialOptions own = options;
+        own.recipe.points = points_of(points, set.seed - campaign.first_seed);
+        return std::vector{or_failed(set, [&] { return run_trial(set.kind, own, set.seed); })};
+      },
+      rows);
 }

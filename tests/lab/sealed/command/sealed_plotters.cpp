@@ -5,65 +5,62 @@
 /// is in docs/diagnosis_rates.md.
 ///
 ///   sealed_plotters --sets 40 --sound 100
-#include <map>
+#include <fmt/format.h>
 
-#include "sealed/command/sets.hpp"
+#include "sealed/command/campaign.hpp"
 #include "sealed/judge/plotter_sets.hpp"
 
 namespace {
 
-using chaintrue::sealed::HiddenCause;
-using chaintrue::sealed::PlotterKind;
-using chaintrue::sealed::PlotterOutcome;
+using namespace chaintrue::sealed;
 
-struct Arguments {
-  int sets = 40;
-  int sound = 100;
-  double least = 8.0;
-  double most = 16.0;
-  std::string kind;  ///< alone; empty: all
+struct Kind {
+  std::string word;
+  PlotterKind plotter;
+  HiddenCause cause;
 };
 
-void print_row(PlotterKind kind, const HiddenCause& cause, int sets, const Arguments& arguments) {
-  std::map<PlotterOutcome, int> count;
-  for (int seed = 1; seed <= sets; ++seed) {
-    const auto set = chaintrue::sealed::plotter_set(
-        kind, cause, arguments.least, arguments.most, static_cast<std::uint64_t>(seed));
-    ++count[chaintrue::sealed::outcome_of(set)];
+std::vector<Kind> all_kinds() {
+  std::vector<Kind> kinds;
+  for (const PlotterKind plotter : kPlotterKinds) {
+    for (const HiddenCause& cause : causes_of(plotter))
+      kinds.push_back({fmt::format("{}/{}_{}:hidden", name(plotter), cause.effect, cause.side), plotter, cause});
+    kinds.push_back({fmt::format("{}:sound", name(plotter)), plotter, {}});
   }
-  fmt::print("| {} | {} {} | {} | {} | {} | {} | {} | {} |\n",
-             chaintrue::sealed::name(kind),
-             cause.effect.empty() ? "nothing" : cause.effect,
-             cause.side,
-             sets,
-             count[PlotterOutcome::named],
-             count[PlotterOutcome::in_set],
-             count[PlotterOutcome::wrong],
-             count[PlotterOutcome::nothing],
-             count[PlotterOutcome::refused]);
-  std::fflush(stdout);
+  return kinds;
 }
 
-void run(const Arguments& arguments) {
-  fmt::print("| plotter | hidden | sets | alone | in a set | wrong | no name | refused |\n"
-             "|---|---|---|---|---|---|---|---|\n");
-  for (const PlotterKind kind : chaintrue::sealed::kPlotterKinds) {
-    if (!arguments.kind.empty() && arguments.kind != chaintrue::sealed::name(kind)) continue;
-    for (const HiddenCause& cause : chaintrue::sealed::causes_of(kind))
-      print_row(kind, cause, arguments.sets, arguments);
-    print_row(kind, {}, arguments.sound, arguments);
-  }
+Outcome run_drawing(const Kind& kind, std::uint64_t seed) {
+  constexpr const char* kVerdicts[] = {"named", "in_set", "wrong", "nothing", "refused"};
+  const PlotterSet set = plotter_set(kind.plotter, kind.cause, 8.0, 16.0, seed);
+  const PlotterOutcome found = outcome_of(set);
+  Outcome outcome{.kind = kind.word, .seed = seed, .strength = set.strength};
+  outcome.verdict = kVerdicts[static_cast<std::size_t>(found)];
+  outcome.add("right", found == PlotterOutcome::named || found == PlotterOutcome::in_set);
+  return outcome;
 }
 
 }  // namespace
 
-int main(int count, char** words) {
-  Arguments arguments;
-  CLI::App app{"Rates of the diagnosis of V-plotters on sealed drawings"};
-  app.add_option("--sets", arguments.sets, "Of each cause of each kind");
-  app.add_option("--sound", arguments.sound, "Of each kind, with nothing hidden");
-  app.add_option("--least", arguments.least, "Strength");
-  app.add_option("--most", arguments.most, "Strength");
-  app.add_option("--kind", arguments.kind, "One kind alone, such as \"light pen\"");
-  return chaintrue::sealed::run_command(app, count, words, [&] { run(arguments); });
+int main(int argc, char** argv) {
+  Campaign campaign("Rates of the diagnosis of V-plotters on sealed drawings", argc, argv);
+  campaign.sets = 40;
+  int sound = 100;
+  campaign.app.add_option("--sound", sound, "Sets of each plotter with nothing hidden");
+  const std::vector<Kind> kinds = all_kinds();
+  const auto list = [&] {
+    std::vector<PlannedSet> sets;
+    for (const Kind& kind : kinds) {
+      const std::vector<PlannedSet> own = campaign.sets_of({kind.word}, kind.cause.effect.empty() ? sound : campaign.sets);
+      sets.insert(sets.end(), own.begin(), own.end());
+    }
+    return sets;
+  };
+  return campaign.run(
+      list,
+      [&](const PlannedSet& set) {
+        const Kind& kind = *std::ranges::find(kinds, set.kind, &Kind::word);
+        return std::vector{run_drawing(kind, set.seed)};
+      },
+      rows_of("plotters"));
 }

@@ -7,41 +7,22 @@
 ///   sealed_rates now.txt --shard 3/16                      # of an hour and a half, resumable
 ///   sealed_rates all.txt --join now1.txt --join now2.txt --most 0
 ///   sealed_rates now.txt --against fixtures/sealed/outcomes.txt
-///
-/// Exit code 1: a row is worse; 3: a file cannot be read, or has other sets.
-#include "sealed/command/sets.hpp"
+#include <set>
 
-namespace {
-
-using namespace chaintrue::sealed;
-
-/// The whole list, or what of it is in the frozen outcomes; of some kinds alone where there are any.
-std::vector<PlannedSet> asked(const std::vector<Outcome>& frozen, const std::vector<std::string>& kinds) {
-  std::set<std::pair<std::string, std::uint64_t>> wanted;
-  for (const Outcome& outcome : frozen) wanted.emplace(outcome.kind, outcome.seed);
-  std::vector<PlannedSet> list = plan();
-  std::erase_if(list, [&](const PlannedSet& set) {
-    return (!wanted.empty() && !wanted.contains({set.kind, set.seed})) ||
-           (!kinds.empty() && std::ranges::find(kinds, set.kind) == kinds.end());
-  });
-  return list;
-}
-
-}  // namespace
+#include "sealed/command/campaign.hpp"
 
 int main(int argc, char** argv) {
-  OutcomeFile file;
-  std::vector<std::string> only;
-  CLI::App app("The rates of the diagnosis on the frozen list of sealed sets");
-  file.offer(app);
-  app.add_option("--kind", only, "Sets of this kind only")->check(CLI::IsMember(kinds()));
-  return run_command(app, argc, argv, [&] {
-    std::vector<Outcome> frozen;
-    if (!file.against.empty()) frozen = sorted(read_outcomes(file.against));
-    std::vector<Outcome> outcomes = file.known();
-    file.run(asked(frozen, only), "", [](const PlannedSet& set) { return std::vector{run_set(set)}; }, outcomes);
-    if (!file.against.empty()) return file.print_comparison(frozen, outcomes);
-    fmt::print("{}", rates_table(outcomes));
-    return 0;
-  });
+  using namespace chaintrue::sealed;
+  Campaign campaign("The rates of the diagnosis on the frozen list of sealed sets", argc, argv);
+  // The whole list, or what of it is in the frozen outcomes.
+  const auto list = [&] {
+    std::set<std::pair<std::string, std::uint64_t>> frozen;
+    for (const Outcome& outcome : campaign.before) frozen.emplace(outcome.kind, outcome.seed);
+    std::vector<PlannedSet> all = plan();
+    std::erase_if(all, [&](const PlannedSet& set) {
+      return (!frozen.empty() && !frozen.contains({set.kind, set.seed})) || !campaign.is_asked(set.kind);
+    });
+    return all;
+  };
+  return campaign.run(list, [](const PlannedSet& set) { return std::vector{run_set(set)}; }, rate_rows());
 }

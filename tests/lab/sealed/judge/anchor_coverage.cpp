@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sealed/judge/anchor_coverage.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -68,36 +69,35 @@ model::AppliedEffect drawn(const UsualCause& cause, int places, grid::Random& ra
 
 std::span<const UsualCause> usual_causes() { return kUsual; }
 
-Coverage coverage_of(const UsualCause& cause, std::uint64_t first_seed, int sessions, int side) {
+Outcome coverage_of(const std::string& effect, std::uint64_t seed, int side) {
   constexpr double kWithin = 1.96;
   const model::BeltMachine truth = frame();
   const grid::belts::AnchorVector true_anchors = grid::belts::anchors_of(truth);
-  Coverage result;
-  for (int k = 0; k < sessions; ++k) {
-    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(k);
-    grid::synthetic::BeltsSpec spec;
-    spec.columns = spec.rows = side;
-    spec.seed = seed;
-    grid::Random random(seed, cause.effect.size());
-    if (!cause.effect.empty()) spec.hidden.push_back(drawn(cause, side * side, random));
-    const auto belts = grid::synthetic::simulate_belts(truth, truth, spec);
-    if (!belts) throw std::logic_error("a session that cannot be simulated");
-    const auto fit = grid::diagnosis::fit_with_causes(*belts);
-    const auto alone = grid::fit_belts(*belts);
-    if (!fit || !alone) throw std::logic_error("a session that cannot be fitted");
-    for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
-      const double true_mm = true_anchors[static_cast<Eigen::Index>(i)];
-      const auto sigmas = [true_mm](const grid::AnchorCoordinate& c) {
-        return std::abs(c.fitted_mm - true_mm) / c.sigma_mm;
-      };
-      const double off = sigmas(fit->coordinates[i]);
-      ++result.of;
-      result.held += off < kWithin;
-      result.held_alone += sigmas(alone->coordinates[i]) < kWithin;
-      result.square += off * off;
-    }
+  grid::synthetic::BeltsSpec spec;
+  spec.columns = spec.rows = side;
+  spec.seed = seed;
+  const UsualCause& cause = *std::ranges::find(kUsual, effect, &UsualCause::effect);
+  if (cause.most > 0.0) {
+    grid::Random random(seed, effect.size());
+    spec.hidden.push_back(drawn(cause, side * side, random));
   }
-  return result;
+  const auto belts = grid::synthetic::simulate_belts(truth, truth, spec);
+  if (!belts) throw std::logic_error("a session that cannot be simulated");
+  const auto fit = grid::diagnosis::fit_with_causes(*belts);
+  const auto alone = grid::fit_belts(*belts);
+  if (!fit || !alone) throw std::logic_error("a session that cannot be fitted");
+  Outcome outcome{.kind = effect, .seed = seed, .points = side * side};
+  const auto of = static_cast<double>(fit->coordinates.size());
+  for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
+    const auto sigmas = [&](const grid::AnchorCoordinate& c) {
+      return std::abs(c.fitted_mm - true_anchors[static_cast<Eigen::Index>(i)]) / c.sigma_mm;
+    };
+    const double off = sigmas(fit->coordinates[i]);
+    outcome.numbers["held"] += (off < kWithin ? 1.0 : 0.0) / of;
+    outcome.numbers["held_alone"] += (sigmas(alone->coordinates[i]) < kWithin ? 1.0 : 0.0) / of;
+    outcome.numbers["square"] += off * off / of;
+  }
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

@@ -10,11 +10,13 @@
 #include <span>
 #include <string_view>
 
+#include "sealed/judge/outcome.hpp"
+
 namespace chaintrue::sealed {
 
 /// A cause of the belts' table with the range of its usual sizes (docs/maslow4.md).
 struct UsualCause {
-  std::string_view effect;  ///< empty: nothing acts
+  std::string_view effect = "nothing";
   std::string_view parameter;
   double least = 0.0;
   double most = 0.0;
@@ -22,18 +24,9 @@ struct UsualCause {
 };
 [[nodiscard]] std::span<const UsualCause> usual_causes();
 
-struct Coverage {
-  int held = 0;         ///< coordinates within 1.96 sigmas of the truth
-  int of = 0;           ///< five a session
-  int held_alone = 0;   ///< the same of anchors fitted alone
-  double square = 0.0;  ///< sum of (error / sigma)^2
-};
-
-/// Sessions of seeds first_seed, first_seed + 1, ..., `side` by `side` places each. \throws
-/// std::logic_error where a session cannot be simulated or fitted.
-[[nodiscard]] Coverage coverage_of(const UsualCause& cause,
-                                   std::uint64_t first_seed,
-                                   int sessions,
-                                   int side);
+/// A session of `side` by `side` places. Its numbers are the shares of the coordinates within 1.96 sigmas of the
+/// truth (`held`, and `held_alone` of anchors fitted alone) and the mean of (error / sigma)^2, `square`. \throws
+/// std::logic_error where the session cannot be simulated or fitted.
+[[nodiscard]] Outcome coverage_of(const std::string& effect, std::uint64_t seed, int side);
 
 }  // namespace chaintrue::sealed

@@ -30,8 +30,8 @@ namespace {
 
 bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
   if (found.outliers.size() != secret.bad.size()) return false;
-  return std::all_of(found.outliers.begin(), found.outliers.end(), [&](const auto& bad) {
-    return std::any_of(secret.bad.begin(), secret.bad.end(), [&](const auto& hidden) {
+  return std::ranges::all_of(found.outliers, [&](const auto& bad) {
+    return std::ranges::any_of(secret.bad, [&](const auto& hidden) {
       return bad.belt && static_cast<int>(bad.index) == hidden[0] &&
              (static_cast<int>(*bad.belt) == hidden[1] ||
               (bad.or_belt && static_cast<int>(*bad.or_belt) == hidden[1]));
@@ -50,12 +50,12 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
   for (const diagnosis::ClassProbability& one : a.decision.marginal) {
     if (leading.size() < kCompared) leading.push_back(a.decision.classes[one.index].front());
   }
-  const auto hidden = std::find_if(leading.begin(), leading.end(), [&](const auto& cause) {
+  const auto hidden = std::ranges::find_if(leading, [&](const auto& cause) {
     return cause.effect->id == secret.effect && name(cause.side) == secret.side;
   });
   if (hidden == leading.end()) return false;
   const auto& g = diagnosis::marginalised_system(a).g;
-  return std::all_of(leading.begin(), leading.end(), [&](const diagnosis::CauseId& other) {
+  return std::ranges::all_of(leading, [&](const diagnosis::CauseId& other) {
     if (other == *hidden) return true;
     const double collinearity = diagnosis::collinearity_of(g.col(diagnosis::best_regressor(a, *hidden)),
                                                            g.col(diagnosis::best_regressor(a, other)));
@@ -67,36 +67,36 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
 
 }  // namespace
 
-BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed) {
+Outcome run_belts_trial(const std::string& kind, const generator::BeltRecipe& recipe, std::uint64_t seed, bool more) {
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
-  BeltsTrial trial;
-  trial.seed = seed;
-  trial.points = static_cast<int>(draw.lengths_mm.size());
-  trial.secret = draw.secret;
+  const generator::BeltSecret& secret = draw.secret;
   const grid::MeasuredBelts belts = measured_belts_of(draw);
   grid::diagnosis::DiagnosisOptions how;
   how.next_measurements = false;
   const auto found = grid::diagnosis::diagnose(belts, how);
-  if (!found) {
-    trial.failed = true;
-    return trial;
-  }
-  trial.verdict = name(found->verdict);
-  trial.causes = named_causes(*found);
-  trial.named = !found->causes.empty();
-  const auto is_hidden = [&](const auto& cause) {
-    return cause.cause.effect->id == draw.secret.effect &&
-           name(cause.cause.side) == draw.secret.side;
-  };
-  const auto holds = [&](const grid::diagnosis::Cause& cause) {
-    return is_hidden(cause) || std::any_of(cause.same_as.begin(), cause.same_as.end(), is_hidden);
-  };
-  trial.held = std::any_of(found->causes.begin(), found->causes.end(), holds);
-  trial.exact = found->verdict == grid::diagnosis::Verdict::named && trial.held;
-  trial.right_belt = trial.named && name(found->causes.front().cause.side) == draw.secret.side;
-  trial.separable = !draw.secret.effect.empty() && is_separable(draw.secret, belts);
-  trial.bad_found = same_bad(draw.secret, *found);
-  return trial;
+  Trial trial(found ? *found : grid::diagnosis::Diagnosis{});
+  if (!secret.effect.empty()) trial.hidden.push_back(id_of(secret.effect, secret.side));
+  Outcome outcome = outcome_of(kind, seed, trial);
+  outcome.points = static_cast<int>(draw.lengths_mm.size());
+  outcome.strength = secret.strength;
+  const bool alone = outcome.has("alone"), held = outcome.has("held"), named = !trial.causes.empty();
+  const bool one = trial.verdict == grid::diagnosis::Verdict::named;
+  outcome.facts.clear();
+  if (!found) outcome.fail();
+  if (!found) return outcome;
+  outcome.add("alone", alone);
+  outcome.add("held", held);
+  outcome.add("right_belt", named && name(found->causes.front().cause.side) == secret.side);
+  outcome.add("nothing_false", !named || held);
+  outcome.add("no_name", !named);
+  outcome.add("no_pattern", trial.verdict != grid::diagnosis::Verdict::model_discrepancy);
+  outcome.add("bad_found", same_bad(secret, *found));
+  if (!more) return outcome;
+  outcome.add("separable", !secret.effect.empty() && is_separable(secret, belts));
+  outcome.add("one_belt", named && secret.side.size() == 2);
+  outcome.add("set", named && !one);
+  outcome.add("wrong", named && one && !alone);
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -63,6 +64,22 @@ RateBounds rate_bounds_95(int hits, int of) {
         where([&](double p) { return probability_of_at_least(hits + 1, of, p); }, 1.0 - kEachSide);
   }
   return bounds;
+}
+
+RateBounds clustered_bounds(const std::vector<Count>& clusters) {
+  // Quantile 97.5 % of Student's t, by its degrees of freedom.
+  constexpr std::array kQuantiles = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.26};
+  Count all;
+  for (const Count& own : clusters) all = {all.hits + own.hits, all.of + own.of};
+  if (clusters.size() < 2 || all.of == 0) return {};
+  const double rate = static_cast<double>(all.hits) / all.of;
+  double square = 0.0;
+  for (const Count& own : clusters) square += std::pow(own.hits - rate * own.of, 2);
+  const auto n = static_cast<double>(clusters.size());
+  const double off = kQuantiles[std::min(clusters.size() - 2, kQuantiles.size() - 1)] *
+                     std::sqrt(n / (n - 1.0) * square) / all.of;
+  const RateBounds binomial = rate_bounds_95(all.hits, all.of);
+  return {std::max(0.0, std::min(binomial.lower, rate - off)), std::min(1.0, std::max(binomial.upper, rate + off))};
 }
 
 double sign_test(int lost, int gained) {

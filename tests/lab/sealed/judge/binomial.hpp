@@ -7,6 +7,8 @@
 /// 153-157, in its exact form, which is the sign test of the pairs that differ.
 #pragma once
 
+#include <vector>
+
 namespace chaintrue::sealed {
 
 /// P(X >= least) of X binomial with `of` trials of probability `p`; to 1e-12 up to 10,000 trials.
@@ -20,6 +22,17 @@ struct RateBounds {
 /// Two-sided 95 % bounds of Clopper and Pearson: 2.5 % on each side, at most.
 /// \throws std::invalid_argument unless 0 <= hits <= of.
 [[nodiscard]] RateBounds rate_bounds_95(int hits, int of);
+
+struct Count {
+  int hits = 0;
+  int of = 0;
+};
+
+/// 95 % bounds of a rate over clusters of which each has its own: the wider of the binomial ones and those of
+/// Student's t with a degree of freedom less than there are clusters (W. Cochran, Sampling Techniques (1977),
+/// section 9A: the ratio estimate of a sample of clusters). 0 to 1 for a single cluster, which carries
+/// no information about another.
+[[nodiscard]] RateBounds clustered_bounds(const std::vector<Count>& clusters);
 
 /// One-sided exact sign test: the probability of at least that many losses among the sets that
 /// differ, if losses and gains are equally likely. Twice this, at most one, is McNemar's exact

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sealed/judge/follow_up.hpp"
 
+#include "generator/hidden/random.hpp"
+#include "sealed/judge/trial.hpp"
+
 namespace chaintrue::sealed {
 namespace {
 
@@ -49,9 +52,9 @@ bool follow_up(generator::SealedSet& set,
     if (!again) break;
     found = std::move(*again);
   }
-  const std::vector<NamedCause> named = named_causes(found);
-  return found.verdict == Verdict::named && named.size() == 1 && set.answer.hidden.size() == 1 &&
-         means(named.front(), id_of(set.answer.hidden.front()));
+  const std::vector<Claim> named = named_causes(found);
+  return found.verdict == Verdict::named && set.answer.hidden.size() == 1 &&
+         named.front().means(id_of(set.answer.hidden.front()));
 }
 
 }  // namespace chaintrue::sealed

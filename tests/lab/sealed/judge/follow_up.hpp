@@ -3,7 +3,8 @@
 /// Measures what the diagnosis proposes.
 #pragma once
 
-#include "sealed/judge/trial.hpp"
+#include "generator/hidden/draw.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 
 namespace chaintrue::sealed {
 

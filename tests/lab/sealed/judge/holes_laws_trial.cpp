@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
 
 #include "generator/hidden/random.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "sealed/judge/holes_trial.hpp"
-#include "sealed/judge/other_laws_trials.hpp"
+#include "sealed/judge/laws_trial.hpp"
 
 namespace chaintrue::sealed {
 namespace {
@@ -127,8 +126,8 @@ class HolesDraw {
       Vec2 place = place_reached(machine, lengths_[i].lengths, visits_[i].place);
       if (law != nullptr) {
         const std::vector<generator::Visit> visit = {{place, 0}};
-        const Vec2 added =
-            generator::law_at(*law, visit, *generator::rests(machine.truth(), visit)).front();
+        const generator::Site site = generator::sites_of(visit, *generator::rests(machine.truth(), visit)).front();
+        const Vec2 added = generator::disturbance_of(*law).at(site);
         if (law->moves_tool) {
           place = {place.x - added.x, place.y - added.y};
         } else {
@@ -176,7 +175,7 @@ class HolesDraw {
     whitening_ = noise();
     plain_ = distances(HiddenMachine(TrueMachine{}, truth_, {}));
     constexpr double kStepMm = 0.5;
-    by_setting_ = Eigen::MatrixXd::Zero(plain_.size() + 6, 6);
+    Eigen::MatrixXd by_setting = Eigen::MatrixXd::Zero(plain_.size() + 6, 6);
     for (Eigen::Index k = 0; k < 6; ++k) {
       TrueMachine moved = truth_;
       const auto side = static_cast<std::size_t>(k % 2);
@@ -185,18 +184,16 @@ class HolesDraw {
       if (k >= 2 && k < 4) moved.axis[side].y += kStepMm;
       if (k >= 4) moved.chain_zero_mm[side] += kStepMm;
       const Eigen::VectorXd change = distances(HiddenMachine(TrueMachine{}, moved, {})) - plain_;
-      by_setting_.col(k).head(plain_.size()) =
+      by_setting.col(k).head(plain_.size()) =
           whitening_.matrixL().solve(change) * (sigma / kStepMm);
-      by_setting_(plain_.size() + k, k) = 1.0;
+      by_setting(plain_.size() + k, k) = 1.0;
     }
+    settings_ = generator::Projection(by_setting);
   }
 
   /// In units of noise, a machine's change after projection on the settings.
   Eigen::VectorXd left_of(const HiddenMachine& machine, const HiddenLaw* law = nullptr) const {
-    Eigen::VectorXd rows = Eigen::VectorXd::Zero(by_setting_.rows());
-    rows.head(plain_.size()) = whitening_.matrixL().solve(distances(machine, law) - plain_);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_setting_);
-    return rows - by_setting_ * qr.solve(rows);
+    return settings_.left_of(whitening_.matrixL().solve(distances(machine, law) - plain_));
   }
 
   std::vector<generator::Rival> rivals_at_usual_sizes() const {
@@ -219,31 +216,27 @@ class HolesDraw {
   std::vector<generator::Visit> visits_;
   Eigen::LLT<Eigen::MatrixXd> whitening_;
   Eigen::VectorXd plain_;
-  Eigen::MatrixXd by_setting_;
+  generator::Projection settings_;
 };
 
 }  // namespace
 
-LawsTrial run_holes_laws_trial(std::string_view kind, std::uint64_t seed) {
+Outcome run_holes_laws_trial(const std::string& kind, std::uint64_t seed) {
   HolesDraw draw(seed);
-  LawsTrial trial;
-  trial.seed = seed;
   std::vector<Hidden> causes;
   std::optional<generator::SizedLaw> law;
   if (kind == "causes") causes.push_back(draw.draw_cause());
   if (kind == "laws") law = draw.draw_law(static_cast<LawFamily>(seed % 9));
   if (kind == "two") law = draw.draw_law(LawFamily::product_of_two);
   if (kind == "gaussian") law = draw.draw_law(LawFamily::gaussian_field);
-  for (const Hidden& cause : causes) trial.hidden += id_of(cause);
-  const HiddenMachine machine(TrueMachine{}, draw.truth(), causes);
-  if (law) trial.hidden = words_of(*law, kOfChains);
-  const HiddenLaw* hidden = law ? &law->law : nullptr;
-  const grid::MeasuredHoles set = draw.measure(machine, hidden);
-  trial.points = static_cast<int>(set.distances.size());
-  const auto found = timed(trial, [&] { return grid::diagnosis::diagnose(set, verdict_alone()); });
-  trial.failed = !found;
-  if (found) judge_laws(*found, hidden, kOfChains, trial);
-  return trial;
+  const grid::MeasuredHoles set =
+      draw.measure(HiddenMachine(TrueMachine{}, draw.truth(), causes), law ? &law->law : nullptr);
+  const auto found = grid::diagnosis::diagnose(set, verdict_alone());
+  Outcome outcome{.seed = seed, .points = static_cast<int>(set.distances.size())};
+  for (const Hidden& cause : causes) outcome.hidden.push_back(id_of(cause));
+  if (!found) outcome.fail();
+  if (found) judge_laws(*found, law ? &*law : nullptr, kOfChains, outcome);
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

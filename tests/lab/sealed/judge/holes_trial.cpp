@@ -62,27 +62,18 @@ Vec2 place_reached(const generator::HiddenMachine& machine,
   return at;
 }
 
-Vec2 place_reached(const TrueMachine& machine,
-                   std::span<const Hidden> effects,
-                   const model::ChainLengths& paid_out,
-                   Vec2 near) {
-  return place_reached(
-      generator::HiddenMachine(TrueMachine{}, machine, {effects.begin(), effects.end()}),
-      paid_out,
-      near);
-}
-
 CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
   grid::MeasuredHoles set = nine_holes();
   generator::Dice dice(seed, "holes");
   const TrueMachine truth = generator::with_settings_off({}, 1.0, dice);
   const auto distances = grid::observation::TapeDistances::in_given_order(set);
+  generator::HiddenMachine machine(TrueMachine{}, truth, effects);
   std::vector<Vec2> places;
   std::vector<generator::Visit> visits;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const model::BedPoint& near = set.holes[i].commanded;
     Vec2 place =
-        place_reached(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
+        place_reached(machine, distances->places()[i].lengths, {near.x_mm, near.y_mm});
     visits.push_back({place, static_cast<int>(i)});
     place.x += set.hole_sigma_mm * dice.normal();
     place.y += set.hole_sigma_mm * dice.normal();
@@ -93,32 +84,22 @@ CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
     const Vec2& b = places[distance.to];
     distance.distance_mm = std::hypot(a.x - b.x, a.y - b.y) + set.tape.sigma_mm * dice.normal();
   }
-  generator::HiddenMachine machine(TrueMachine{}, truth, effects);
   machine.went_to(std::move(visits));
   return {std::move(set), std::move(machine)};
 }
 
-grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
-  return cut_holes(effects, seed).set;
-}
-
-Trial run_holes_trial(bool long_chain, std::uint64_t seed) {
-  Trial trial;
-  trial.seed = seed;
-  if (long_chain) {
-    const Where side = seed % 2 == 0 ? Where::left : Where::right;
-    trial.answer.hidden.push_back({Cause::chain_pitch_error, side, kElongation, 0.0});
-    trial.hidden.push_back(id_of(trial.answer.hidden.front()));
-  }
-  const grid::MeasuredHoles set = hidden_holes(trial.answer.hidden, seed);
-  trial.points = static_cast<int>(set.distances.size());
+Outcome run_holes_trial(const std::string& kind, bool long_chain, std::uint64_t seed) {
+  std::vector<Hidden> hidden;
+  if (long_chain)
+    hidden.push_back({Cause::chain_pitch_error, seed % 2 == 0 ? Where::left : Where::right, kElongation, 0.0});
+  const grid::MeasuredHoles set = cut_holes(hidden, seed).set;
   const auto found = grid::diagnosis::diagnose(set, verdict_alone());
-  if (!found) {
-    trial.failed = true;
-    return trial;
-  }
-  take_over(*found, trial);
-  return trial;
+  Trial trial(found ? *found : grid::diagnosis::Diagnosis{});
+  for (const Hidden& own : hidden) trial.hidden.push_back(id_of(own));
+  Outcome outcome = outcome_of(kind, seed, trial);
+  outcome.points = static_cast<int>(set.distances.size());
+  if (!found) outcome.fail();
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

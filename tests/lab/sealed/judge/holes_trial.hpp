@@ -17,11 +17,6 @@ namespace chaintrue::sealed {
 [[nodiscard]] generator::Vec2 place_reached(const generator::HiddenMachine& machine,
                                             const model::ChainLengths& paid_out,
                                             generator::Vec2 near);
-[[nodiscard]] generator::Vec2 place_reached(const generator::TrueMachine& machine,
-                                            std::span<const generator::Hidden> effects,
-                                            const model::ChainLengths& paid_out,
-                                            generator::Vec2 near);
-
 /// fixtures/holes/nine_holes.json.
 [[nodiscard]] const grid::MeasuredHoles& nine_holes();
 
@@ -35,11 +30,9 @@ struct CutHoles {
 /// off by 1.5 mm and zeros by 0.5 mm, one sigma; stated 3 and 1. \throws std::runtime_error if the
 /// machine cannot cut one of the holes.
 [[nodiscard]] CutHoles cut_holes(const std::vector<generator::Hidden>& effects, std::uint64_t seed);
-[[nodiscard]] grid::MeasuredHoles hidden_holes(const std::vector<generator::Hidden>& effects,
-                                               std::uint64_t seed);
 
 /// No cause, or a chain that is 0.15 % long, left for even seeds and right for odd ones: a strength
 /// of some eight. `points` is the number of distances.
-[[nodiscard]] Trial run_holes_trial(bool long_chain, std::uint64_t seed);
+[[nodiscard]] Outcome run_holes_trial(const std::string& kind, bool long_chain, std::uint64_t seed);
 
 }  // namespace chaintrue::sealed

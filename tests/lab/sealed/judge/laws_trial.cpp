@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
+#include <optional>
 
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/files/grid_file.hpp"
+#include "sealed/judge/belts_trial.hpp"
 #include "sealed/judge/map_errors.hpp"
-#include "sealed/judge/other_laws_trials.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
@@ -25,6 +25,10 @@ using grid::diagnosis::Coordinate;
 using grid::diagnosis::Enters;
 using grid::diagnosis::Law;
 using grid::diagnosis::LawShape;
+using Says = grid::diagnosis::DeclaredAnswer::Says;
+
+const std::string kBeltsKind = "belts_";
+const std::string kHolesKind = "holes_";
 
 generator::Recipe recipe_of(std::string_view kind, std::uint64_t seed) {
   generator::Recipe recipe;
@@ -78,7 +82,7 @@ Enters entry_of(const HiddenLaw& law, const LawEntries& entries) {
   return nth(law.moves_tool ? Enters::x : entries.reading, law.component);
 }
 
-/// As LawsTrial::worst_sigmas.
+/// Largest distance of a place, period or size from the truth, in sigmas, of a law with the right shape.
 std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
   const auto sigmas = [&](std::size_t k, double truth) {
     return std::abs(found.parameters[k].value - truth) / std::max(found.parameters[k].sigma, 1e-9);
@@ -108,8 +112,7 @@ std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
   }
 }
 
-std::optional<LawInUse::Says> said_of(const std::string& grid_text,
-                                      const model::effects::Effect& effect) {
+std::optional<Says> said_of(const std::string& grid_text, const model::effects::Effect& effect) {
   grid::MeasuredGrid grid = grid::files::parse_grid(grid_text, "second.json").grid;
   grid.machine->declared = {&effect};
   const auto found = grid::diagnosis::diagnose(grid, verdict_alone());
@@ -117,8 +120,7 @@ std::optional<LawInUse::Says> said_of(const std::string& grid_text,
   return found->declared.front().says;
 }
 
-std::optional<double> error_ratio(const generator::SealedSet& set,
-                                  const model::effects::Effect& effect) {
+std::optional<double> error_ratio(const generator::SealedSet& set, const model::effects::Effect& effect) {
   grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   const auto plain = grid::joint_fit(grid::Measured(grid));
   grid.machine->declared = {&effect};
@@ -130,170 +132,126 @@ std::optional<double> error_ratio(const generator::SealedSet& set,
 }
 
 /// From a session, a machine and a seed independent of the first.
-std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& trial) {
+void use(const generator::SealedSet& set, const std::vector<Law>& laws, Outcome& outcome) {
   constexpr std::uint64_t kOtherNoise = 70000;
   constexpr std::uint64_t kOtherFamily = 9;
-  const auto written = grid::diagnosis::declaration_of(trial.laws, model::Bed{});
-  if (!written) return std::nullopt;
+  const auto written = grid::diagnosis::declaration_of(laws, model::Bed{});
+  if (!written) return;
   const model::effects::Effect& effect = model::effects::declared_effect(*written);
-  const generator::Layout layout = generator::layout_of(trial.points);
-  const std::uint64_t other = trial.seed + kOtherFamily;
-  LawInUse result;
-  result.second = said_of(
-      generator::other_session(set, layout.columns, layout.rows, trial.seed + kOtherNoise), effect);
-  result.foreign = said_of(generator::draw_set(recipe_of("laws", other), other).grid_text, effect);
-  result.error_ratio = error_ratio(set, effect);
-  return result;
+  const generator::Layout layout = generator::layout_of(outcome.points);
+  const std::uint64_t other = outcome.seed + kOtherFamily;
+  const auto second =
+      said_of(generator::other_session(set, layout.columns, layout.rows, outcome.seed + kOtherNoise), effect);
+  const auto foreign = said_of(generator::draw_set(recipe_of("laws", other), other).grid_text, effect);
+  outcome.add("used", true);
+  outcome.add("confirmed", second == Says::confirmed);
+  outcome.add("denied", foreign == Says::denied);
+  outcome.add("mistaken", foreign == Says::confirmed);
+  if (const auto ratio = error_ratio(set, effect)) outcome.numbers["error_ratio"] = *ratio;
 }
 
 /// The names after a claimed law adds or withdraws some.
-std::vector<NamedCause> given_law(const grid::diagnosis::Diagnosis& found,
-                                  std::vector<NamedCause> named) {
+std::vector<Claim> given_law(const grid::diagnosis::Diagnosis& found, std::vector<Claim> named) {
   if (!found.unexplained) return named;
   for (const auto& own : found.unexplained->causes_given_law) {
     if (own.parameters.empty()) {
-      std::erase_if(named, [&](const NamedCause& one) { return one.id == id_of(own.cause); });
+      std::erase_if(named, [&](const Claim& one) { return one.members.front() == id_of(own.cause); });
       continue;
     }
-    NamedCause more{id_of(own.cause), own.probability, {}};
-    for (const auto& same : own.same_as) more.same_as.push_back(id_of(same));
-    named.push_back(std::move(more));
+    Claim& more = named.emplace_back(Claim{{id_of(own.cause)}, own.probability});
+    for (const auto& same : own.same_as) more.members.push_back(id_of(same));
   }
   return named;
 }
 
-LawsTrial::Names worth_of(const std::vector<NamedCause>& named, const generator::Answer& answer) {
-  LawsTrial::Names names;
-  for (const NamedCause& one : named) {
-    const bool right = std::any_of(answer.hidden.begin(),
-                                   answer.hidden.end(),
-                                   [&](const auto& hidden) { return means(one, id_of(hidden)); });
-    names.right = names.right || right;
-    names.wrong = names.wrong || (!right && one.probability >= grid::diagnosis::kLawClaimed);
-  }
-  return names;
+void judge_names(const std::vector<Claim>& named, const Trial& trial, const std::string& given, Outcome& outcome) {
+  outcome.add("right" + given, std::ranges::any_of(named, [&](const Claim& one) { return trial.is_hidden(one); }));
+  outcome.add("wrong" + given, std::ranges::any_of(named, [&](const Claim& one) {
+                return !trial.is_hidden(one) && one.probability >= grid::diagnosis::kLawClaimed;
+              }));
+}
+
+generator::BeltRecipe belt_recipe_of(std::string_view kind, std::uint64_t seed) {
+  generator::BeltRecipe recipe;
+  recipe.nothing = kind != "causes";
+  if (kind == "laws") recipe.law = generator::kBeltLaws[seed % generator::kBeltLawsOfOne];
+  if (kind == "two") recipe.law = LawFamily::product_of_two;
+  if (kind == "gaussian") recipe.law = LawFamily::gaussian_field;
+  return recipe;
+}
+
+Outcome run_belts_laws_trial(const std::string& kind, std::uint64_t seed) {
+  const generator::BeltDraw draw = generator::draw_belts(belt_recipe_of(kind, seed), seed);
+  grid::diagnosis::DiagnosisOptions how;
+  how.next_measurements = false;
+  const auto found = grid::diagnosis::diagnose(measured_belts_of(draw), how);
+  Outcome outcome{.seed = seed, .points = static_cast<int>(draw.lengths_mm.size())};
+  if (!draw.secret.effect.empty()) outcome.hidden.push_back(draw.secret.effect);
+  if (!found) outcome.fail();
+  if (found) judge_laws(*found, draw.secret.law ? &*draw.secret.law : nullptr, kOfBelts, outcome);
+  return outcome;
 }
 
 }  // namespace
 
-std::string words_of(const generator::SizedLaw& hidden, const LawEntries& entries) {
-  const HiddenLaw& law = hidden.law;
-  return fmt::format("{} {:.1f} size {:.2f} {} place {:.0f} extent {:.2f} dir {:.0f}",
-                     word(law.family),
-                     hidden.delta,
-                     law.size_mm,
-                     name(entry_of(law, entries)),
-                     law.place,
-                     law.extent,
-                     law.direction_rad * 180.0 / std::numbers::pi);
-}
-
 void judge_laws(const grid::diagnosis::Diagnosis& found,
-                const HiddenLaw* hidden,
+                const generator::SizedLaw* hidden,
                 const LawEntries& entries,
-                LawsTrial& trial) {
-  trial.sentence = found.sentence;
-  if (found.unexplained) trial.laws = found.unexplained->laws;
-  trial.reported = !trial.laws.empty();
-  trial.claimed = trial.reported && trial.laws.front().probability >= grid::diagnosis::kLawClaimed;
-  if (hidden == nullptr || !trial.reported) return;
+                Outcome& outcome) {
+  const std::vector<Law> laws = found.unexplained ? found.unexplained->laws : std::vector<Law>{};
+  const bool claimed = !laws.empty() && laws.front().probability >= grid::diagnosis::kLawClaimed;
+  outcome.verdict = name(found.verdict);
+  for (const Law& law : laws)
+    outcome.named.push_back(
+        fmt::format("{}/{}/{}={:.2f}", name(law.of), name(law.shape), name(law.enters), law.probability));
+  outcome.add(claimed ? "claimed" : "unclaimed", true);
+  if (hidden == nullptr) return;
+  const HiddenLaw& truth = hidden->law;
+  outcome.hidden.push_back(fmt::format("{}/{}", word(truth.family), name(entry_of(truth, entries))));
+  outcome.strength = hidden->delta;
   const auto is_right = [&](const Law& law) {
-    return is_variable_of(*hidden, entries, law) && law.enters == entry_of(*hidden, entries);
+    return is_variable_of(truth, entries, law) && law.enters == entry_of(truth, entries);
   };
-  trial.leads = is_right(trial.laws.front());
-  trial.in_set = std::ranges::any_of(trial.laws, is_right);
-  if (trial.leads) trial.worst_sigmas = worst_of(*hidden, trial.laws.front());
+  outcome.add("in_set", std::ranges::any_of(laws, is_right));
+  if (laws.empty() || !is_right(laws.front())) return;
+  outcome.add("leads", true);
+  const auto& left_out = laws.front().held_out;
+  outcome.add("wave", is_periodic(laws.front().shape));
+  outcome.add("predicts", left_out && left_out->inside.with_mm < left_out->inside.without_mm &&
+                              left_out->outside.with_mm < left_out->outside.without_mm);
+  if (const auto worst = worst_of(truth, laws.front())) {
+    outcome.add("placed", true);
+    outcome.add("near", *worst <= 3.0);
+    outcome.numbers["worst_sigmas"] = *worst;
+  }
 }
 
-const std::vector<LawsKind>& laws_kinds() {
-  static const std::vector<LawsKind> kKinds = {
-      {"laws", "a law of one variable", true},
-      {"both", "a law and a listed cause of strength 10", true},
-      {"two", "a product of two waves", false},
-      {"gaussian", "a Gaussian field", false},
-      {"matern", "a Matern 3/2 field", false},
-      {"stretched", "a field three times as long one way", false},
-      {"uneven", "a field that is rougher on one side", false},
-      {"causes", "one listed cause", false},
-      {"nothing", "nothing", false},
-      {"belts_laws", "a law of one variable in a belt", true},
-      {"belts_two", "a product of two waves in a belt", false},
-      {"belts_gaussian", "a Gaussian field in a belt", false},
-      {"belts_causes", "one listed cause of belts", false},
-      {"belts_nothing", "nothing in belts", false},
-      {"holes_laws", "a law of one variable, holes", true},
-      {"holes_two", "a product of two waves, holes", false},
-      {"holes_gaussian", "a Gaussian field, holes", false},
-      {"holes_causes", "one listed cause, holes", false},
-      {"holes_nothing", "nothing, holes", false},
-  };
-  return kKinds;
-}
-
-LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use) {
-  constexpr std::string_view kBelts = "belts_";
-  constexpr std::string_view kHoles = "holes_";
-  if (kind.starts_with(kBelts)) return run_belts_laws_trial(kind.substr(kBelts.size()), seed);
-  if (kind.starts_with(kHoles)) return run_holes_laws_trial(kind.substr(kHoles.size()), seed);
-  const generator::Recipe recipe = recipe_of(kind, seed);
-  const generator::SealedSet set = generator::draw_set(recipe, seed);
-  LawsTrial trial;
-  trial.seed = seed;
-  trial.points = recipe.points;
-  trial.answer = set.answer;
-  const auto found = timed(trial, [&] {
-    return grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid,
-                                     verdict_alone());
-  });
-  trial.failed = !found;
-  if (!found) return trial;
-  const std::vector<NamedCause> named = named_causes(*found);
-  trial.names = worth_of(named, set.answer);
-  trial.names_given_law = worth_of(given_law(*found, named), set.answer);
-  judge_laws(*found, set.answer.law ? &set.answer.law->law : nullptr, kOfChains, trial);
-  if (in_use && trial.claimed) trial.in_use = use(set, trial);
-  return trial;
-}
-
-std::string line_of(std::string_view kind, const LawsTrial& trial) {
-  std::string text = fmt::format("{} {} {}", kind, trial.seed, trial.points);
-  if (trial.answer.law) text += " " + words_of(*trial.answer.law, kOfChains);
-  for (const auto& hidden : trial.answer.hidden) text += " " + id_of(hidden);
-  if (!trial.hidden.empty()) text += " " + trial.hidden;
-  text += fmt::format(" | {}{}{}{}",
-                      trial.failed ? "failed " : "",
-                      trial.claimed ? "claimed " : "",
-                      trial.leads ? "leads " : "",
-                      trial.in_set ? "in_set " : "");
-  if (trial.worst_sigmas) text += fmt::format("{:.1f}s ", *trial.worst_sigmas);
-  for (const Law& law : trial.laws) {
-    text += fmt::format("| {} {} {} {:.2f}/{:.2f}",
-                        name(law.of),
-                        name(law.shape),
-                        name(law.enters),
-                        law.probability,
-                        law.shape_probability);
-    if (law.of == Coordinate::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
-    for (const auto& p : law.parameters)
-      text += fmt::format(" {}={:.2f}+-{:.2f}", p.parameter, p.value, p.sigma);
-    if (law.held_out) {
-      text += fmt::format(" left out {:.3f}/{:.3f} a quarter {:.3f}/{:.3f}",
-                          law.held_out->inside.with_mm,
-                          law.held_out->inside.without_mm,
-                          law.held_out->outside.with_mm,
-                          law.held_out->outside.without_mm);
+Outcome run_laws_trial(const std::string& kind, std::uint64_t seed, bool in_use) {
+  Outcome outcome;
+  if (kind.starts_with(kBeltsKind)) {
+    outcome = run_belts_laws_trial(kind.substr(kBeltsKind.size()), seed);
+  } else if (kind.starts_with(kHolesKind)) {
+    outcome = run_holes_laws_trial(kind.substr(kHolesKind.size()), seed);
+  } else {
+    const generator::Recipe recipe = recipe_of(kind, seed);
+    const generator::SealedSet set = generator::draw_set(recipe, seed);
+    outcome = {.seed = seed, .points = recipe.points};
+    const auto found =
+        grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid, verdict_alone());
+    if (!found) {
+      outcome.fail();
+    } else {
+      Trial trial(*found);
+      for (const auto& hidden : set.answer.hidden) trial.hidden.push_back(id_of(hidden));
+      outcome.hidden = trial.hidden;
+      judge_names(trial.causes, trial, "", outcome);
+      judge_names(given_law(*found, trial.causes), trial, "_given_law", outcome);
+      judge_laws(*found, set.answer.law ? &*set.answer.law : nullptr, kOfChains, outcome);
+      if (in_use && outcome.has("claimed")) use(set, found->unexplained->laws, outcome);
     }
   }
-  if (trial.in_use) {
-    const auto said = [](const std::optional<LawInUse::Says>& says) {
-      return says ? name(*says) : std::string_view("failed");
-    };
-    text += fmt::format(" | second {} foreign {} error {:.2f}",
-                        said(trial.in_use->second),
-                        said(trial.in_use->foreign),
-                        trial.in_use->error_ratio.value_or(-1.0));
-  }
-  return text + fmt::format(" | {:.2f} s", trial.seconds);
+  outcome.kind = kind;
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

@@ -5,61 +5,28 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "generator/hidden/draw.hpp"
+#include "generator/hidden/law.hpp"
 #include "grid/diagnosis/diagnose.hpp"
-#include "sealed/judge/trial.hpp"
+#include "sealed/judge/outcome.hpp"
 
 namespace chaintrue::sealed {
 
-/// "laws", "two", "gaussian", ... of points on two chains; "belts_laws", ... and "holes_laws", ... of these.
-struct LawsKind {
-  std::string_view word;
-  std::string_view hidden;  ///< for the table
-  bool is_law = false;      ///< of one variable
-};
-[[nodiscard]] const std::vector<LawsKind>& laws_kinds();
-
-/// The later use of a claimed law, written as a declared effect.
-struct LawInUse {
-  using Says = grid::diagnosis::DeclaredAnswer::Says;
-  /// A second session of the same machine at other marks, and the session of another machine with
-  /// another law.
-  std::optional<Says> second;
-  std::optional<Says> foreign;
-  /// The tool's true error over the measured area by the first session's map with the law offered, over
-  /// that of the map without.
-  std::optional<double> error_ratio;
-};
-
-struct LawsTrial {
-  std::uint64_t seed = 0;
-  int points = 0;
-  generator::Answer answer;  ///< of points on two chains
-  std::string hidden;        ///< of belts and holes, in words
-  bool failed = false;
-  std::vector<grid::diagnosis::Law> laws;
-  bool reported = false;  ///< some law
-  bool claimed = false;   ///< one at kLawClaimed
-  bool leads = false;     ///< the first is right: variable and place of entry
-  bool in_set = false;    ///< one of those reported is
-  /// Largest distance of a place, period or size from the truth, in sigmas, of a law that leads with the
-  /// right shape; empty otherwise.
-  std::optional<double> worst_sigmas;
-  /// Correctness of the named causes; given_law: those named given a claimed law.
-  struct Names {
-    bool right = false;  ///< that which is hidden is among them
-    bool wrong = false;  ///< one of 90 % and more that is not hidden is
-  };
-  Names names, names_given_law;
-  double seconds = 0.0;
-  std::string sentence;
-  std::optional<LawInUse> in_use;  ///< of a claimed law that a file can express
-};
+/// "laws", "two", "gaussian", ... of points on two chains; "belts_laws", ... and "holes_laws", ... of these (rows.tsv).
+/// 28, 60 and 117 points in turn; 30, 56 or 90 places of four belts; 30 holes with 93 distances. Facts:
+///   claimed, unclaimed      a law at kLawClaimed, or none
+///   leads, in_set           the first is right, variable and place of entry; one of those reported is
+///   placed, near            a law that leads has the right shape; place, period and size are within three sigmas
+///   wave, predicts          it is periodic; left-out readings are predicted better than without a law
+///   right, wrong            the hidden cause is named; another at kLawClaimed is
+///   right_given_law, ...    the same of the names given a claimed law
+/// With `in_use` a claimed law is written as a declared effect:
+///   used, confirmed, denied, mistaken   it is; a second session of the same machine at other marks confirms it;
+///                                       that of another machine with another law denies it, or confirms it
+///   error_ratio (a number)              the tool's true error over the measured area by the first session's map
+///                                       with the law offered, over that of the map without
+[[nodiscard]] Outcome run_laws_trial(const std::string& kind, std::uint64_t seed, bool in_use = false);
 
 /// Where laws of a kind of readings depend on and enter: those of the left chain or of the belt tl, each followed by
 /// the others'.
@@ -75,25 +42,13 @@ inline constexpr LawEntries kOfBelts{grid::diagnosis::Coordinate::length_tl,
                                      grid::diagnosis::Coordinate::angle_tl,
                                      grid::diagnosis::Enters::tl};
 
-[[nodiscard]] std::string words_of(const generator::SizedLaw& law, const LawEntries& entries);
-/// Takes over the laws that were found and compares them with the hidden one, if there is one.
+/// The laws that were found, against the hidden one, if there is one.
 void judge_laws(const grid::diagnosis::Diagnosis& found,
-                const generator::HiddenLaw* hidden,
+                const generator::SizedLaw* hidden,
                 const LawEntries& entries,
-                LawsTrial& trial);
-/// Sets trial.seconds to the processor time of a call.
-template <class Call>
-auto timed(LawsTrial& trial, Call call) {
-  const double start = thread_seconds();
-  auto result = call();
-  trial.seconds = thread_seconds() - start;
-  return result;
-}
+                Outcome& outcome);
 
-/// 28, 60 and 117 points in turn.
-[[nodiscard]] LawsTrial run_laws_trial(std::string_view kind,
-                                       std::uint64_t seed,
-                                       bool in_use = false);
-[[nodiscard]] std::string line_of(std::string_view kind, const LawsTrial& trial);
+/// Of holes that were cut and measured with a tape: "laws", "two", "gaussian", "causes" or "nothing".
+[[nodiscard]] Outcome run_holes_laws_trial(const std::string& kind, std::uint64_t seed);
 
 }  // namespace chaintrue::sealed

@@ -100,9 +100,7 @@ std::optional<MapErrors> map_errors(const generator::SealedSet& set,
                                     const grid::CompensationMap& map) {
   generator::HiddenMachine lasting(
       set.machine.stated(), set.machine.truth(), of_the_bed(set.machine.hidden()));
-  if (set.answer.unlisted) lasting.suffers(*set.answer.unlisted);
-  if (set.answer.pattern) lasting.suffers(set.answer.pattern->pattern);
-  if (set.answer.law) lasting.suffers(set.answer.law->law);
+  lasting.suffers(set.machine.disturbance());
   const auto missed = missed_by(lasting, area_of(set.machine), map);
   if (!missed) return std::nullopt;
   return errors_of(*missed);

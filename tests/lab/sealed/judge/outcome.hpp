@@ -1,41 +1,62 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
 /// \file
-/// The outcome of one sealed set, as one line of plain text, identical for the same set and the
-/// same diagnosis: words separated by blanks, lists by commas, `-` for nothing.
+/// The outcome of one set of a campaign, as one line of plain text, identical for the same set and the
+/// same version: words separated by blanks, lists by commas, `-` for nothing; numbers last, if there are any.
 ///
 ///   kind seed points strength hidden verdict named facts
 ///   single 1000001 28 7.31 chain_sag:- named chain_sag:- leads,alone,held,all,...
+///   drift:28 3 34 0.00 - - - - built=0,true_mm=0.21
 ///
-/// Facts are counted by the rows of the table of rates. For each fact more is better; a set that
-/// could not be diagnosed has none.
-#pragma once
-
+/// Facts are counted by rows of rates (rates.hpp); a set that failed has none.
+#include <charconv>
 #include <cstdint>
+#include <map>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sealed/judge/belts_trial.hpp"
-#include "sealed/judge/trial.hpp"
-
 namespace chaintrue::sealed {
 
 struct Outcome {
-  std::string kind;  ///< of plan.hpp
+  std::string kind{};  ///< one word; what sets of several kinds have in common stands after a colon
   std::uint64_t seed = 0;
   int points = 0;
   double strength = 0.0;  ///< of the first hidden cause or of the pattern, to 0.01; 0: none
-  std::vector<std::string> hidden;  ///< effect:side
-  std::string verdict;              ///< as in files; "failed" if there is none
-  std::vector<std::string> named;   ///< effect:side, its class after `~`
-  std::vector<std::string> facts;
+  std::vector<std::string> hidden{};  ///< effect:side
+  std::string verdict = "-";        ///< as in files; "failed" if there is none
+  std::vector<std::string> named{};   ///< effect:side, its class after `~`
+  std::vector<std::string> facts{};
+  std::map<std::string, double> numbers{};
 
+  void add(const std::string& fact, bool holds) {
+    if (holds) facts.push_back(fact);
+  }
+  void fail();
+  /// Also "is_" with the verdict.
   [[nodiscard]] bool has(std::string_view fact) const;
-  bool operator==(const Outcome&) const = default;
+  /// The kind up to its last colon, and after it.
+  [[nodiscard]] std::string group() const { return kind.substr(0, kind.rfind(':')); }
+  [[nodiscard]] std::string way() const { return kind.substr(kind.rfind(':') + 1); }
 };
 
-[[nodiscard]] Outcome outcome_of(std::string kind, const Trial& trial);
-[[nodiscard]] Outcome outcome_of(std::string kind, const BeltsTrial& trial);
+/// \throws std::invalid_argument with the text if it is not a number as a whole.
+template <class Number>
+[[nodiscard]] Number number_of(const std::string& text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc{} || read.ptr != end) throw std::invalid_argument("\"" + text + "\" is not a number");
+  return value;
+}
+
+/// The parts between separators; none of "-".
+[[nodiscard]] std::vector<std::string> words_of(const std::string& text, char separator);
+
+/// The lines of a table of tests/lab, cell by cell; those that begin with `#` are comments.
+[[nodiscard]] std::vector<std::vector<std::string>> table(const std::string& file);
 
 /// Without the end of the line.
 [[nodiscard]] std::string line_of(const Outcome& outcome);
@@ -46,9 +67,11 @@ struct Outcome {
 /// interruption and is left out. \throws std::invalid_argument for any other line that is not an
 /// outcome.
 [[nodiscard]] std::vector<Outcome> parse_outcomes(const std::string& text);
+
 /// Sorted by kind and seed, one line for each set. \throws std::invalid_argument if two outcomes of
 /// one set differ.
 [[nodiscard]] std::vector<Outcome> sorted(std::vector<Outcome> outcomes);
+
 [[nodiscard]] std::string text_of(const std::vector<Outcome>& outcomes);
 
 /// \throws std::invalid_argument if the file cannot be read, or for a line as parse_outcomes() does.

@@ -5,56 +5,71 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <variant>
 
+#include "sealed/judge/belts_trial.hpp"
 #include "sealed/judge/holes_trial.hpp"
 
 namespace chaintrue::sealed {
 namespace {
 
-using generator::BeltRecipe;
 using generator::Mix;
 using generator::PatternGroup;
 
-struct Chains {
-  Mix mix = Mix::single;
-  PatternGroup patterns = PatternGroup::smooth;
-};
-struct Holes {
-  bool long_chain = false;
-};
+using Run = std::function<Outcome(const std::string& kind, std::uint64_t seed, bool more)>;
+
+/// Three of four sets have 28 points, where causes are hardest to distinguish, and one has 60.
+Run chains(Mix mix, PatternGroup patterns = PatternGroup::smooth) {
+  return [=](const std::string& kind, std::uint64_t seed, bool more) {
+    TrialOptions options{.more = more};
+    options.recipe.kind = mix;
+    options.recipe.patterns = patterns;
+    options.recipe.points = seed % 4 == 3 ? 60 : 28;
+    return run_trial(kind, options, seed);
+  };
+}
+
+Run holes(bool long_chain) {
+  return [=](const std::string& kind, std::uint64_t seed, bool) { return run_holes_trial(kind, long_chain, seed); };
+}
+
+Run belts(double least_strength, double most_strength, int bad_readings = 0) {
+  return [=](const std::string& kind, std::uint64_t seed, bool more) {
+    return run_belts_trial(kind, {"", most_strength == 0.0, least_strength, most_strength, bad_readings}, seed, more);
+  };
+}
+
 struct Kind {
   const char* name;
   std::uint64_t first_seed;
   int sets;
-  std::variant<Chains, Holes, BeltRecipe> recipe;
+  Run run;
 };
 
 /// Seeds that are not used for any table of docs/ or any test. The number of sets of a kind follows
 /// from one point of its rate: of 600 sets, one point is six.
 const std::vector<Kind>& all_kinds() {
   static const std::vector<Kind> list = {
-      {"single", 1'000'000, 900, Chains{Mix::single}},
-      {"two", 1'010'000, 500, Chains{Mix::two}},
-      {"three", 1'020'000, 400, Chains{Mix::three}},
-      {"beside", 1'030'000, 600, Chains{Mix::alongside}},
-      {"beside_other", 1'040'000, 400, Chains{Mix::alongside, PatternGroup::other}},
-      {"pattern", 1'050'000, 400, Chains{Mix::pattern}},
-      {"near", 1'060'000, 400, Chains{Mix::near}},
-      {"unlisted", 1'070'000, 400, Chains{Mix::unlisted}},
-      {"bad_points", 1'080'000, 500, Chains{Mix::bad_points}},
-      {"bad_points_and_effect", 1'090'000, 500, Chains{Mix::bad_points_and_effect}},
-      {"nothing", 1'100'000, 600, Chains{Mix::nothing}},
-      {"heavy", 1'110'000, 500, Chains{Mix::heavy}},
-      {"wrong_noise", 1'120'000, 500, Chains{Mix::wrong_noise}},
-      {"holes", 1'130'000, 300, Holes{true}},
-      {"holes_nothing", 1'140'000, 300, Holes{false}},
-      {"belts_weak", 1'150'000, 500, BeltRecipe{"", false, 6.0, 8.0, 0}},
-      {"belts_middle", 1'160'000, 500, BeltRecipe{"", false, 8.0, 12.0, 0}},
-      {"belts_strong", 1'170'000, 500, BeltRecipe{"", false, 12.0, 60.0, 0}},
-      {"belts_nothing", 1'180'000, 400, BeltRecipe{"", true, 6.0, 8.0, 0}},
-      {"belts_bad", 1'190'000, 300, BeltRecipe{"", true, 6.0, 8.0, 3}},
-      {"belts_bad_and_cause", 1'200'000, 300, BeltRecipe{"", false, 12.0, 60.0, 3}}};
+      {"single", 1'000'000, 900, chains(Mix::single)},
+      {"two", 1'010'000, 500, chains(Mix::two)},
+      {"three", 1'020'000, 400, chains(Mix::three)},
+      {"beside", 1'030'000, 600, chains(Mix::alongside)},
+      {"beside_other", 1'040'000, 400, chains(Mix::alongside, PatternGroup::other)},
+      {"pattern", 1'050'000, 400, chains(Mix::pattern)},
+      {"near", 1'060'000, 400, chains(Mix::near)},
+      {"unlisted", 1'070'000, 400, chains(Mix::unlisted)},
+      {"bad_points", 1'080'000, 500, chains(Mix::bad_points)},
+      {"bad_points_and_effect", 1'090'000, 500, chains(Mix::bad_points_and_effect)},
+      {"nothing", 1'100'000, 600, chains(Mix::nothing)},
+      {"heavy", 1'110'000, 500, chains(Mix::heavy)},
+      {"wrong_noise", 1'120'000, 500, chains(Mix::wrong_noise)},
+      {"holes", 1'130'000, 300, holes(true)},
+      {"holes_nothing", 1'140'000, 300, holes(false)},
+      {"belts_weak", 1'150'000, 500, belts(6.0, 8.0)},
+      {"belts_middle", 1'160'000, 500, belts(8.0, 12.0)},
+      {"belts_strong", 1'170'000, 500, belts(12.0, 60.0)},
+      {"belts_nothing", 1'180'000, 400, belts(0.0, 0.0)},
+      {"belts_bad", 1'190'000, 300, belts(0.0, 0.0, 3)},
+      {"belts_bad_and_cause", 1'200'000, 300, belts(12.0, 60.0, 3)}};
   return list;
 }
 
@@ -63,31 +78,6 @@ const Kind& kind_of(const std::string& name) {
     if (name == kind.name) return kind;
   }
   throw std::invalid_argument("no kind of sealed sets: \"" + name + "\"");
-}
-
-/// Three of four sets have 28 points, where causes are hardest to distinguish, and one has 60.
-int points_of(std::uint64_t seed) { return seed % 4 == 3 ? 60 : 28; }
-
-generator::Recipe recipe_of(const Chains& chains, std::uint64_t seed) {
-  generator::Recipe recipe;
-  recipe.kind = chains.mix;
-  recipe.patterns = chains.patterns;
-  recipe.points = points_of(seed);
-  return recipe;
-}
-
-Outcome run(const Kind& kind, const Chains& chains, std::uint64_t seed) {
-  TrialOptions options;
-  options.recipe = recipe_of(chains, seed);
-  return outcome_of(kind.name, run_trial(options, seed));
-}
-
-Outcome run(const Kind& kind, const Holes& holes, std::uint64_t seed) {
-  return outcome_of(kind.name, run_holes_trial(holes.long_chain, seed));
-}
-
-Outcome run(const Kind& kind, const BeltRecipe& recipe, std::uint64_t seed) {
-  return outcome_of(kind.name, run_belts_trial(recipe, seed));
 }
 
 }  // namespace
@@ -110,8 +100,7 @@ std::vector<PlannedSet> plan() {
                         {kind.name, kind.first_seed + static_cast<std::uint64_t>(k)}});
     }
   }
-  std::stable_sort(
-      placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  std::ranges::stable_sort(placed, {}, &Placed::at);
   std::vector<PlannedSet> list;
   for (Placed& one : placed) list.push_back(std::move(one.set));
   return list;
@@ -129,17 +118,19 @@ std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
   return {cut(shard - 1), cut(shard)};
 }
 
-Outcome run_set(const PlannedSet& set) {
+Outcome run_set(const PlannedSet& set, bool more) {
   const Kind& kind = kind_of(set.kind);
+  return or_failed(set, [&] { return kind.run(set.kind, set.seed, more); });
+}
+
+Outcome or_failed(const PlannedSet& set, const std::function<Outcome()>& run) {
   try {
-    return std::visit([&](const auto& recipe) { return run(kind, recipe, set.seed); }, kind.recipe);
+    return run();
   } catch (const std::exception& trouble) {
     fmt::print(stderr, "{} {}: {}\n", set.kind, set.seed, trouble.what());
-    Outcome failed;
-    failed.kind = set.kind;
-    failed.seed = set.seed;
-    failed.verdict = "failed";
-    return failed;
+    Outcome outcome{.kind = set.kind, .seed = set.seed};
+    outcome.fail();
+    return outcome;
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,8 +29,11 @@ struct PlannedSet {
 [[nodiscard]] std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
                                                std::size_t shard,
                                                std::size_t shards);
+/// The outcome of `run`; a failed one, with the message on standard error, if it throws.
+[[nodiscard]] Outcome or_failed(const PlannedSet& set, const std::function<Outcome()>& run);
+
 /// Draws the set, diagnoses it and compares with the truth. An exception counts as a failed set.
-/// \throws std::invalid_argument for a kind that is not in the list.
-[[nodiscard]] Outcome run_set(const PlannedSet& set);
+/// `more`: facts besides those of the table of rates. \throws std::invalid_argument for a kind that is not in the list.
+[[nodiscard]] Outcome run_set(const PlannedSet& set, bool more = false);
 
 }  // namespace chaintrue::sealed

@@ -194,17 +194,8 @@ double strength_of(const TestDrawing& drawing, const Eigen::VectorXd& change) {
 }  // namespace
 
 std::string_view name(PlotterKind kind) {
-  switch (kind) {
-    case PlotterKind::mural:
-      return "mural";
-    case PlotterKind::body:
-      return "body";
-    case PlotterKind::pen:
-      return "pen";
-    case PlotterKind::light_pen:
-      break;
-  }
-  return "light pen";
+  constexpr std::string_view kNames[] = {"mural", "body", "pen", "light_pen"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::vector<HiddenCause> causes_of(PlotterKind kind) {

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -77,31 +76,34 @@ Lengths firmware(const ControllerSettings& s, Vec2 command) {
   return lengths;
 }
 
-constexpr std::string_view kWornChain = "a worn chain";
-constexpr std::string_view kBendingBeam = "a beam that bends";
-constexpr std::string_view kWrongSettings = "settings three times as far off";
-constexpr std::string_view kBelts = "four belts";
-constexpr std::string_view kPlotters = "plotters";
+const std::string kBelts = "belts:places";
+const std::string kPlotters = "plotters";
 
-generator::Recipe recipe_of(const PromisedSession& session) {
+generator::Recipe recipe_of(const Outcome& outcome) {
   generator::Recipe recipe;
-  if (session.way == "start")
+  if (outcome.way() == "start")
     recipe = recipe_of_start();
   else
-    std::from_chars(session.way.data(), session.way.data() + session.way.size(), recipe.points);
-  recipe.kind = generator::Mix::single;
-  if (session.machine == kWornChain) {
+    recipe.points = number_of<int>(outcome.way());
+  const std::string machine = outcome.group();
+  if (machine == "worn_chain") {
     recipe.exactly = {{generator::Cause::chain_pitch_error, generator::Where::right, 0.0015, 0.0}};
-  } else if (session.machine == kBendingBeam) {
-    recipe.exactly = {{generator::Cause::beam_flex,
-                       generator::Where::nowhere,
-                       generator::card(generator::Cause::beam_flex).usual,
-                       0.0}};
+  } else if (machine == "bending_beam") {
+    const generator::CauseCard& beam = generator::card(generator::Cause::beam_flex);
+    recipe.exactly = {{beam.cause, generator::Where::nowhere, beam.usual, 0.0}};
   } else {
     recipe.kind = generator::Mix::nothing;
     recipe.settings_off = 3.0;
   }
   return recipe;
+}
+
+void add(const std::string& promise, const grid::ErrorSummary& stated, const grid::ErrorSummary& truth, Outcome& outcome) {
+  outcome.numbers[promise + "_stated_mm"] = stated.rms_mm;
+  outcome.numbers[promise + "_true_mm"] = truth.rms_mm;
+  outcome.numbers[promise + "_worst_stated_mm"] = stated.maximum_mm;
+  outcome.numbers[promise + "_worst_true_mm"] = truth.maximum_mm;
+  outcome.numbers[promise + "_exceeded"] = truth.maximum_mm > stated.maximum_mm ? 1.0 : 0.0;
 }
 
 /// A place of the measured area.
@@ -258,7 +260,8 @@ grid::ErrorSummary true_error_of_belts(const generator::BeltFrame& frame,
   return {std::sqrt(squares.head(static_cast<Eigen::Index>(inner)).mean()), std::sqrt(squares.maxCoeff())};
 }
 
-std::optional<PromisedRow> promised_by_belts(const PromisedSession& session, std::uint64_t seed) {
+void promised_by_belts(Outcome& outcome) {
+  const std::uint64_t seed = outcome.seed;
   generator::BeltRecipe recipe;
   recipe.nothing = true;
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
@@ -274,24 +277,22 @@ std::optional<PromisedRow> promised_by_belts(const PromisedSession& session, std
     belts.machine.anchors[model::kBelts[i]] = {stated[i][0], stated[i][1], stated[i][2]};
   const auto fit = grid::diagnosis::fit_with_causes(belts);
   const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
-  if (!error || !error->today) return std::nullopt;
+  if (!error || !error->today) return outcome.fail();
   FrameAnchors typed = stated;
   for (std::size_t i = 0; i < typed.size(); ++i) {
     const model::Anchor& anchor = fit->machine.anchors[model::kBelts[i]];
     typed[i] = {anchor.x_mm, anchor.y_mm, anchor.z_mm};
   }
-  PromisedRow row{session, {}};
-  row.of[0] = Promised{*error->today, true_error_of_belts(draw.frame, stated, *fit)};
-  row.of[2] = Promised{error->expected, true_error_of_belts(draw.frame, typed, *fit)};
-  return row;
+  add("today", *error->today, true_error_of_belts(draw.frame, stated, *fit), outcome);
+  add("typed", error->expected, true_error_of_belts(draw.frame, typed, *fit), outcome);
 }
 
 /// The page is laid as its crosses are drawn with the map: a drawing does not say where it hangs.
-std::optional<PromisedRow> promised_by_plotter(const PromisedSession& session, std::uint64_t seed) {
-  const auto kind = std::ranges::find(kPlotterKinds, session.way, [](PlotterKind one) { return name(one); });
-  const PlotterSet set = plotter_set(*kind, {}, 0.0, 0.0, seed);
+void promised_by_plotter(Outcome& outcome) {
+  const auto kind = std::ranges::find(kPlotterKinds, outcome.way(), [](PlotterKind one) { return name(one); });
+  const PlotterSet set = plotter_set(*kind, {}, 0.0, 0.0, outcome.seed);
   const auto fit = grid::fit_drawing(set.drawing);
-  if (!fit) return std::nullopt;
+  if (!fit) return outcome.fail();
   const grid::PlotterMap map({set.drawing, grid::found_by(*fit)});
   const auto pens_of = [&](const Eigen::Matrix2Xd& commands) {
     Eigen::Matrix2Xd pens(2, commands.cols());
@@ -305,94 +306,63 @@ std::optional<PromisedRow> promised_by_plotter(const PromisedSession& session, s
     crosses.col(i) << at.x_mm + set.drawing.pins_middle.x_mm, at.y_mm + set.drawing.pins_middle.y_mm;
   }
   const Eigen::Matrix3d laid = Eigen::umeyama(pens_of(crosses), crosses, false);
-  const std::vector<Vec2> circle = circle_within(map, seed);
+  const std::vector<Vec2> circle = circle_within(map, outcome.seed);
   Eigen::Matrix2Xd commands(2, std::ssize(circle));
   for (std::size_t i = 0; i < circle.size(); ++i)
     commands.col(static_cast<Eigen::Index>(i)) << circle[i].x, circle[i].y;
   const Eigen::RowVectorXd squares = squares_when_laid(pens_of(commands), commands, laid);
-  PromisedRow row{session, {}};
-  row.of[static_cast<std::size_t>(Promise::cuts)] =
-      Promised{expected_along(circle, map), {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())}};
-  return row;
+  add("cuts", expected_along(circle, map), {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())}, outcome);
 }
 
-}  // namespace
-
-std::vector<PromisedSession> promised_sessions() {
-  std::vector<PromisedSession> sessions;
-  for (const std::string_view machine : {kWornChain, kBendingBeam, kWrongSettings}) {
-    for (const std::string_view way : {"28", "60", "117", "start"}) sessions.push_back({machine, way});
-  }
-  sessions.push_back({kBelts, "places"});
-  for (const PlotterKind kind : kPlotterKinds) sessions.push_back({kPlotters, name(kind)});
-  return sessions;
-}
-
-std::optional<PromisedRow> promised_row(const PromisedSession& session, std::uint64_t seed) {
-  if (session.machine == kBelts) return promised_by_belts(session, seed);
-  if (session.machine == kPlotters) return promised_by_plotter(session, seed);
-  const generator::SealedSet set = generator::draw_set(recipe_of(session), seed);
+void promised_by_chains(Outcome& outcome) {
+  const generator::SealedSet set = generator::draw_set(recipe_of(outcome), outcome.seed);
   const ControllerSettings in_force = settings_of(set.machine.stated());
   grid::MeasuredGrid measured = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   measured.machine->controller = {model::ControllerKind::maslow_classic, in_force};
   const auto fit = grid::diagnosis::fit_with_causes(measured);
-  if (!fit) return std::nullopt;
+  if (!fit) return outcome.fail();
   const grid::CompensationMap& map = fit->fit.map;
   const auto today = grid::error_in_use(map);
   const auto typed = grid::settings_to_type(map);
-  if (!today || !typed) return std::nullopt;
+  if (!today || !typed) return outcome.fail();
   const grid::CompensationMap after =
       grid::map_for_settings(map, {model::ControllerKind::maslow_classic, typed->settings}, "");
+
   const std::vector<Place> places = measured_area(set, map);
   const grid::MapInFrame in_frame(map);
-  const std::vector<Vec2> circle = circle_within(in_frame, seed);
+  const std::vector<Vec2> circle = circle_within(in_frame, outcome.seed);
   const auto by_settings = [&places](const ControllerSettings& settings) {
     return true_error(places, [&settings](Vec2 at) { return firmware(settings, at); });
   };
   const auto expected_of = [](const grid::CompensationMap& one) { return one.contents().accuracy.expected_tool; };
-  return PromisedRow{session,
-                     {Promised{*today, by_settings(in_force)},
-                      Promised{expected_of(map), true_error(places, by_map(map))},
-                      Promised{typed->typed, by_settings(typed->settings)},
-                      Promised{expected_of(after), true_error(places, by_map(after))},
-                      Promised{expected_along(circle, in_frame),
-                               true_error(places_at(circle, {}, set, map), by_map(map))}}};
+  add("today", *today, by_settings(in_force), outcome);
+  add("map", expected_of(map), true_error(places, by_map(map)), outcome);
+  add("typed", typed->typed, by_settings(typed->settings), outcome);
+  add("map_after", expected_of(after), true_error(places, by_map(after)), outcome);
+  add("cuts", expected_along(circle, in_frame), true_error(places_at(circle, {}, set, map), by_map(map)), outcome);
 }
 
-std::string promised_table(const std::vector<PromisedRow>& rows) {
-  std::string text = "| machine | sessions ";
-  for (const char* what : {"today", "map", "typed numbers", "with map.after", "cuts"})
-    text += fmt::format("| {}: stated | true | worst: stated | true | exceeded ", what);
-  text += "|\n|---|---" ;
-  for (std::size_t i = 0; i < 5 * kPromises; ++i) text += "|---";
-  text += "|\n";
-  const auto pooled = [&](std::string_view what, const std::function<bool(const PromisedRow&)>& is_in) {
-    int sessions = 0;
-    std::string cells;
-    for (std::size_t k = 0; k < kPromises; ++k) {
-      std::array<double, 4> squares{};
-      int promised = 0, exceeded = 0;
-      for (const PromisedRow& row : rows) {
-        if (!is_in(row) || !row.of[k]) continue;
-        ++promised;
-        const auto& [stated, truth] = *row.of[k];
-        const double values[] = {stated.rms_mm, truth.rms_mm, stated.maximum_mm, truth.maximum_mm};
-        for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += values[i] * values[i];
-        exceeded += truth.maximum_mm > stated.maximum_mm ? 1 : 0;
-      }
-      sessions = std::max(sessions, promised);
-      for (const double square : squares)
-        cells += promised > 0 ? fmt::format("| {:.2f} ", std::sqrt(square / promised)) : "| ";
-      cells += promised > 0 ? fmt::format("| {:.1f} % ", 100.0 * exceeded / promised) : "| ";
-    }
-    text += fmt::format("| {} | {} {}|\n", what, sessions, cells);
-  };
-  for (const std::string_view machine : {kWornChain, kBendingBeam, kWrongSettings, kBelts, kPlotters})
-    pooled(machine, [&](const PromisedRow& row) { return row.session.machine == machine; });
-  for (const std::string_view way : {"28", "60", "117", "start"})
-    pooled(fmt::format("chains, {}", way), [&](const PromisedRow& row) { return row.session.way == way; });
-  pooled("all", [](const PromisedRow&) { return true; });
-  return text;
+}  // namespace
+
+std::vector<std::string> promised_kinds() {
+  std::vector<std::string> kinds;
+  for (const char* machine : {"worn_chain", "bending_beam", "wrong_settings"}) {
+    for (const char* way : {"28", "60", "117", "start"}) kinds.push_back(fmt::format("{}:{}", machine, way));
+  }
+  kinds.push_back(kBelts);
+  for (const PlotterKind kind : kPlotterKinds) kinds.push_back(fmt::format("{}:{}", kPlotters, name(kind)));
+  return kinds;
+}
+
+Outcome promised_outcome(const std::string& kind, std::uint64_t seed) {
+  Outcome outcome{.kind = kind, .seed = seed};
+  if (kind == kBelts)
+    promised_by_belts(outcome);
+  else if (outcome.group() == kPlotters)
+    promised_by_plotter(outcome);
+  else
+    promised_by_chains(outcome);
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

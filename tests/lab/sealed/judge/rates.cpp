@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
-#include <utility>
 
 #include "sealed/judge/binomial.hpp"
 
@@ -16,6 +16,8 @@ namespace {
 /// Allowed difference of a rate between two versions where chance cannot be excluded.
 constexpr double kMarginPoints = 1.0;
 constexpr double kChance = 0.05;
+/// At which a rate contradicts what is asked.
+constexpr double kRare = 1e-3;
 
 std::string percent(double share) { return fmt::format("{:.1f}", 100.0 * share); }
 
@@ -26,11 +28,33 @@ bool same_set(const Outcome& a, const Outcome& b) {
   return a.points == b.points && a.hidden == b.hidden && std::abs(a.strength - b.strength) < 0.02;
 }
 
-RowComparison compare_row(const RateRow& row,
-                          const std::vector<std::pair<Outcome, Outcome>>& pairs) {
-  RowComparison result;
-  result.hidden = row.hidden;
-  result.right_is = row.right_is;
+/// Of a row, all together and by group of kinds.
+struct Counted {
+  Count all;
+  std::map<std::string, Count> groups;
+  bool is_pooled = false;
+
+  Counted(const RateRow& row, const std::vector<Outcome>& outcomes) {
+    for (const Outcome& outcome : outcomes) {
+      if (!row.counts(outcome)) continue;
+      is_pooled = is_pooled || (outcome.kind != row.kind && row.kind != "*");
+      for (Count* count : {&all, &groups[outcome.group()]}) {
+        ++count->of;
+        count->hits += row.right(outcome) ? 1 : 0;
+      }
+    }
+  }
+
+  [[nodiscard]] RateBounds bounds() const {
+    if (!is_pooled) return rate_bounds_95(all.hits, all.of);
+    std::vector<Count> clusters;
+    for (const auto& [group, count] : groups) clusters.push_back(count);
+    return clustered_bounds(clusters);
+  }
+};
+
+RowComparison compare_row(const RateRow& row, const std::vector<std::pair<Outcome, Outcome>>& pairs) {
+  RowComparison result{row};
   for (const auto& [frozen, now] : pairs) {
     if (!row.counts(frozen)) continue;
     const bool before = row.right(frozen), after = row.right(now);
@@ -46,84 +70,52 @@ RowComparison compare_row(const RateRow& row,
 }  // namespace
 
 bool RateRow::counts(const Outcome& outcome) const {
-  const bool is_of_kind = outcome.kind == kind || outcome.kind.ends_with(":" + kind);
-  return is_of_kind && outcome.strength >= from_strength && outcome.strength < to_strength;
+  return (kind == "*" || outcome.kind == kind || outcome.kind.ends_with(":" + kind)) && outcome.strength >= from_strength &&
+         outcome.strength < to_strength &&
+         std::ranges::all_of(among, [&](const std::string& fact) { return outcome.has(fact); });
 }
 
 bool RateRow::right(const Outcome& outcome) const {
-  return std::all_of(
-      facts.begin(), facts.end(), [&](const std::string& fact) { return outcome.has(fact); });
+  return std::ranges::all_of(facts, [&](const std::string& fact) { return outcome.has(fact); });
 }
 
-const std::vector<RateRow>& rate_rows() {
-  static const std::vector<RateRow> rows = {
-      {"one cause, strength 6 to 8", "it leads", "single", {"leads"}, 0.0, 8.0},
-      {"one cause, 8 to 12", "it leads", "single", {"leads"}, 8.0, 12.0},
-      {"one cause, above 12", "it leads", "single", {"leads"}, 12.0},
-      {"one cause", "named alone", "single", {"alone"}},
-      {"one cause", "among those named", "single", {"held"}},
-      {"one cause", "no pattern reported", "single", {"no_pattern"}},
-      {"two causes", "both named", "two", {"all"}},
-      {"two causes", "nothing else named", "two", {"nothing_false"}},
-      {"three causes", "all named", "three", {"all"}},
-      {"three causes", "nothing else named", "three", {"nothing_false"}},
-      {"a cause and a smooth pattern", "cause named", "beside", {"outright", "all"}},
-      {"a cause and a smooth pattern", "pattern reported", "beside", {"pattern"}},
-      {"a cause and a smooth pattern", "both", "beside", {"outright", "all", "pattern"}},
-      {"a cause and a smooth pattern", "no wrong name", "beside", {"nothing_false"}},
-      {"a cause and another pattern", "cause named", "beside_other", {"outright", "all"}},
-      {"a cause and another pattern", "pattern reported", "beside_other", {"pattern"}},
-      {"a cause and another pattern", "both", "beside_other", {"outright", "all", "pattern"}},
-      {"a cause and another pattern", "no wrong name", "beside_other", {"nothing_false"}},
-      {"a pattern alone", "reported", "pattern", {"pattern"}},
-      {"a pattern alone", "no wrong name", "pattern", {"nothing_false"}},
-      {"a pattern near a cause", "reported", "near", {"pattern"}},
-      {"a pattern near a cause", "no wrong name of 90 % or more", "near", {"no_false_claim"}},
-      {"a cause that is not listed", "unknown pattern", "unlisted", {"refused"}},
-      {"a cause that is not listed", "no name of 90 % or more", "unlisted", {"no_false_claim"}},
-      {"a tenth of the points bad", "no cause named", "bad_points", {"no_name"}},
-      {"a tenth of the points bad", "all found", "bad_points", {"bad_found"}},
-      {"a tenth of the points bad", "no more set aside", "bad_points", {"no_more_bad"}},
-      {"bad points and a cause", "it leads", "bad_points_and_effect", {"leads"}},
-      {"bad points and a cause", "all bad points found", "bad_points_and_effect", {"bad_found"}},
-      {"nothing", "no cause named", "nothing", {"no_name"}},
-      {"nothing", "no pattern reported", "nothing", {"no_pattern"}},
-      {"nothing", "no point set aside", "nothing", {"no_more_bad"}},
-      {"nothing, heavy tails", "no cause named", "heavy", {"no_name"}},
-      {"nothing, heavy tails", "no pattern reported", "heavy", {"no_pattern"}},
-      {"nothing, noise stated wrongly", "no cause named", "wrong_noise", {"no_name"}},
-      {"nothing, noise stated wrongly", "no pattern reported", "wrong_noise", {"no_pattern"}},
-      {"holes, a long chain", "it leads", "holes", {"leads"}},
-      {"holes, nothing", "no cause named", "holes_nothing", {"no_name"}},
-      {"belts, one cause, strength 6 to 8", "named alone", "belts_weak", {"alone"}},
-      {"belts, one cause, strength 6 to 8", "among those named", "belts_weak", {"held"}},
-      {"belts, one cause, strength 6 to 8", "no wrong name", "belts_weak", {"nothing_false"}},
-      {"belts, one cause, 8 to 12", "named alone", "belts_middle", {"alone"}},
-      {"belts, one cause, 8 to 12", "among those named", "belts_middle", {"held"}},
-      {"belts, one cause, 8 to 12", "no wrong name", "belts_middle", {"nothing_false"}},
-      {"belts, one cause, 12 to 60", "named alone", "belts_strong", {"alone"}},
-      {"belts, one cause, 12 to 60", "among those named", "belts_strong", {"held"}},
-      {"belts, one cause, 12 to 60", "no wrong name", "belts_strong", {"nothing_false"}},
-      {"belts, nothing", "no cause named", "belts_nothing", {"no_name"}},
-      {"belts, nothing", "no pattern alone", "belts_nothing", {"no_pattern"}},
-      {"belts, three bad readings", "found and no others", "belts_bad", {"bad_found"}},
-      {"belts, three bad readings", "no cause named", "belts_bad", {"no_name"}},
-      {"belts, bad readings and a cause", "found and no others", "belts_bad_and_cause", {"bad_found"}},
-      {"belts, bad readings and a cause", "cause named", "belts_bad_and_cause", {"held"}}};
+std::vector<RateRow> rows_of(const std::string& name) {
+  std::vector<RateRow> rows;
+  for (const std::vector<std::string>& cells : table("sealed/rows.tsv")) {
+    if (cells.front() != name) continue;
+    rows.push_back({cells.at(7),
+                    cells.at(8),
+                    cells.at(1),
+                    words_of(cells.at(5), ','),
+                    number_of<double>(cells.at(2)),
+                    number_of<double>(cells.at(3)),
+                    words_of(cells.at(4), ','),
+                    number_of<double>(cells.at(6))});
+  }
   return rows;
 }
 
-std::string rates_table(const std::vector<Outcome>& outcomes) {
+std::vector<std::string> kinds_of(const std::vector<RateRow>& rows) {
+  std::vector<std::string> kinds;
+  for (const RateRow& row : rows) {
+    if (std::ranges::find(kinds, row.kind) == kinds.end()) kinds.push_back(row.kind);
+  }
+  return kinds;
+}
+
+const std::vector<RateRow>& rate_rows() {
+  static const std::vector<RateRow> rows = rows_of("sealed");
+  return rows;
+}
+
+std::string rates_table(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows) {
+  if (rows.empty()) return "";
   std::string text = "| hidden | right is | % | sets | 95 % bounds |\n|---|---|---|---|---|\n";
-  for (const RateRow& row : rate_rows()) {
-    int hits = 0, of = 0;
-    for (const Outcome& outcome : outcomes) {
-      if (!row.counts(outcome)) continue;
-      ++of;
-      hits += row.right(outcome);
-    }
+  for (const RateRow& row : rows) {
+    const Counted counted(row, outcomes);
+    const auto& [hits, of] = counted.all;
     if (of == 0) continue;
-    const RateBounds bounds = rate_bounds_95(hits, of);
+    const RateBounds bounds = counted.bounds();
     text += fmt::format("| {} | {} | {} | {} of {} | {} to {} |\n",
                         row.hidden,
                         row.right_is,
@@ -136,6 +128,49 @@ std::string rates_table(const std::vector<Outcome>& outcomes) {
   return text;
 }
 
+std::string missed(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows) {
+  std::string text;
+  for (const RateRow& row : rows) {
+    const auto& [hits, of] = Counted(row, outcomes).all;
+    if (of > 0 && row.asked > 0.0 && probability_of_at_least(of - hits, of, 1.0 - row.asked) < kRare)
+      text += fmt::format("MISSED: {}, {}: {} of {}, {} % asked\n", row.hidden, row.right_is, hits, of, percent(row.asked));
+  }
+  return text;
+}
+
+std::string numbers_table(const std::vector<Outcome>& outcomes) {
+  std::map<std::pair<std::string, std::string>, std::vector<double>> all;
+  for (const Outcome& outcome : outcomes) {
+    for (const auto& [name, value] : outcome.numbers) {
+      all[{outcome.group(), name}].push_back(value);
+      if (outcome.group() == outcome.kind) continue;
+      all[{":" + outcome.way(), name}].push_back(value);
+      all[{"all", name}].push_back(value);
+    }
+  }
+  if (all.empty()) return "";
+  std::string text = "| kind | number | sets | mean | rms | median | least | most |\n|---|---|---|---|---|---|---|---|\n";
+  for (auto& [what, values] : all) {
+    std::ranges::sort(values);
+    double sum = 0.0, squares = 0.0;
+    for (const double value : values) {
+      sum += value;
+      squares += value * value;
+    }
+    const auto n = static_cast<double>(values.size());
+    text += fmt::format("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
+                        what.first,
+                        what.second,
+                        values.size(),
+                        sum / n,
+                        std::sqrt(squares / n),
+                        values[values.size() / 2],
+                        values.front(),
+                        values.back());
+  }
+  return text;
+}
+
 double RowComparison::difference() const {
   return sets == 0 ? 0.0 : 100.0 * (gained - lost) / sets;
 }
@@ -143,7 +178,7 @@ double RowComparison::difference() const {
 bool RowComparison::worse() const { return difference() < -kMarginPoints && p < kChance; }
 
 bool Comparison::worse() const {
-  return std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.worse(); });
+  return std::ranges::any_of(rows, [](const auto& row) { return row.worse(); });
 }
 
 Comparison compare(const std::vector<Outcome>& frozen,
@@ -179,8 +214,8 @@ std::string comparison_table(const Comparison& comparison) {
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const RowComparison& row : comparison.rows) {
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {:+.1f} | {:.3f} | {} |\n",
-                        row.hidden,
-                        row.right_is,
+                        row.row.hidden,
+                        row.row.right_is,
                         row.sets,
                         row.both,
                         row.lost,

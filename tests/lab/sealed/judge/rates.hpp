@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// The table of rates from the outcomes of sealed sets, and the comparison of two versions'
-/// outcomes of the same sets.
 #pragma once
 
+/// \file
+/// Tables of outcomes: rates of facts with their bounds, numbers, and the comparison of two versions'
+/// outcomes of the same sets.
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,27 +12,43 @@
 
 namespace chaintrue::sealed {
 
-/// One row of the table: the sets of a kind within a range of strength that have all of `facts`.
+/// One row of a table: the sets of a kind within a range of strength, with all of `among`, that have all of `facts`.
 struct RateRow {
   std::string hidden;    ///< for the table
   std::string right_is;  ///< for the table
-  std::string kind;  ///< or the kind's end, after a colon
+  std::string kind;      ///< or what follows the colon of several kinds; * for any
   std::vector<std::string> facts;
   double from_strength = 0.0;
   double to_strength = 1e9;
+  std::vector<std::string> among{};
+  double asked = 0.0;  ///< the least rate; 0: none
 
   [[nodiscard]] bool counts(const Outcome& outcome) const;
   [[nodiscard]] bool right(const Outcome& outcome) const;
 };
+
+/// Those of a table in tests/lab/sealed/rows.tsv.
+[[nodiscard]] std::vector<RateRow> rows_of(const std::string& name);
+
+/// Each once, in their order.
+[[nodiscard]] std::vector<std::string> kinds_of(const std::vector<RateRow>& rows);
+
+/// Of the frozen list of sealed sets (plan.hpp).
 [[nodiscard]] const std::vector<RateRow>& rate_rows();
 
-/// As Markdown, with binomial 95 % bounds; rows without sets are left out.
-[[nodiscard]] std::string rates_table(const std::vector<Outcome>& outcomes);
+/// As Markdown, with 95 % bounds: clustered_bounds() of a row that pools kinds. Rows without sets are left out.
+[[nodiscard]] std::string rates_table(const std::vector<Outcome>& outcomes,
+                                      const std::vector<RateRow>& rows = rate_rows());
+
+/// A line for each row whose rate contradicts what is asked: chance alone is as far off once in a thousand.
+[[nodiscard]] std::string missed(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows);
+
+/// As Markdown: the numbers of each kind up to its colon, of what follows the colon, and of all that have one.
+[[nodiscard]] std::string numbers_table(const std::vector<Outcome>& outcomes);
 
 /// One row for two versions on the same sets.
 struct RowComparison {
-  std::string hidden;
-  std::string right_is;
+  RateRow row;
   int sets = 0;
   int both = 0;    ///< right in both
   int lost = 0;    ///< right as frozen, wrong now
@@ -44,19 +60,21 @@ struct RowComparison {
   /// By more than one point, and by more than chance gives once in twenty times.
   [[nodiscard]] bool worse() const;
 };
+
 struct Comparison {
   std::vector<RowComparison> rows;
   int sets = 0;  ///< present in both
   /// Sets with different outcomes, frozen and new; names and verdicts included.
   std::vector<std::pair<Outcome, Outcome>> changed;
-
   [[nodiscard]] bool worse() const;
 };
+
 /// For the sets present in both. \throws std::invalid_argument if the hidden causes of a set differ:
 /// these are not the same sets.
 [[nodiscard]] Comparison compare(const std::vector<Outcome>& frozen,
                                  const std::vector<Outcome>& now,
                                  const std::vector<RateRow>& rows = rate_rows());
+
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
 }  // namespace chaintrue::sealed

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 #include "generator/hidden/random.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/grid_file.hpp"
 #include "sealed/judge/holes_trial.hpp"
+#include "sealed/judge/map_errors.hpp"
 
 namespace chaintrue::sealed {
 namespace {
@@ -57,78 +56,40 @@ std::vector<Hidden> usual_effect(const CauseCard* card, int visits, std::uint64_
   return {effect};
 }
 
-using Judge = std::function<std::optional<MapErrors>(const grid::CompensationMap&)>;
+void add_errors(const std::string& name, const MapErrors& errors, Outcome& outcome) {
+  outcome.numbers[name + "_true_mm"] = errors.true_rms_mm;
+  outcome.numbers[name + "_stated_mm"] = errors.stated_rms_mm;
+  outcome.numbers[name + "_held"] = 0.5 * errors.covered / errors.places;
+}
 
-void fit_both(const grid::Measured& measured, const Judge& judge, StatedRow& row) {
+/// `judge` compares a map with the hidden machine.
+template <class Judge>
+void fit_both(const grid::Measured& measured, const Judge& judge, Outcome& outcome) {
   const auto plain = grid::joint_fit(measured);
   const auto own = grid::diagnosis::fit_with_causes(measured);
-  const auto of_plain = plain ? judge(plain->map) : std::nullopt;
-  const auto of_own = own ? judge(own->fit.map) : std::nullopt;
-  if (!of_plain || !of_own) return;
-  row.plain = *of_plain;
-  row.own = *of_own;
-  row.is_built = !own->built_on.empty();
+  const std::optional<MapErrors> of_plain = plain ? judge(plain->map) : std::nullopt;
+  const std::optional<MapErrors> of_own = own ? judge(own->fit.map) : std::nullopt;
+  if (!of_plain || !of_own) return outcome.fail();
+  add_errors("plain", *of_plain, outcome);
+  add_errors("own", *of_own, outcome);
+  outcome.numbers["built"] = own->built_on.empty() ? 0.0 : 1.0;
 }
 
-void fit_both(const generator::SealedSet& set, StatedRow& row) {
-  fit_both(grid::Measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid),
-           [&](const grid::CompensationMap& map) { return map_errors(set, map); },
-           row);
+grid::MeasuredGrid grid_of(const std::string& text) { return grid::files::parse_grid(text, "sealed.json").grid; }
+
+void read_chains(const generator::Recipe& recipe, Outcome& outcome) {
+  const generator::SealedSet set = generator::draw_set(recipe, outcome.seed);
+  fit_both(grid_of(set.grid_text), [&](const grid::CompensationMap& map) { return map_errors(set, map); }, outcome);
 }
 
-void cut_and_tape(const CauseCard* card, double zero_mm, std::uint64_t seed, StatedRow& row) {
-  row.way = "holes";
-  CutHoles cut = cut_holes(usual_effect(card, 0, seed), seed);
+void cut_and_tape(const CauseCard* card, double zero_mm, Outcome& outcome) {
+  CutHoles cut = cut_holes(usual_effect(card, 0, outcome.seed), outcome.seed);
   for (grid::HoleDistance& distance : cut.set.distances) distance.distance_mm += zero_mm;
-  if (row.kind == kKnownTapeZero) cut.set.tape.tape_zero_offset_sigma_mm = 0.0;
-  fit_both(grid::Measured(cut.set),
+  if (outcome.kind == kKnownTapeZero) cut.set.tape.tape_zero_offset_sigma_mm = 0.0;
+  fit_both(cut.set,
            [&](const grid::CompensationMap& map) { return map_errors_of_free_sheet(cut.machine, map); },
-           row);
+           outcome);
 }
-
-void read_chains(const CauseCard* card, int points, std::uint64_t seed, StatedRow& row) {
-  row.way = fmt::format("{}", points);
-  generator::Recipe recipe;
-  recipe.points = points;
-  recipe.exactly = usual_effect(card, points + kRepeats, seed);
-  if (recipe.exactly.empty()) recipe.kind = generator::Mix::nothing;
-  fit_both(generator::draw_set(recipe, seed), row);
-}
-
-/// Sums over machines of squares, mm^2, and of intervals that hold what is true.
-struct Tally {
-  int machines = 0;
-  int built = 0;
-  double true_mm2[2] = {0.0, 0.0};
-  double stated_mm2[2] = {0.0, 0.0};
-  int covered[2] = {0, 0};
-  int intervals = 0;
-
-  void add(const StatedRow& row) {
-    ++machines;
-    built += row.is_built ? 1 : 0;
-    intervals += 2 * row.plain.places;
-    for (const int which : {0, 1}) {
-      const MapErrors& errors = which == 0 ? row.plain : row.own;
-      true_mm2[which] += errors.true_rms_mm * errors.true_rms_mm;
-      stated_mm2[which] += errors.stated_rms_mm * errors.stated_rms_mm;
-      covered[which] += errors.covered;
-    }
-  }
-  [[nodiscard]] std::string line(std::string_view what) const {
-    std::string text = fmt::format("| {} | {} ", what, machines);
-    const double n = std::max(machines, 1);
-    for (const int which : {0, 1}) {
-      if (which == 1) text += fmt::format("| {} ", built);
-      text += fmt::format("| {:.3f} | {:.3f} | {:.2f} | {:.1f} % ",
-                          std::sqrt(true_mm2[which] / n),
-                          std::sqrt(stated_mm2[which] / n),
-                          std::sqrt(true_mm2[which] / stated_mm2[which]),
-                          100.0 * covered[which] / std::max(intervals, 1));
-    }
-    return text + "|\n";
-  }
-};
 
 }  // namespace
 
@@ -139,85 +100,57 @@ std::vector<std::string> stated_kinds() {
   return kinds;
 }
 
-StatedRow stated_row(const std::string& kind, int k) {
-  StatedRow row;
-  row.kind = kind;
-  row.machine = k;
-  const auto seed = static_cast<std::uint64_t>(k) + 1;
+Outcome stated_outcome(const std::string& kind, std::uint64_t seed) {
+  Outcome outcome{.kind = kind, .seed = seed};
   if (kind.starts_with(kTapeZero)) {
-    cut_and_tape(nullptr, std::strtod(kind.c_str() + kTapeZero.size(), nullptr), seed, row);
-    return row;
+    cut_and_tape(nullptr, std::strtod(kind.c_str() + kTapeZero.size(), nullptr), outcome);
+    return outcome;
   }
   const CauseCard* card = card_of(kind);
-  if (card == nullptr && kind != "nothing") throw std::runtime_error("no such kind: " + kind);
   constexpr int kWays[] = {28, 28, 60, 117, 0};
-  const int points = kWays[k % 5];
-  if (points == 0 && may_be_of_holes(card))
-    cut_and_tape(card, 0.0, seed, row);
-  else
-    read_chains(card, points == 0 ? 28 : points, seed, row);
-  return row;
-}
-
-StatedRow row_of_set(std::string kind, const generator::SealedSet& set) {
-  StatedRow row;
-  row.kind = std::move(kind);
-  fit_both(set, row);
-  return row;
-}
-
-std::string line_of(const StatedRow& row) {
-  std::string text = fmt::format("{} {} {} {}", row.kind, row.way, row.machine, row.is_built ? 1 : 0);
-  for (const MapErrors* errors : {&row.plain, &row.own}) {
-    text += fmt::format(" {:.6f} {:.6f} {} {}",
-                        errors->true_rms_mm,
-                        errors->stated_rms_mm,
-                        errors->places,
-                        errors->covered);
+  const int points = kWays[(seed - 1) % 5];
+  const bool is_of_holes = points == 0 && may_be_of_holes(card);
+  if (is_of_holes) {
+    cut_and_tape(card, 0.0, outcome);
+  } else {
+    generator::Recipe recipe;
+    recipe.points = points == 0 ? 28 : points;
+    recipe.exactly = usual_effect(card, recipe.points + kRepeats, seed);
+    if (recipe.exactly.empty()) recipe.kind = generator::Mix::nothing;
+    read_chains(recipe, outcome);
+    outcome.points = recipe.points;
   }
-  return text;
+  outcome.kind += is_of_holes ? ":holes" : fmt::format(":{}", outcome.points);
+  return outcome;
 }
 
-std::optional<StatedRow> row_of(std::string_view line) {
-  std::istringstream in{std::string(line)};
-  StatedRow row;
-  if (!(in >> row.kind >> row.way >> row.machine >> row.is_built)) return std::nullopt;
-  for (MapErrors* errors : {&row.plain, &row.own}) {
-    if (!(in >> errors->true_rms_mm >> errors->stated_rms_mm >> errors->places >> errors->covered))
-      return std::nullopt;
-  }
-  return row;
+std::vector<std::string> zero_kinds() {
+  return {"moved_left_6_15", "moved_left_10_17", "moved_right_-3_20", "nothing", "second_5", "second_20", "second_0"};
 }
 
-std::string stated_table(const std::vector<StatedRow>& rows) {
-  std::string text =
-      "| hidden | machines | plain: true mm | stated | true / stated | 95 % hold | built on causes | "
-      "with causes: true mm | stated | true / stated | 95 % hold |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n";
-  const auto pooled = [&](const std::string& what, const std::function<bool(const StatedRow&)>& is_in) {
-    Tally tally;
-    int failed = 0;
-    for (const StatedRow& row : rows) {
-      if (!is_in(row)) continue;
-      if (row.own.places > 0)
-        tally.add(row);
-      else
-        ++failed;
-    }
-    if (tally.machines > 0) text += tally.line(what);
-    if (failed > 0) text += fmt::format("| {}: no map | {} |\n", what, failed);
-  };
-  std::vector<std::string> kinds = stated_kinds();
-  for (const StatedRow& row : rows) {
-    if (std::ranges::find(kinds, row.kind) == kinds.end()) kinds.push_back(row.kind);
+Outcome zero_outcome(const std::string& kind, std::uint64_t seed) {
+  Outcome outcome{.kind = kind, .seed = seed};
+  generator::Recipe recipe = recipe_of_start();
+  char side[6] = "";
+  double mm = 0.0, visit = 0.0;
+  if (std::sscanf(kind.c_str(), "moved_%5[a-z]_%lf_%lf", side, &mm, &visit) == 3) {
+    const auto where = side == std::string_view("left") ? generator::Where::left : generator::Where::right;
+    recipe.exactly = {{Cause::zero_shift, where, mm, visit}};
+  } else {
+    recipe.kind = generator::Mix::nothing;
   }
-  for (const std::string& kind : kinds)
-    pooled(kind, [&](const StatedRow& row) { return row.kind == kind; });
-  const auto of_effects = [](const StatedRow& row) { return !row.kind.starts_with(kTapeZero); };
-  for (const char* way : {"28", "60", "117", "holes"})
-    pooled(way, [&](const StatedRow& row) { return of_effects(row) && row.way == way; });
-  pooled("all", of_effects);
-  return text;
+  if (std::sscanf(kind.c_str(), "second_%lf", &mm) != 1) {
+    read_chains(recipe, outcome);
+    return outcome;
+  }
+  const generator::SealedSet set = generator::draw_set(recipe, seed);
+  const grid::MeasuredGrid first = grid_of(set.grid_text);
+  const grid::MeasuredGrid second = grid_of(another_session(set, mm, seed));
+  const auto alone = grid::joint_fit(first);
+  const auto both = grid::joint_fit({{"first", first}, {"second", second}});
+  if (alone) add_errors("plain", map_errors(set, alone->map).value(), outcome);
+  if (both) add_errors("own", map_errors(set, both->map).value(), outcome);
+  return outcome;
 }
 
 }  // namespace chaintrue::sealed

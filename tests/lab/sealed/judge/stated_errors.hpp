@@ -1,50 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
 /// \file
 /// Stated errors of maps against the true ones: hidden machines, each with one effect of the
 /// catalogue at its usual size or with none, measured in the ways and layouts of docs. Chain
 /// lengths are read at 28, 60 or 117 marks with six second visits; distances are taped between nine
 /// holes, where the effect is one that holes can have.
 ///
-/// \code
-///   for (const std::string& kind : stated_kinds()) rows.push_back(stated_row(kind, 0));
-///   print(stated_table(rows));
-/// \endcode
-#pragma once
-
-#include <optional>
+/// Of each machine two maps are made: `plain`, and `own` on the causes that are found. Numbers of an outcome:
+///   plain_true_mm, plain_stated_mm, own_true_mm, own_stated_mm   errors of the tool
+///   plain_held, own_held                                         shares of 95 % intervals that hold the truth
+///   built                                                        1 if the own map is built on causes
+/// There are none where one of the fits failed.
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/outcome.hpp"
 
 namespace chaintrue::sealed {
-
-/// One machine with the plain map of its readings and the map on the causes that are found.
-struct StatedRow {
-  std::string kind;
-  std::string way;  ///< 28, 60, 117 or holes
-  int machine = 0;
-  bool is_built = false;  ///< on causes
-  MapErrors plain;
-  MapErrors own;  ///< no places in both: one of the fits failed
-};
 
 /// Effects of the catalogue, "nothing", and holes alone with a tape whose zero is off by so much
 /// ("tape_zero_5") or stated to be known exactly.
 [[nodiscard]] std::vector<std::string> stated_kinds();
-/// Machine k of a kind. \throws std::runtime_error if the hidden machine cannot be measured.
-[[nodiscard]] StatedRow stated_row(const std::string& kind, int k);
+/// Its way, 28, 60, 117 or holes, follows the kind after a colon, except for tapes. \throws std::runtime_error if the
+/// hidden machine cannot be measured.
+[[nodiscard]] Outcome stated_outcome(const std::string& kind, std::uint64_t seed);
 
-/// The row of a set of chains at points.
-[[nodiscard]] StatedRow row_of_set(std::string kind, const generator::SealedSet& set);
-
-/// A line of a file of rows, and back; nothing where the line is none.
-[[nodiscard]] std::string line_of(const StatedRow& row);
-[[nodiscard]] std::optional<StatedRow> row_of(std::string_view line);
-
-/// Per kind (those of stated_kinds() first), per way and pooled: rms of the true over rms of the
-/// stated errors, and the coverage of the 95 % intervals.
-[[nodiscard]] std::string stated_table(const std::vector<StatedRow>& rows);
+/// Readings of the list of start: zeros that move by so much, left or right, from a visit on ("moved_left_6_15"); and a
+/// first session (plain), and it with a second whose left zero is another (own): "second_20".
+[[nodiscard]] std::vector<std::string> zero_kinds();
+[[nodiscard]] Outcome zero_outcome(const std::string& kind, std::uint64_t seed);
 
 }  // namespace chaintrue::sealed

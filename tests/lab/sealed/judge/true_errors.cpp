@@ -49,7 +49,7 @@ std::optional<Fresh> fresh_of(const generator::SealedSet& set) {
                                       : generator::area_session(set.machine, dice);
   const auto hidden = lasting(set.machine.hidden());
   generator::HiddenMachine later(set.machine.stated(), set.machine.truth(), hidden);
-  if (set.answer.unlisted) later.suffers(*set.answer.unlisted);
+  if (set.answer.left_over_delta > 0.0) later.suffers(set.machine.disturbance());
   const auto exact = later.exact(fresh.visits);
   const auto yardstick =
       generator::Yardstick::make(set.machine.truth(), fresh.visits, set.noise, {});
