@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits to distances between holes: errors of spacing, scales and the tape's zero agree with their
+// Fits to distances between holes: errors of spacing and scales agree with their
 // stated sigmas, bad distances are found, plans reach their predicted accuracy; and how often a
 // diagnosis names a cause.
 #include <gtest/gtest.h>
@@ -53,31 +53,6 @@ TEST(HolesCoverage, CoversSpacingAndScales) {
   of_spacing.expect_unit(2.0 / 15.0);
   scales.expect_unit(2.0 / 15.0);
   EXPECT_LT(std::sqrt(spacing2 / static_cast<double>(all.size())), 1.15) << "mm, as docs/holes.md states";
-}
-
-TEST(HolesCoverage, CoversTheTapeZero) {
-  constexpr double kSigmaMm = 0.8;
-  Random random(21);
-  Squares zero(1.0);
-  Rate mentioned;
-  for (const std::uint64_t seed : seeds(300)) {
-    auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
-    const auto sound = joint_fit(made->set);
-    ASSERT_TRUE(sound) << "seed " << seed;
-    const auto& notes = sound->map.contents().notes;
-    mentioned.add(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-      return note.starts_with("Every tape distance");
-    }));
-    const double true_mm = kSigmaMm * random.normal();
-    for (HoleDistance& distance : made->set.distances) distance.distance_mm += true_mm;
-    made->set.tape.tape_zero_offset_sigma_mm = kSigmaMm;
-    const auto fit = joint_fit(made->set);
-    ASSERT_TRUE(fit) << "seed " << seed;
-    const FoundTapeZero& found = *fit->distances.front().tape_zero;
-    zero.add(std::pow((found.mm - true_mm) / found.sigma_mm, 2));
-  }
-  zero.expect_unit();
-  mentioned.expect_at_most(1.0 / 370.0);  // three sigmas
 }
 
 TEST(HolesCoverage, BadDistancesAreFoundAndGoodOnesKept) {

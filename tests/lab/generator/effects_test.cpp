@@ -141,25 +141,6 @@ TEST(Readings, EffectsTogetherAreReproducible) {
   }
 }
 
-TEST(MarkFrame, RoundTrips) {
-  for (const Where where : {Where::x, Where::y, Where::both}) {
-    const std::vector<Hidden> effects{{Cause::tape_scale, where, 0.002, 0.0},
-                                      {Cause::axes_skew, Where::nowhere, -0.003, 0.0}};
-    model::Machine machine;
-    for (const Hidden& h : effects) machine.effects.push_back(applied(h));
-    const model::MarkFrame mark_frame(machine);
-    for (const Vec2 p : {Vec2{1100.0, -500.0}, Vec2{-300.0, 600.0}}) {
-      const Vec2 ours = written(p, effects);
-      const auto theirs = mark_frame.written({p.x, p.y});
-      EXPECT_NEAR(ours.x, theirs.x_mm, 1e-10);  // rounding of 1e3 mm
-      EXPECT_NEAR(ours.y, theirs.y_mm, 1e-10);
-      const Vec2 back = place_of(ours, effects);
-      EXPECT_NEAR(back.x, p.x, 1e-10);
-      EXPECT_NEAR(back.y, p.y, 1e-10);
-    }
-  }
-}
-
 // delta by the hidden side's own differences compared with the product's table of strengths.
 TEST(Strength, EqualsDelta) {
   const auto visits = session(5, 28);

@@ -58,26 +58,11 @@ TEST(HiddenPlotter, AMuralHangsInItsLowestPose) {
   expect_lowest(machine);
 }
 
-TEST(HiddenPlotter, ABodyOnPinsHangsInItsLowestPose) {
-  model::PlotterMachine machine = model::mural(1500.0);
-  machine.cord.compliance_per_n = 0.0;
-  machine.pulley_radius_mm = 0.0;
-  machine.gondola.mass_below_mm = 30.0;
-  expect_lowest(machine);
-}
-
 TEST(HiddenPlotter, ABodyOnMotorsOnTheWallHangsInItsLowestPose) {
   model::PlotterMachine machine;
   machine.pulley_radius_mm = 12.0;
   machine.pin_rise_mm = 5.0;
   machine.gondola = {.spacing_mm = 60.0, .pen_below_mm = 25.0, .mass_below_mm = 40.0};
-  expect_lowest(machine);
-}
-
-TEST(HiddenPlotter, APointOnMotorsOnTheWallHangsWhereItsCordsMeet) {
-  model::PlotterMachine machine;
-  machine.pulley_radius_mm = 9.5;
-  machine.pin_rise_mm = -3.0;
   expect_lowest(machine);
 }
 

@@ -100,24 +100,6 @@ INSTANTIATE_TEST_SUITE_P(Reference,
                                          "table_off_bottom.json",
                                          "table_over_top_rho0.json"));
 
-// Extreme machines: sleds of 0.5 kg, chains of 1 kg/m. The error is the square of a piece over the
-// chain's own radius of curvature.
-TEST(Stress, RandomMachinesConvergeToTheTable) {
-  std::vector<double> error;
-  const auto table = load("table_stress.json");
-  for (const auto& record : table.at("records")) {
-    TrueMachine m = machine_of(record.at("params"));
-    m.pieces_per_link = 8;
-    const auto rest = come_to_rest(m, {number(record.at("x")), number(record.at("y"))});
-    ASSERT_TRUE(rest) << record.at("params");
-    error.push_back(std::max(std::abs(rest->chain[0].length_mm - number(record.at("L"))),
-                             std::abs(rest->chain[1].length_mm - number(record.at("R")))));
-  }
-  std::sort(error.begin(), error.end());
-  EXPECT_LT(error[error.size() / 2], 1e-6);
-  EXPECT_LT(error.back(), 1e-4);
-}
-
 // Averaged over all directions a polygon is as wide as the circle of its circumference (Cauchy), so
 // that links on teeth ripple about the drum without an offset.
 TEST(Teeth, RippleAboutTheDrum) {
@@ -150,29 +132,6 @@ TEST(Teeth, RippleAboutTheDrum) {
     EXPECT_LT(largest, 1.3 * amplitude);  // one chain's ripple moves the other chain too
     EXPECT_LT(std::abs(sum / (2 * kPlaces)), 0.1 * amplitude);
   }
-}
-
-TEST(Rest, MirroredMachinesSwapTheirChains) {
-  TrueMachine m;
-  m.axis = {{{-1500.0, 1080.0}, {1470.0, 1065.0}}};
-  m.beam_give_mm_per_n = 0.01;
-  m.side_force_n = 2.0;
-  TrueMachine mirrored = m;
-  mirrored.axis = {{{-1470.0, 1065.0}, {1500.0, 1080.0}}};
-  mirrored.side_force_n = -2.0;
-  for (const Vec2 bit : {Vec2{300.0, -400.0}, Vec2{-1100.0, 500.0}}) {
-    const auto a = come_to_rest(m, bit);
-    const auto b = come_to_rest(mirrored, {-bit.x, bit.y});
-    ASSERT_TRUE(a && b);
-    EXPECT_NEAR(a->chain[0].length_mm, b->chain[1].length_mm, 1e-8);  // Newton's last step
-    EXPECT_NEAR(a->chain[1].length_mm, b->chain[0].length_mm, 1e-8);
-  }
-}
-
-TEST(Rest, RefusesImpossiblePoses) {
-  const TrueMachine m;
-  EXPECT_FALSE(come_to_rest(m, {-1600.0, 0.0}));  // beyond the left sprocket
-  EXPECT_FALSE(come_to_rest(m, {0.0, 1200.0}));   // above both
 }
 
 }  // namespace

@@ -70,20 +70,6 @@ TEST(SmoothField, ExcludesSettingsAndSheet) {
   }
 }
 
-TEST(SmoothField, AbsorbsASmoothCauseAndNoWave) {
-  const CalibratedSession session = calibrate({}, exact_marks(), {});
-  const SmoothField field{600.0, 1.0, 1.0, 0.0, 1.0};
-  const auto share = [&](const Hidden& hidden) {
-    const auto g = signature_of(session, hidden);
-    return strength_given(field, session, g) / strength_given(kNone, session, g);
-  };
-  const double smooth = share({Cause::chain_stretch, Where::nowhere, 1e-5, 0.0});
-  // The field changes over a quarter of the bed. A wave of 63 mm is scatter at such marks, and a field
-  // takes no more than its part of the 56 readings.
-  EXPECT_LT(smooth, 0.5);
-  EXPECT_GT(share(kEccentric), 0.75);
-}
-
 TEST(Calibrate, FindsSettingsAndSheet) {
   TrueMachine stated;
   stated.axis[0].x += 2.0;
@@ -95,38 +81,6 @@ TEST(Calibrate, FindsSettingsAndSheet) {
   EXPECT_NEAR(first.x, marks.front().mark.x - 10.0, 1.0);
   EXPECT_NEAR(first.y, marks.front().mark.y + 6.0, 1.0);
   EXPECT_LT(session.residual.norm(), 1.5);
-}
-
-TEST(SmoothField, IsFoundIfOneWasDrawn) {
-  std::vector<ReadMark> marks = exact_marks();
-  const auto n = static_cast<Eigen::Index>(marks.size());
-  constexpr double kLeftMm = 1.5, kLengthMm = 400.0;
-  Eigen::MatrixXd covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const auto& p = marks[static_cast<std::size_t>(i)].mark;
-      const auto& q = marks[static_cast<std::size_t>(j)].mark;
-      covariance(i, j) = std::exp(-(std::pow(p.x - q.x, 2) + std::pow(p.y - q.y, 2)) /
-                                  (2.0 * kLengthMm * kLengthMm));
-    }
-  }
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  generator::Dice dice(3, "field");
-  Eigen::VectorXd normal(n);
-  for (double& z : normal) z = dice.normal();
-  const Eigen::VectorXd drawn = llt.matrixL() * (kLeftMm * normal);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    ReadMark& m = marks[static_cast<std::size_t>(i)];
-    m.lengths[0] += drawn(i) + 0.2 * dice.normal();
-    m.lengths[1] += 0.2 * dice.normal();
-  }
-  const SmoothField found = likeliest_field(calibrate({}, marks, {0.2, 0.0}));
-  // The settings take the field's longest parts; a dozen independent ones remain, whose scatter is known to
-  // a fifth, and twice that is allowed.
-  EXPECT_NEAR(std::log(found.left_mm / kLeftMm), 0.0, 0.5);
-  EXPECT_LT(found.right_mm, 0.2 * found.left_mm);
-  EXPECT_GE(found.length_mm, 250.0);
-  EXPECT_LE(found.length_mm, 600.0);
 }
 
 }  // namespace

@@ -51,35 +51,6 @@ TEST_F(RealFrames, FiveRunsScatterByTheirSigmas) {
   EXPECT_LT(ratio, 1.7);
 }
 
-TEST_F(RealFrames, FiveRunsAgreeInTheStretch) {
-  double square = 0.0;
-  std::optional<diagnosis::ParameterEstimate> first;
-  for (int run = 1; run <= kRuns; ++run) {
-    const auto found = diagnosis::diagnose(ten_runs(run)).value();
-    ASSERT_FALSE(found.causes.empty());
-    const auto size = found.causes[0].parameters[0];
-    if (!first) first = size;
-    square += std::pow(size.value - first->value, 2) /
-              (size.sigma * size.sigma + first->sigma * first->sigma);
-  }
-  // Four differences of about unit variance: chi-squared with 4 degrees of freedom, 1 in 1000.
-  EXPECT_LT(square, 18.5);
-}
-
-TEST_F(RealFrames, MorePlacesMoveTheAnchorsWithinTheirSigmas) {
-  MeasuredBelts belts = read("concrete_anchors.txt");
-  const auto all = diagnosis::fit_with_causes(belts);
-  belts.points.resize(57);
-  const auto first = diagnosis::fit_with_causes(belts);
-  ASSERT_TRUE(all && first);
-  for (std::size_t i = 0; i < all->coordinates.size(); ++i) {
-    // Three sigmas of the fewer places, which are among the more.
-    EXPECT_LT(std::abs(all->coordinates[i].fitted_mm - first->coordinates[i].fitted_mm),
-              3.0 * first->coordinates[i].sigma_mm)
-        << all->coordinates[i].name;
-  }
-}
-
 TEST_F(RealFrames, BeltsStretchAndNothingElseIsNamed) {
   struct Frame {
     const char* file;
