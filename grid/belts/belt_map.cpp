@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/calibration/sheet_placement.hpp"
@@ -66,32 +65,6 @@ interp::Rectangle domain_of(const model::BeltMachine& machine) {
           std::max(a.tr.x_mm, a.br.x_mm) - reach - centre.x_mm,
           reach - centre.y_mm,
           std::max(a.tl.y_mm, a.tr.y_mm) - reach - centre.y_mm};
-}
-
-/// The shift and turn that lay `from` on `to`, by least squares.
-model::SheetPlacement laid(const std::vector<MarkPoint>& from, const std::vector<BedPoint>& to) {
-  const auto count = as_double(from.size());
-  MarkPoint a;
-  BedPoint b;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    a = {a.x_mm + from[i].x_mm / count, a.y_mm + from[i].y_mm / count};
-    b = {b.x_mm + to[i].x_mm / count, b.y_mm + to[i].y_mm / count};
-  }
-  double along = 0.0;
-  double across = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const double x = from[i].x_mm - a.x_mm;
-    const double y = from[i].y_mm - a.y_mm;
-    const double u = to[i].x_mm - b.x_mm;
-    const double v = to[i].y_mm - b.y_mm;
-    along += x * u + y * v;
-    across += x * v - y * u;
-  }
-  model::SheetPlacement sheet{0.0, 0.0, std::atan2(across, along)};
-  const BedPoint turned = sheet.to_bed(a);
-  sheet.x_mm = b.x_mm - turned.x_mm;
-  sheet.y_mm = b.y_mm - turned.y_mm;
-  return sheet;
 }
 
 /// Places that determine the sheet's placement.
@@ -216,7 +189,7 @@ class Placing {
       from.push_back(model::identity_placement(placed.on_sheet({place->x_mm, place->y_mm})));
       to.push_back(reference.commanded);
     }
-    if (from.size() >= 2) placed.sheet = laid(from, to);
+    if (from.size() >= 2) placed.sheet = laid_on(from, to);
   }
 
   model::BeltMachine in_force_;
@@ -232,16 +205,10 @@ MechanismMap map_of(const BeltsFit& fit,
   const Placing placing(fit, holes, in_force);
   const Eigen::VectorXd unknowns = unknowns_of(fit, holes);
   // Level spans: a belt's slant carries no information about an error.
-  MechanismSpread spread{placing.at(unknowns, BeltLengths::span), {}};
-  const Eigen::MatrixXd covariance = covariance_of(fit, holes);
-  const linear::SymmetricEigen eigen(covariance);
-  for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
-    const double variance = eigen.eigenvalues()[i];
-    // Below this a direction adds less than rounding.
-    if (!(variance > 1e-12 * eigen.eigenvalues().maxCoeff())) continue;
-    spread.others.push_back(placing.at(
-        unknowns + std::sqrt(variance) * eigen.eigenvectors().col(i), BeltLengths::span));
-  }
+  MechanismSpread spread =
+      spread_about(unknowns, covariance_of(fit, holes), [&](const Eigen::VectorXd& values) {
+        return placing.at(values, BeltLengths::span);
+      });
   return {placing.at(unknowns, BeltLengths::belt),
           std::move(spread),
           MeasuredArea(placing.measured(), domain_of(in_force))};

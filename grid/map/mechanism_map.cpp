@@ -10,17 +10,6 @@
 namespace chaintrue::grid {
 namespace {
 
-/// Sheet and mechanism have one frame.
-class SameFrame final : public SheetInFrame {
- public:
-  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const override {
-    return {sheet.x_mm, sheet.y_mm};
-  }
-  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const override {
-    return {position.x_mm, position.y_mm};
-  }
-};
-
 tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(const PlacedMechanism& placed,
                                                                       model::BedPoint point) {
   return placed.mechanism->first_lengths(placed.sheet->in_frame(point));
@@ -28,28 +17,70 @@ tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(const Plac
 
 }  // namespace
 
+model::ToolPosition LaidSheet::in_frame(model::BedPoint sheet) const {
+  const model::BedPoint at = laid_.to_bed(model::identity_placement(sheet));
+  return {at.x_mm, at.y_mm};
+}
+
+model::BedPoint LaidSheet::on_sheet(model::ToolPosition position) const {
+  return model::identity_placement(laid_.to_mark({position.x_mm, position.y_mm}));
+}
+
+model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
+                              const std::vector<model::BedPoint>& to) {
+  const auto count = as_double(from.size());
+  model::MarkPoint a;
+  model::BedPoint b;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    a = {a.x_mm + from[i].x_mm / count, a.y_mm + from[i].y_mm / count};
+    b = {b.x_mm + to[i].x_mm / count, b.y_mm + to[i].y_mm / count};
+  }
+  double along = 0.0;
+  double across = 0.0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double x = from[i].x_mm - a.x_mm;
+    const double y = from[i].y_mm - a.y_mm;
+    const double u = to[i].x_mm - b.x_mm;
+    const double v = to[i].y_mm - b.y_mm;
+    along += x * u + y * v;
+    across += x * v - y * u;
+  }
+  model::SheetPlacement sheet{0.0, 0.0, std::atan2(across, along)};
+  const model::BedPoint turned = sheet.to_bed(a);
+  sheet.x_mm = b.x_mm - turned.x_mm;
+  sheet.y_mm = b.y_mm - turned.y_mm;
+  return sheet;
+}
+
+MechanismSpread spread_about(const Eigen::VectorXd& values,
+                             const Eigen::MatrixXd& covariance,
+                             const PlacedAt& placed) {
+  MechanismSpread spread{placed(values), {}};
+  const linear::SymmetricEigen parts(covariance);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const double variance = parts.eigenvalues()[i];
+    // Below this a direction adds less than rounding.
+    if (!(variance > 1e-12 * parts.eigenvalues().maxCoeff())) continue;
+    spread.others.push_back(placed(values + std::sqrt(variance) * parts.eigenvectors().col(i)));
+  }
+  return spread;
+}
+
 MechanismMap::MechanismMap(PlacedMechanism fitted, MechanismSpread spread, MeasuredArea area)
     : fitted_(std::move(fitted)), spread_(std::move(spread)), area_(std::move(area)) {}
 
 MechanismMap MechanismMap::of(const FittedMechanism& fitted,
                               const std::vector<model::BedPoint>& measured) {
-  const auto same = std::make_shared<const SameFrame>();
-  const PlacedMechanism best{fitted.mechanism, same};
-  MechanismSpread spread{best, {}};
-  const linear::SymmetricEigen parts(fitted.covariance);
-  for (Eigen::Index i = 0; i < parts.eigenvalues().size(); ++i) {
-    if (!(parts.eigenvalues()[i] > 0.0)) continue;
-    spread.others.push_back(
-        {fitted.mechanism->with_values(fitted.mechanism->values() +
-                                       std::sqrt(parts.eigenvalues()[i]) *
-                                           parts.eigenvectors().col(i)),
-         same});
-  }
+  const PlacedMechanism best{fitted.mechanism, std::make_shared<const LaidSheet>()};
   const model::MechanismExtent e = fitted.mechanism->extent();
   std::vector<model::MarkPoint> points;
   for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
   return {best,
-          std::move(spread),
+          spread_about(fitted.mechanism->values(),
+                       fitted.covariance,
+                       [&](const Eigen::VectorXd& values) {
+                         return PlacedMechanism{fitted.mechanism->with_values(values), best.sheet};
+                       }),
           MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
 }
 

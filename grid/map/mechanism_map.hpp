@@ -14,11 +14,13 @@
 /// \endcode
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
+#include "model/calibration/sheet_placement.hpp"
 #include "model/mechanism.hpp"
 
 namespace chaintrue::grid {
@@ -33,16 +35,35 @@ class SheetInFrame {
   [[nodiscard]] virtual double own_variance_mm2(model::BedPoint /*sheet*/) const { return 0.0; }
 };
 
+/// A sheet that was shifted and turned.
+class LaidSheet final : public SheetInFrame {
+ public:
+  explicit LaidSheet(model::SheetPlacement laid = {}) : laid_(laid) {}
+  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const override;
+  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const override;
+
+ private:
+  model::SheetPlacement laid_;
+};
+
+/// The shift and turn that lay `from` on `to`, by least squares.
+[[nodiscard]] model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
+                                            const std::vector<model::BedPoint>& to);
+
 struct PlacedMechanism {
   std::shared_ptr<const model::Mechanism> mechanism;
   std::shared_ptr<const SheetInFrame> sheet;
 };
 
-/// A state one sigma away, and the centre.
+/// States one sigma away, and the centre.
 struct MechanismSpread {
   PlacedMechanism centre;
   std::vector<PlacedMechanism> others;
 };
+using PlacedAt = std::function<PlacedMechanism(const Eigen::VectorXd& values)>;
+[[nodiscard]] MechanismSpread spread_about(const Eigen::VectorXd& values,
+                                           const Eigen::MatrixXd& covariance,
+                                           const PlacedAt& placed);
 
 class MechanismMap : public LengthMap {
  public:
