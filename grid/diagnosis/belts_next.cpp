@@ -8,6 +8,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
+#include "grid/raster.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -16,13 +17,6 @@ using model::Belt;
 
 namespace {
 
-/// New places lie on a raster over the frame; coarser if each can be reached in four ways.
-struct Raster {
-  int columns;
-  int rows;
-};
-constexpr Raster kUpright{9, 7};
-constexpr Raster kFlat{5, 4};
 /// Share of the frame's width and height left out on each side: nearer to an anchor the arm is in
 /// the way.
 constexpr double kMargin = 0.14;
@@ -100,28 +94,24 @@ class NextPlaces {
   double times_;
 };
 
+/// On a raster over the frame; coarser if each place can be reached in four ways.
 void add_places(model::Orientation orientation, NextPlaces& next) {
   const model::FramePoint centre = model::centre_of(next.machine);
   const auto& anchors = next.machine.anchors;
-  const auto between = [](double low, double high, int i, int n) {
-    return low + (high - low) * (kMargin + (1.0 - 2.0 * kMargin) * i / (n - 1));
-  };
-  const Raster raster = orientation == model::Orientation::flat ? kFlat : kUpright;
-  for (int j = 0; j < raster.rows; ++j) {
-    for (int i = 0; i < raster.columns; ++i) {
-      const double x = between(0.5 * (anchors.tl.x_mm + anchors.bl.x_mm),
-                               0.5 * (anchors.tr.x_mm + anchors.br.x_mm),
-                               i,
-                               raster.columns);
-      const double y = between(0.0, 0.5 * (anchors.tl.y_mm + anchors.tr.y_mm), j, raster.rows);
-      const auto whole = [](double mm) { return kRasterMm * std::round(mm / kRasterMm) + 0.0; };
-      const model::BedPoint command{whole(x - centre.x_mm), whole(y - centre.y_mm)};
-      for (const Approach& way : approaches(orientation)) {
-        const auto pulled = way.pulled.empty() ? std::nullopt : std::optional(way.pulled);
-        if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, pulled))
-          next.propose(
-              MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words), command);
-      }
+  const double left = 0.5 * (anchors.tl.x_mm + anchors.bl.x_mm);
+  const double right = 0.5 * (anchors.tr.x_mm + anchors.br.x_mm);
+  const double top = 0.5 * (anchors.tl.y_mm + anchors.tr.y_mm);
+  const double aside = kMargin * (right - left);
+  const interp::Rectangle area{left + aside, right - aside, kMargin * top, top - kMargin * top};
+  const bool flat = orientation == model::Orientation::flat;
+  for (const model::MarkPoint& at : raster(area, flat ? 5 : 9, flat ? 4 : 7, RasterOf::nodes)) {
+    const auto whole = [](double mm) { return kRasterMm * std::round(mm / kRasterMm) + 0.0; };
+    const model::BedPoint command{whole(at.x_mm - centre.x_mm), whole(at.y_mm - centre.y_mm)};
+    for (const Approach& way : approaches(orientation)) {
+      const auto pulled = way.pulled.empty() ? std::nullopt : std::optional(way.pulled);
+      if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, pulled))
+        next.propose(
+            MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words), command);
     }
   }
 }

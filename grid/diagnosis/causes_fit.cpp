@@ -15,6 +15,7 @@
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/map/larger_error.hpp"
 #include "grid/parallel.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -63,20 +64,13 @@ std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
 /// Beyond the measured part the larger of the two errors is stated: of all places there the largest
 /// ratio of the plain map's error to this one's, at least 1.
 double factor_beyond(const CompensationMap& plain, const CompensationMap& own) {
-  constexpr int kColumns = 25;
-  constexpr int kRows = 13;
-  const interp::Rectangle& domain = own.contents().domain;
   double factor = 1.0;
-  for (int iy = 0; iy < kRows; ++iy) {
-    for (int ix = 0; ix < kColumns; ++ix) {
-      const model::MarkPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
-                                  domain.y_min + domain.height() * iy / (kRows - 1)};
-      if (own.status(mark) != MapStatus::extrapolated) continue;
-      const auto before = plain.query(mark);
-      const auto after = own.query(mark);
-      if (before && after && after->tool_sigma_mm > 0.0)
-        factor = std::max(factor, before->tool_sigma_mm / after->tool_sigma_mm);
-    }
+  for (const model::MarkPoint& mark : raster(own.contents().domain, 25, 13, RasterOf::nodes)) {
+    if (own.status(mark) != MapStatus::extrapolated) continue;
+    const auto before = plain.query(mark);
+    const auto after = own.query(mark);
+    if (before && after && after->tool_sigma_mm > 0.0)
+      factor = std::max(factor, before->tool_sigma_mm / after->tool_sigma_mm);
   }
   return factor;
 }

@@ -42,9 +42,9 @@ BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
 
 /// A corner of the marked area, and the points a part's length from it towards the middle, in
 /// either direction.
-std::array<model::MarkPoint, 3> corner(const MarkedArea& area, bool right, bool top) {
-  const double x = right ? area.high.x_mm : area.low.x_mm;
-  const double y = top ? area.high.y_mm : area.low.y_mm;
+std::array<model::MarkPoint, 3> corner(const interp::Rectangle& area, bool right, bool top) {
+  const double x = right ? area.x_max : area.x_min;
+  const double y = top ? area.y_max : area.y_min;
   return {{{x, y}, {x + (right ? -kPartMm : kPartMm), y}, {x, y + (top ? -kPartMm : kPartMm)}}};
 }
 
@@ -57,7 +57,7 @@ struct Corner {
 std::vector<Corner> corners_of(const Analysis& a) {
   std::vector<Corner> result;
   if (!a.session.reads_chains()) return result;
-  const MarkedArea area = marked_area(a.session);
+  const interp::Rectangle area = marked_area(a.session);
   for (const bool right : {false, true}) {
     for (const bool top : {false, true}) {
       const auto marks = corner(area, right, top);

@@ -8,15 +8,12 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
+#include "grid/raster.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-constexpr int kImprovementColumns =
-    25;  // 100 mm apart on a whole bed: waves of a sprocket's turn included
-constexpr int kImprovementRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
   return any_of(a.decision.regressors, [&](int k) {
@@ -25,20 +22,10 @@ bool hangs_on_visits(const Analysis& a) {
   });
 }
 
-/// Places over the rectangle that the marks span, in the middle of cells of equal size.
+/// Places over the rectangle that the marks span, 100 mm apart on a whole bed: waves of a sprocket's
+/// turn included.
 ObservationSet over_the_area(const Analysis& a) {
-  const MarkedArea area = marked_area(a.session);
-  const auto between = [](double low, double high, int i, int n) {
-    return low + (high - low) * (i + 0.5) / n;
-  };
-  std::vector<model::MarkPoint> marks;
-  for (int j = 0; j < kImprovementRows; ++j) {
-    for (int i = 0; i < kImprovementColumns; ++i) {
-      marks.push_back({between(area.low.x_mm, area.high.x_mm, i, kImprovementColumns),
-                       between(area.low.y_mm, area.high.y_mm, j, kImprovementRows)});
-    }
-  }
-  return session_at(a, marks);
+  return session_at(a, raster(marked_area(a.session), 25, 13, RasterOf::cells));
 }
 
 /// Expected drop and remaining uncertainty of the error over some units.

@@ -7,12 +7,11 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kCandidateColumns = 20;
-constexpr int kCandidateRows = 12;
 
 /// Readings of the machine, with the sigma that careful work with usual tools reaches.
 struct MachineReading {
@@ -74,13 +73,10 @@ class PointCandidates {
     }
     x = std::min(1.1 * x, 0.49 * session_.stated.bed.width_mm);
     y = std::min(1.1 * y, 0.49 * session_.stated.bed.height_mm);
-    for (int j = 0; j < kCandidateRows; ++j) {
-      for (int i = 0; i < kCandidateColumns; ++i) {
-        // Whole millimetres: the list is for a person with a tape.
-        const model::MarkPoint mark{std::round(x * (2.0 * i / (kCandidateColumns - 1) - 1.0)),
-                                    std::round(y * (2.0 * j / (kCandidateRows - 1) - 1.0))};
-        if (model_.at(sheet_.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
-      }
+    for (const model::MarkPoint& place : raster({-x, x, -y, y}, 20, 12, RasterOf::nodes)) {
+      // Whole millimetres: the list is for a person with a tape.
+      const model::MarkPoint mark{std::round(place.x_mm), std::round(place.y_mm)};
+      if (model_.at(sheet_.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
     }
   }
 

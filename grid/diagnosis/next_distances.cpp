@@ -6,13 +6,11 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/next_candidates.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// New holes are sought on this raster over the extent of the holes.
-constexpr int kHoleColumns = 7;
-constexpr int kHoleRows = 4;
 constexpr double kApartMm = 200.0;  ///< neighbouring holes are redundant
 /// A new hole is measured to this many others: two place it, the third checks it.
 constexpr std::size_t kArms = 3;
@@ -129,12 +127,8 @@ class HoleCandidates {
       x = std::max(x, std::abs(hole.commanded.x_mm));
       y = std::max(y, std::abs(hole.commanded.y_mm));
     }
-    for (int j = 0; j < kHoleRows; ++j) {
-      for (int i = 0; i < kHoleColumns; ++i) {
-        add_hole({std::round(x * (2.0 * i / (kHoleColumns - 1) - 1.0)),
-                  std::round(y * (2.0 * j / (kHoleRows - 1) - 1.0))});
-      }
-    }
+    for (const model::MarkPoint& place : raster({-x, x, -y, y}, 7, 4, RasterOf::nodes))
+      add_hole({std::round(place.x_mm), std::round(place.y_mm)});
   }
 
   const Analysis& a_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -22,14 +23,11 @@ const observation::ChainLengthReadings& readings_of(const ObservationSet& sessio
 
 }  // namespace
 
-MarkedArea marked_area(const ObservationSet& session) {
+interp::Rectangle marked_area(const ObservationSet& session) {
   const auto& places = readings_of(session, chain_part(session)).places();
-  MarkedArea area{places.front().mark, places.front().mark};
-  for (const observation::Place& place : places) {
-    area.low = {std::min(area.low.x_mm, place.mark.x_mm), std::min(area.low.y_mm, place.mark.y_mm)};
-    area.high = {std::max(area.high.x_mm, place.mark.x_mm),
-                 std::max(area.high.y_mm, place.mark.y_mm)};
-  }
+  const model::MarkPoint first = places.front().mark;
+  interp::Rectangle area{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
+  for (const observation::Place& place : places) take_in(area, place.mark);
   return area;
 }
 

@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "interp/surface.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 /// The rectangle spanned by the marks at which chains were read. Precondition: the session reads
 /// chains.
-struct MarkedArea {
-  model::MarkPoint low;
-  model::MarkPoint high;
-};
-[[nodiscard]] MarkedArea marked_area(const ObservationSet& session);
+[[nodiscard]] interp::Rectangle marked_area(const ObservationSet& session);
 
 /// A session with a point at each reachable mark, without an order of visits. Precondition: as
 /// above.

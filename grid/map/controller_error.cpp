@@ -8,6 +8,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/map/largest_error.hpp"
+#include "grid/raster.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
@@ -22,17 +23,6 @@ interp::ConvexHull hull_of(const std::vector<BedPoint>& corners) {
   std::vector<interp::PlanePoint> points;
   for (const BedPoint corner : corners) points.push_back({corner.x_mm, corner.y_mm});
   return interp::ConvexHull(points);
-}
-
-interp::Rectangle box_of(const std::vector<interp::PlanePoint>& corners) {
-  interp::Rectangle box{corners[0].x, corners[0].x, corners[0].y, corners[0].y};
-  for (const interp::PlanePoint& corner : corners) {
-    box.x_min = std::min(box.x_min, corner.x);
-    box.x_max = std::max(box.x_max, corner.x);
-    box.y_min = std::min(box.y_min, corner.y);
-    box.y_max = std::max(box.y_max, corner.y);
-  }
-  return box;
 }
 
 /// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
@@ -61,7 +51,8 @@ std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map,
 std::vector<MeasuredPlace> measured_places(const LengthMap& map,
                                            const std::vector<BedPoint>& hull) {
   const interp::ConvexHull area = hull_of(hull);
-  const interp::Rectangle box = box_of(area.corners());
+  interp::Rectangle box{hull[0].x_mm, hull[0].x_mm, hull[0].y_mm, hull[0].y_mm};
+  for (const BedPoint corner : hull) take_in(box, model::identity_placement(corner));
   const BedPoint middle{0.5 * (box.x_min + box.x_max), 0.5 * (box.y_min + box.y_max)};
   std::vector<MeasuredPlace> places;
   const auto add = [&](BedPoint at, bool is_on_edge) {
@@ -71,12 +62,8 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
     if (!jacobian) return;
     places.push_back({at, *lengths, jacobian->inverse(), map.tool_spread(at), is_on_edge});
   };
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const BedPoint at{middle.x_mm + box.width() * ((column + 0.5) / kColumns - 0.5),
-                        middle.y_mm + box.height() * ((row + 0.5) / kRows - 0.5)};
-      if (area.contains(at.x_mm, at.y_mm)) add(at, false);
-    }
+  for (const model::MarkPoint& mark : raster(box, kColumns, kRows, RasterOf::cells)) {
+    if (area.contains(mark.x_mm, mark.y_mm)) add(model::identity_placement(mark), false);
   }
   const double spacing = std::max(box.width() / kColumns, box.height() / kRows);
   const auto& corners = area.corners();

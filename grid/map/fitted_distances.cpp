@@ -9,6 +9,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/observation/tape_zero.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -146,10 +147,7 @@ std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDi
 
 interp::Rectangle holes_domain(const model::Bed& bed) {
   constexpr double kMarginMm = 50.0;
-  return {-0.5 * bed.width_mm - kMarginMm,
-          0.5 * bed.width_mm + kMarginMm,
-          -0.5 * bed.height_mm - kMarginMm,
-          0.5 * bed.height_mm + kMarginMm};
+  return area_of(bed, kMarginMm);
 }
 
 }  // namespace chaintrue::grid

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "grid/containers.hpp"
+#include "grid/raster.hpp"
 #include "interp/linear_algebra.hpp"
 #include "grid/map/map_parts.hpp"
 #include "grid/precondition.hpp"
@@ -35,17 +36,16 @@ Eigen::Matrix2Xd differences_at(const std::vector<MapDifference>& differences, m
 /// Spline coefficients of the differences, left and right one below the other, a column each.
 Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis, const std::vector<MapDifference>& differences) {
   // Two places for each function of an axis determine the splines; the ridge holds those that no place is near.
-  constexpr Eigen::Index kPerFunction = 2;
+  constexpr int kPerFunction = 2;
   constexpr double kRidge = 1e-6;
-  const interp::Rectangle& box = basis.rectangle();
-  const Eigen::Index columns = kPerFunction * basis.columns_x(), rows = kPerFunction * basis.columns_y();
+  const std::vector<model::MarkPoint> marks = raster(basis.rectangle(),
+                                                     kPerFunction * static_cast<int>(basis.columns_x()),
+                                                     kPerFunction * static_cast<int>(basis.columns_y()),
+                                                     RasterOf::nodes);
   const auto count = std::ssize(differences);
-  Eigen::MatrixXd design(columns * rows, basis.size()), response(columns * rows, 2 * count);
+  Eigen::MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
   Eigen::Index used = 0;
-  for (Eigen::Index i = 0; i < columns * rows; ++i) {
-    const model::MarkPoint mark{
-        box.x_min + box.width() * static_cast<double>(i % columns) / static_cast<double>(columns - 1),
-        box.y_min + box.height() * static_cast<double>(i / columns) / static_cast<double>(rows - 1)};
+  for (const model::MarkPoint& mark : marks) {
     const Eigen::Matrix2Xd at = differences_at(differences, mark);
     if (at.cols() != count) continue;
     design.row(used) = basis.row(mark.x_mm, mark.y_mm);

@@ -13,6 +13,7 @@
 #include "grid/map/lattice_residual.hpp"
 #include "grid/map/map_parts.hpp"
 #include "grid/map/noise_from_repeats.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -31,16 +32,8 @@ interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPo
   double beyond = 0.0;
   if (grid.sheet)
     beyond = 2.0 * grid.sheet->shift_mm + 1e-3 * grid.sheet->rotation_mrad * 0.5 * bed.width_mm;
-  interp::Rectangle domain{-0.5 * bed.width_mm - beyond,
-                           0.5 * bed.width_mm + beyond,
-                           -0.5 * bed.height_mm - beyond,
-                           0.5 * bed.height_mm + beyond};
-  for (const LengthPoint& point : points) {
-    domain.x_min = std::min(domain.x_min, point.mark.x_mm);
-    domain.x_max = std::max(domain.x_max, point.mark.x_mm);
-    domain.y_min = std::min(domain.y_min, point.mark.y_mm);
-    domain.y_max = std::max(domain.y_max, point.mark.y_mm);
-  }
+  interp::Rectangle domain = area_of(bed, beyond);
+  for (const LengthPoint& point : points) take_in(domain, point.mark);
   return domain;
 }
 

@@ -10,6 +10,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
+#include "grid/raster.hpp"
 #include "interp/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
@@ -21,24 +22,14 @@ namespace {
 using model::MarkPoint;
 using model::Side;
 
-/// Rows and columns of candidate positions.
-constexpr int kCheckColumns = 9;
-constexpr int kCheckRows = 5;
-
 /// Positions where the map has an answer, row by row from the top left.
 std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
-  const model::Bed& bed = map.machine()->bed;
-  std::vector<MarkPoint> places;
-  for (int iy = 0; iy < kCheckRows; ++iy) {
-    for (int ix = 0; ix < kCheckColumns; ++ix) {
-      const double across = 2.0 * ix / (kCheckColumns - 1) - 1.0;
-      const double up = 1.0 - 2.0 * iy / (kCheckRows - 1);
-      // Whole millimetres, because they are typed and marked by hand.
-      const MarkPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
-                           std::trunc((0.5 * bed.height_mm - margin_mm) * up)};
-      if (map.status(mark) != MapStatus::extrapolated && map.query(mark)) places.push_back(mark);
-    }
-  }
+  interp::Rectangle from_top = area_of(map.machine()->bed, -margin_mm);
+  std::swap(from_top.y_min, from_top.y_max);
+  std::vector<MarkPoint> places = whole_mm(raster(from_top, 9, 5, RasterOf::nodes));
+  std::erase_if(places, [&](const MarkPoint& mark) {
+    return map.status(mark) == MapStatus::extrapolated || !map.query(mark);
+  });
   return places;
 }
 

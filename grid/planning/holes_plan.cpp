@@ -15,6 +15,7 @@
 #include "grid/planning/detectable_effects.hpp"
 #include "grid/planning/tool_error.hpp"
 #include "grid/precondition.hpp"
+#include "grid/raster.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -32,22 +33,12 @@ double shorter_side_mm(const model::Machine& machine, double margin_mm) {
 double least_apart_mm(const model::Machine& machine, double margin_mm) {
   return std::min(kLeastApartMm, 0.5 * shorter_side_mm(machine, margin_mm));
 }
-/// Rows and columns of candidate places.
-constexpr int kColumns = 9;
-constexpr int kRows = 5;
-
 std::vector<PlannedPlace> candidates(const model::Machine& machine, double margin_mm) {
   const model::ReadingModel model(machine);
-  const double half_width = 0.5 * machine.bed.width_mm - margin_mm;
-  const double half_height = 0.5 * machine.bed.height_mm - margin_mm;
   std::vector<PlannedPlace> result;
-  for (int iy = 0; iy < kRows; ++iy) {
-    for (int ix = 0; ix < kColumns; ++ix) {
-      // Whole millimetres, because they are typed by hand.
-      const MarkPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
-                            std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
-      if (const auto planned = planned_place(model, place)) result.push_back(*planned);
-    }
+  for (const MarkPoint& place :
+       whole_mm(raster(area_of(machine.bed, -margin_mm), 9, 5, RasterOf::nodes))) {
+    if (const auto planned = planned_place(model, place)) result.push_back(*planned);
   }
   return result;
 }

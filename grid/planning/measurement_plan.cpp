@@ -11,6 +11,7 @@
 #include "grid/map/fit.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/precondition.hpp"
+#include "grid/raster.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "interp/planner_nodes.hpp"
 
@@ -68,19 +69,19 @@ class Planner {
   [[nodiscard]] std::optional<MarkPoint> worst_free(const CompensationMap& map,
                                                     const std::vector<MarkPoint>& marks) const {
     const model::Bed& bed = machine_.bed;
-    const double half_x = 0.5 * bed.width_mm - request_.margin_mm;
-    const double half_y = 0.5 * bed.height_mm - request_.margin_mm;
+    const interp::Rectangle allowed = area_of(bed, -request_.margin_mm);
     const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
+    std::vector<MarkPoint> places =
+        raster(area_of(bed), kRasterColumns, kRasterRows, RasterOf::cells);
+    for (MarkPoint& place : places) {
+      place = {std::clamp(place.x_mm, allowed.x_min, allowed.x_max),
+               std::clamp(place.y_mm, allowed.y_min, allowed.y_max)};
+    }
+    places = whole_mm(std::move(places));
     std::optional<MarkPoint> worst;
     double largest = 0.0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      const auto column = as_double(i % kRasterColumns);
-      const auto row = as_double(i / kRasterColumns);
-      const MarkPoint place{
-          std::trunc(
-              std::clamp(bed.width_mm * ((column + 0.5) / kRasterColumns - 0.5), -half_x, half_x)),
-          std::trunc(
-              std::clamp(bed.height_mm * ((row + 0.5) / kRasterRows - 0.5), -half_y, half_y))};
+      const MarkPoint& place = places[i];
       // A point nearer than this to another one adds little information.
       const bool taken = any_of(marks, [&](const MarkPoint& mark) {
         return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
@@ -98,12 +99,6 @@ class Planner {
   model::ReadingModel model_;
   const PlanRequest& request_;
 };
-
-/// The nodes rounded towards the middle to whole mm.
-std::vector<double> whole_mm(std::vector<double> nodes) {
-  for (double& node : nodes) node = std::trunc(node);
-  return nodes;
-}
 
 /// Rows from the bottom, every other one from right to left; an extra point belongs to the nearest
 /// row.
@@ -130,12 +125,9 @@ std::vector<double> expected_error_mm(const CompensationMap& map,
                                       int columns,
                                       int rows) {
   std::vector<double> errors;
-  for (int iy = 0; iy < rows; ++iy) {
-    for (int ix = 0; ix < columns; ++ix) {
-      const auto answer = map.query(
-          {bed.width_mm * ((ix + 0.5) / columns - 0.5), bed.height_mm * ((iy + 0.5) / rows - 0.5)});
-      errors.push_back(answer ? answer->tool_sigma_mm : -1.0);
-    }
+  for (const MarkPoint& mark : raster(area_of(bed), columns, rows, RasterOf::cells)) {
+    const auto answer = map.query(mark);
+    errors.push_back(answer ? answer->tool_sigma_mm : -1.0);
   }
   return errors;
 }
@@ -160,12 +152,13 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine
         kLeastPlannedSideMm);
   }
   const interp::GridShape shape = interp::grid_shape(width, height, request.points);
-  const auto x = whole_mm(interp::chebyshev_lobatto(-0.5 * width, 0.5 * width, shape.columns));
-  const auto y = whole_mm(interp::chebyshev_lobatto(-0.5 * height, 0.5 * height, shape.rows));
+  const auto x = interp::chebyshev_lobatto(-0.5 * width, 0.5 * width, shape.columns);
+  const auto y = interp::chebyshev_lobatto(-0.5 * height, 0.5 * height, shape.rows);
   std::vector<MarkPoint> marks;
   for (double row : y) {
     for (double column : x) marks.push_back({column, row});
   }
+  marks = whole_mm(std::move(marks));
   const Planner planner(machine, request);
   auto map = planner.map_of(marks);
   while (map && marks.size() < as_size(request.points)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/raster.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -29,16 +30,10 @@ std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, Mark
 }
 
 ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
-  constexpr int kAcross = 13;
-  constexpr int kUp = 7;
   const model::ReadingModel model(machine);
   std::vector<PlannedPlace> places;
-  for (int iy = 0; iy < kUp; ++iy) {
-    for (int ix = 0; ix < kAcross; ++ix) {
-      const MarkPoint place{machine.bed.width_mm * ((ix + 0.5) / kAcross - 0.5),
-                            machine.bed.height_mm * ((iy + 0.5) / kUp - 0.5)};
-      if (const auto planned = planned_place(model, place)) places.push_back(*planned);
-    }
+  for (const MarkPoint& place : raster(area_of(machine.bed), 13, 7, RasterOf::cells)) {
+    if (const auto planned = planned_place(model, place)) places.push_back(*planned);
   }
   const auto count = std::ssize(places);
   if (count < kPlanUnknowns) {

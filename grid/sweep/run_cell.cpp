@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/raster.hpp"
 #include "grid/sweep/sweep_spec.hpp"
 
 namespace chaintrue::grid::sweep {
@@ -61,11 +62,6 @@ model::Machine used_machine(const SweepSpec& spec,
   return truth_of(spec.machines[at[0]].truth, session).machine;
 }
 
-// i-th of `count` positions over a span about 0.
-double raster(double span, int i, int count) {
-  return count == 1 ? 0.0 : span * (as_double(i) / (count - 1) - 0.5);
-}
-
 class ErrorSum {
  public:
   void add(const Eigen::Vector2d& chain_mm, const Eigen::Vector2d& tool_mm) {
@@ -105,27 +101,24 @@ CellResult hold_against_truth(const SweepSpec& spec,
     if (spec.whole_bed) return bed_mm;
     return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);
   };
-  const double width = span(machine.bed.width_mm);
-  const double height = span(machine.bed.height_mm);
+  const model::Bed marked{span(machine.bed.width_mm), span(machine.bed.height_mm)};
   ErrorSum errors;
-  for (int row = 0; row < spec.evaluation_rows; ++row) {
-    for (int column = 0; column < spec.evaluation_columns; ++column) {
-      const BedPoint p{raster(width, column, spec.evaluation_columns),
-                       raster(height, row, spec.evaluation_rows)};
-      const auto answer = map.lengths(model::identity_placement(p));
-      const auto real = truth.at(p);
-      if (!answer || !real) {
-        errors.miss();
-        continue;
-      }
-      model::ChainLengths disturbed{};
-      if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
-      const Eigen::Vector2d chain{
-          answer->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
-          answer->lengths.right_mm - real->lengths.right_mm -
-              level.unmodelled_mm * disturbed.right_mm};
-      errors.add(chain, real->position_jacobian.inverse() * chain);
+  for (const model::MarkPoint& mark : raster(
+           area_of(marked), spec.evaluation_columns, spec.evaluation_rows, RasterOf::nodes)) {
+    const BedPoint p = model::identity_placement(mark);
+    const auto answer = map.lengths(mark);
+    const auto real = truth.at(p);
+    if (!answer || !real) {
+      errors.miss();
+      continue;
     }
+    model::ChainLengths disturbed{};
+    if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
+    const Eigen::Vector2d chain{
+        answer->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
+        answer->lengths.right_mm - real->lengths.right_mm -
+            level.unmodelled_mm * disturbed.right_mm};
+    errors.add(chain, real->position_jacobian.inverse() * chain);
   }
   return errors.result();
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Rectangles of a bed, and points spread evenly over them.
+///
+/// \code
+///   for (const model::MarkPoint& mark : raster(area_of(machine.bed), 25, 13, RasterOf::cells)) ...
+/// \endcode
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "grid/containers.hpp"
+#include "interp/surface.hpp"
+#include "model/coordinates.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::grid {
+
+/// The bed, with `beyond_mm` more on each side.
+[[nodiscard]] inline interp::Rectangle area_of(const model::Bed& bed, double beyond_mm = 0.0) {
+  const double x = 0.5 * bed.width_mm + beyond_mm, y = 0.5 * bed.height_mm + beyond_mm;
+  return {-x, x, -y, y};
+}
+
+/// Widens `area` to hold `mark`.
+inline void take_in(interp::Rectangle& area, model::MarkPoint mark) {
+  area = {std::min(area.x_min, mark.x_mm),
+          std::max(area.x_max, mark.x_mm),
+          std::min(area.y_min, mark.y_mm),
+          std::max(area.y_max, mark.y_mm)};
+}
+
+/// Nodes reach to the borders; cells have their points in their middles.
+enum class RasterOf { nodes, cells };
+
+/// Row by row from y_min, each from x_min. A single row or column of nodes lies in the middle.
+[[nodiscard]] inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over,
+                                                          int columns,
+                                                          int rows,
+                                                          RasterOf of) {
+  const auto share = [of](int i, int count) {
+    if (of == RasterOf::cells) return (i + 0.5) / count;
+    return count > 1 ? as_double(i) / (count - 1) : 0.5;
+  };
+  std::vector<model::MarkPoint> points;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      points.push_back({over.x_min + over.width() * share(column, columns),
+                        over.y_min + over.height() * share(row, rows)});
+    }
+  }
+  return points;
+}
+
+/// In whole millimetres, as places are typed and marked, none farther out than before.
+[[nodiscard]] inline std::vector<model::MarkPoint> whole_mm(std::vector<model::MarkPoint> points) {
+  for (model::MarkPoint& point : points) point = {std::trunc(point.x_mm), std::trunc(point.y_mm)};
+  return points;
+}
+
+}  // namespace chaintrue::grid
