@@ -102,9 +102,9 @@ const model::Machine* CompensationMap::machine() const {
   return surface == nullptr ? nullptr : &surface->machine;
 }
 
-MarkPoint CompensationMap::to_mark(BedPoint bed) const { return field_->to_mark(bed); }
+MarkPoint CompensationMap::to_mark(BedPoint bed) const { return field_->sheet().to_mark(bed); }
 
-BedPoint CompensationMap::to_bed(MarkPoint mark) const { return field_->to_bed(mark); }
+BedPoint CompensationMap::to_bed(MarkPoint mark) const { return field_->sheet().to_bed(mark); }
 
 MapStatus CompensationMap::status(MarkPoint mark) const {
   const MapStatus status = area_.status(mark);
@@ -150,12 +150,12 @@ CompensationMap CompensationMap::with_outside(OutsideRule rule) const {
 
 tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
-  return field_->at(mark);
+  return field_->at(mark).map([](const MapField::WithSpread& found) { return found.here; });
 }
 
 tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
-  const auto found = field_->with_spread(mark);
+  const auto found = field_->at(mark, MapField::Asked::spread);
   if (!found) return tl::unexpected(found.error());
   MapAnswer answer;
   answer.lengths = found->here.lengths;
@@ -175,7 +175,7 @@ double CompensationMap::spread_factor(MapStatus status) const {
 
 Eigen::Matrix2Xd CompensationMap::tool_spread(MarkPoint mark) const {
   if (!answers_at(mark)) return Eigen::Matrix2Xd(2, 0);
-  const auto found = field_->with_spread(mark);
+  const auto found = field_->at(mark, MapField::Asked::spread);
   if (!found) return Eigen::Matrix2Xd(2, 0);
   // A length that is truly longer leaves the tool short of the mark.
   return -spread_factor(area_.status(mark)) * found->here.mark_jacobian.inverse() * found->spread_mm;
@@ -188,11 +188,12 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
   const std::shared_ptr<const MapField> field = field_to_search(contents_, field_);
   MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
   for (int step = 0; step < kSteps; ++step) {
-    const auto here = field->at(mark);
-    if (!here) return tl::unexpected(here.error());
-    const Eigen::Vector2d missing(wanted.left_mm - here->lengths.left_mm,
-                                  wanted.right_mm - here->lengths.right_mm);
-    const Eigen::Vector2d move = here->mark_jacobian.inverse() * missing;
+    const auto found = field->at(mark);
+    if (!found) return tl::unexpected(found.error());
+    const MapLengths& here = found->here;
+    const Eigen::Vector2d missing(wanted.left_mm - here.lengths.left_mm,
+                                  wanted.right_mm - here.lengths.right_mm);
+    const Eigen::Vector2d move = here.mark_jacobian.inverse() * missing;
     if (!move.allFinite()) return tl::unexpected(MapReason::not_converged);
     // A step may leave the domain temporarily, but not to where the chains cannot hold the sled.
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);

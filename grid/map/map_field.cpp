@@ -13,7 +13,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
 using model::MarkPoint;
 using model::Setting;
 using model::Side;
@@ -37,7 +36,8 @@ class SplineSurface final : public interp::Surface {
 class ModelField final : public MapField {
  public:
   explicit ModelField(const ModelSurface& surface)
-      : surface_(surface),
+      : MapField(surface.sheet),
+        surface_(surface),
         model_(surface.machine),
         factor_(surface.covariance_factor.transpose()),
         left_(surface.residual.basis, surface.residual.coefficients.left),
@@ -45,25 +45,14 @@ class ModelField final : public MapField {
     surface_.covariance_factor.resize(0, 0);
   }
 
-  [[nodiscard]] MarkPoint to_mark(BedPoint bed) const override {
-    return surface_.sheet.to_mark(bed);
-  }
-  [[nodiscard]] BedPoint to_bed(MarkPoint mark) const override {
-    return surface_.sheet.to_bed(mark);
-  }
-
  private:
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
-    const auto reading = model_.at(surface_.sheet.to_bed(mark));
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued(MarkPoint mark,
+                                                               Asked asked) const override {
+    const auto reading = model_.at(sheet().to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
-    return corrected(mark, *reading);
-  }
-
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
-      MarkPoint mark) const override {
-    const auto reading = model_.at(surface_.sheet.to_bed(mark));
-    if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
-    return WithSpread{corrected(mark, *reading), spread(mark, *reading)};
+    WithSpread found{corrected(mark, *reading), {}};
+    if (asked == Asked::spread) found.spread_mm = spread(mark, *reading);
+    return found;
   }
 
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
@@ -123,43 +112,36 @@ Eigen::Matrix2d node_covariance(const MapNoise& noise, const MapLengths& here) {
 class LatticeField final : public MapField {
  public:
   LatticeField(const ModelSurface& surface, const MapNoise& noise)
-      : sheet_(surface.sheet),
+      : MapField(surface.sheet),
         scale_(surface.residual.scale),
         model_(surface.machine),
         splines_(surface.lattice.value()),
         noise_(noise) {}
 
-  [[nodiscard]] MarkPoint to_mark(BedPoint bed) const override { return sheet_.to_mark(bed); }
-  [[nodiscard]] BedPoint to_bed(MarkPoint mark) const override { return sheet_.to_bed(mark); }
-
  private:
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
-    const auto reading = model_.at(sheet_.to_bed(mark));
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued(MarkPoint mark,
+                                                               Asked asked) const override {
+    const auto reading = model_.at(sheet().to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     const auto spline = splines_.at(mark);
     const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
-    MapLengths here;
+    WithSpread found;
+    MapLengths& here = found.here;
     here.lengths = {factor[0] * reading->lengths.left_mm + spline.left.value,
                     factor[1] * reading->lengths.right_mm + spline.right.value};
     here.mark_jacobian << spline.left.dx, spline.left.dy, spline.right.dx, spline.right.dy;
-    here.mark_jacobian += factor.asDiagonal() * reading->position_jacobian * sheet_.rotation();
-    return here;
-  }
-
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
-      MarkPoint mark) const override {
-    const auto here = continued(mark);
-    if (!here) return tl::unexpected(here.error());
-    const Eigen::Matrix2d node = node_covariance(noise_, *here);
-    return WithSpread{*here,
-                      splines_.spread(mark, noise_.factor_found * noise_.factor_found * node)};
+    here.mark_jacobian += factor.asDiagonal() * reading->position_jacobian * sheet().rotation();
+    if (asked == Asked::spread) {
+      found.spread_mm = splines_.spread(
+          mark, noise_.factor_found * noise_.factor_found * node_covariance(noise_, here));
+    }
+    return found;
   }
 
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
     return splines_.surfaces();
   }
 
-  model::SheetPlacement sheet_;
   model::PerSide<double> scale_;
   model::ReadingModel model_;
   LatticeSplines splines_;
@@ -183,29 +165,22 @@ class DirectField final : public MapField {
         interpolation_sigma_mm_(surface.interpolation_sigma_mm) {}
 
  private:
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
-    return lengths(mark);
-  }
-
   /// Each node has the readings' noise, with the place's error carried into the chains by the
   /// slope; between the nodes the interpolation's estimated error is added.
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
-      MarkPoint mark) const override {
-    const MapLengths here = lengths(mark);
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued(MarkPoint mark,
+                                                               Asked asked) const override {
+    const interp::PairGradient z = both_.at(mark.x_mm, mark.y_mm);
+    WithSpread found;
+    found.here.lengths = {z.value[0], z.value[1]};
+    found.here.mark_jacobian << z.dx[0], z.dy[0], z.dx[1], z.dy[1];
+    if (asked == Asked::lengths) return found;
     const Eigen::MatrixXd weights = left_.cardinal_weights(mark.x_mm, mark.y_mm);
     const Eigen::MatrixXd own = Eigen::MatrixXd::Constant(
         weights.rows(),
         weights.cols(),
         interpolation_sigma_mm_ * interpolation_sigma_mm_ / weights.squaredNorm());
-    return WithSpread{here, spread_of_nodes(weights, node_covariance(noise_, here), own)};
-  }
-
-  [[nodiscard]] MapLengths lengths(MarkPoint mark) const {
-    const interp::PairGradient z = both_.at(mark.x_mm, mark.y_mm);
-    MapLengths here;
-    here.lengths = {z.value[0], z.value[1]};
-    here.mark_jacobian << z.dx[0], z.dy[0], z.dx[1], z.dy[1];
-    return here;
+    found.spread_mm = spread_of_nodes(weights, node_covariance(noise_, found.here), own);
+    return found;
   }
 
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
@@ -264,22 +239,15 @@ std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
   return change;
 }
 
-tl::expected<MapLengths, MapFailure> MapField::at(MarkPoint mark) const {
-  auto here = continued(mark);
-  const auto by = here ? change(mark) : std::nullopt;
-  if (by) by->add_to(*here);
-  return here;
-}
-
-tl::expected<MapField::WithSpread, MapFailure> MapField::with_spread(MarkPoint mark) const {
-  auto answer = continued_with_spread(mark);
+tl::expected<MapField::WithSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) const {
+  auto answer = continued(mark, asked);
   if (!answer || !beyond_) return answer;
+  const auto by = change(mark);
+  if (by) by->add_to(answer->here);
+  if (asked == Asked::lengths) return answer;
   answer->spread_mm.conservativeResize(Eigen::NoChange, answer->spread_mm.cols() + 1);
   answer->spread_mm.rightCols<1>().setZero();
-  if (const auto by = change(mark)) {
-    by->add_to(answer->here);
-    answer->spread_mm.rightCols<1>() = by->lengths_mm;
-  }
+  if (by) answer->spread_mm.rightCols<1>() = by->lengths_mm;
   return answer;
 }
 

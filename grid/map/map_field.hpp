@@ -9,6 +9,7 @@
 
 #include "grid/map/compensation_map.hpp"
 #include "interp/measured_region.hpp"
+#include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid {
 
@@ -25,23 +26,19 @@ class MapField {
   virtual ~MapField() = default;
   [[nodiscard]] static std::shared_ptr<const MapField> make(const MapContents& contents);
 
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::MarkPoint mark) const;
-  /// If the map's continuation beyond the points differs from the surfaces' own, the difference is
-  /// a separate direction, one sigma.
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> with_spread(model::MarkPoint mark) const;
-  [[nodiscard]] virtual model::MarkPoint to_mark(model::BedPoint bed) const {
-    return model::identity_placement(bed);
-  }
-  [[nodiscard]] virtual model::BedPoint to_bed(model::MarkPoint mark) const {
-    return model::identity_placement(mark);
-  }
+  enum class Asked { lengths, spread };
+  /// The spread only if asked for. If the map's continuation beyond the points differs from the
+  /// surfaces' own, the difference is a separate direction, one sigma.
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> at(model::MarkPoint mark,
+                                                        Asked asked = Asked::lengths) const;
+  /// The marks' sheet on the bed.
+  [[nodiscard]] const model::SheetPlacement& sheet() const { return sheet_; }
 
  protected:
-  /// Lengths and spread with the surfaces' own continuation.
-  [[nodiscard]] virtual tl::expected<MapLengths, MapFailure> continued(
-      model::MarkPoint mark) const = 0;
-  [[nodiscard]] virtual tl::expected<WithSpread, MapFailure> continued_with_spread(
-      model::MarkPoint mark) const = 0;
+  explicit MapField(model::SheetPlacement sheet = {}) : sheet_(sheet) {}
+  /// With the surfaces' own continuation.
+  [[nodiscard]] virtual tl::expected<WithSpread, MapFailure> continued(model::MarkPoint mark,
+                                                                       Asked asked) const = 0;
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 
  private:
@@ -61,6 +58,7 @@ class MapField {
     interp::ConvexHull hull;
     interp::RegionPolicy policy;
   };
+  model::SheetPlacement sheet_;
   std::optional<Beyond> beyond_;  ///< none: the surfaces' own continuation
 };
 
