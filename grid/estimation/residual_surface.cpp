@@ -20,21 +20,4 @@ ResidualSurface::Corrected ResidualSurface::apply(model::MarkPoint mark,
   return result;
 }
 
-Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis,
-                            const FitColumns& columns,
-                            model::MarkPoint mark,
-                            model::ChainLengths lengths,
-                            const Eigen::MatrixXd& settings_jacobian) {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, columns.total());
-  rows.leftCols(columns.settings) = settings_jacobian;
-  rows(0, columns.scale(Side::left)) = lengths.left_mm;
-  rows(1, columns.scale(Side::right)) = lengths.right_mm;
-  const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
-  for (std::size_t k = 0; k < support.index.size(); ++k) {
-    rows(0, columns.spline(Side::left) + support.index[k]) = support.value[k];
-    rows(1, columns.spline(Side::right) + support.index[k]) = support.value[k];
-  }
-  return rows;
-}
-
 }  // namespace chaintrue::grid

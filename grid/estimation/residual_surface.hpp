@@ -52,12 +52,4 @@ struct ResidualSurface {
                                 const Eigen::Matrix2d& mark_jacobian) const;
 };
 
-/// The two rows of the design at a mark: d(corrected lengths)/d(unknowns). `settings_jacobian` is 2
-/// x settings.
-[[nodiscard]] Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis,
-                                          const FitColumns& columns,
-                                          model::MarkPoint mark,
-                                          model::ChainLengths lengths,
-                                          const Eigen::MatrixXd& settings_jacobian);
-
 }  // namespace chaintrue::grid

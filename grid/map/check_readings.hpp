@@ -15,7 +15,7 @@ namespace chaintrue::grid {
 
 /// For all files together, since they share the map's uncertainty. Repeated readings at a mark, or
 /// of a distance in one file, are replaced by their mean, which is as informative. Fails before any
-/// work if there are too many (check_parts.hpp).
+/// work if there are too many.
 [[nodiscard]] tl::expected<CheckReadings, CheckFailure> check_readings(
     const CompensationMap& map, const Measured& measured, const Progress& progress = {});
 

@@ -150,12 +150,16 @@ CompensationMap CompensationMap::with_outside(OutsideRule rule) const {
 
 tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
-  return field_->at(mark).map([](const MapField::WithSpread& found) { return found.here; });
+  return field_->at(mark).map([](const MapSpread& found) { return found.here; });
+}
+
+tl::expected<MapSpread, MapFailure> CompensationMap::with_spread(MarkPoint mark) const {
+  if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
+  return field_->at(mark, MapField::Asked::spread);
 }
 
 tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
-  if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
-  const auto found = field_->at(mark, MapField::Asked::spread);
+  const auto found = with_spread(mark);
   if (!found) return tl::unexpected(found.error());
   MapAnswer answer;
   answer.lengths = found->here.lengths;
@@ -174,8 +178,7 @@ double CompensationMap::spread_factor(MapStatus status) const {
 }
 
 Eigen::Matrix2Xd CompensationMap::tool_spread(MarkPoint mark) const {
-  if (!answers_at(mark)) return Eigen::Matrix2Xd(2, 0);
-  const auto found = field_->at(mark, MapField::Asked::spread);
+  const auto found = with_spread(mark);
   if (!found) return Eigen::Matrix2Xd(2, 0);
   // A length that is truly longer leaves the tool short of the mark.
   return -spread_factor(area_.status(mark)) * found->here.mark_jacobian.inverse() * found->spread_mm;

@@ -203,6 +203,13 @@ struct MapLengths {
   Eigen::Matrix2d mark_jacobian;
 };
 
+/// A row for each length, and a column for one sigma of each uncertain direction; the directions are
+/// the same at every mark within the points.
+struct MapSpread {
+  MapLengths here;
+  Eigen::Matrix2Xd spread_mm;
+};
+
 class MapField;
 
 /// Immutable, thread safe.
@@ -222,6 +229,8 @@ class CompensationMap {
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
   [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const;
+  /// Without what a cause in the map adds to the sigmas beyond the measured part.
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> with_spread(model::MarkPoint mark) const;
   /// Lengths and their derivative alone, some ten times faster: what a path needs between its
   /// corners.
   using Lengths = MapLengths;

@@ -46,11 +46,11 @@ class ModelField final : public MapField {
   }
 
  private:
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued(MarkPoint mark,
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
                                                                Asked asked) const override {
     const auto reading = model_.at(sheet().to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
-    WithSpread found{corrected(mark, *reading), {}};
+    MapSpread found{corrected(mark, *reading), {}};
     if (asked == Asked::spread) found.spread_mm = spread(mark, *reading);
     return found;
   }
@@ -119,13 +119,13 @@ class LatticeField final : public MapField {
         noise_(noise) {}
 
  private:
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued(MarkPoint mark,
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
                                                                Asked asked) const override {
     const auto reading = model_.at(sheet().to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     const auto spline = splines_.at(mark);
     const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
-    WithSpread found;
+    MapSpread found;
     MapLengths& here = found.here;
     here.lengths = {factor[0] * reading->lengths.left_mm + spline.left.value,
                     factor[1] * reading->lengths.right_mm + spline.right.value};
@@ -167,10 +167,10 @@ class DirectField final : public MapField {
  private:
   /// Each node has the readings' noise, with the place's error carried into the chains by the
   /// slope; between the nodes the interpolation's estimated error is added.
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued(MarkPoint mark,
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
                                                                Asked asked) const override {
     const interp::PairGradient z = both_.at(mark.x_mm, mark.y_mm);
-    WithSpread found;
+    MapSpread found;
     found.here.lengths = {z.value[0], z.value[1]};
     found.here.mark_jacobian << z.dx[0], z.dy[0], z.dx[1], z.dy[1];
     if (asked == Asked::lengths) return found;
@@ -239,7 +239,7 @@ std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
   return change;
 }
 
-tl::expected<MapField::WithSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) const {
+tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) const {
   auto answer = continued(mark, asked);
   if (!answer || !beyond_) return answer;
   const auto by = change(mark);

@@ -16,20 +16,13 @@ namespace chaintrue::grid {
 /// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 class MapField {
  public:
-  /// A row for each length, and a column for one sigma of each uncertain direction; the directions
-  /// are the same at every mark within the points.
-  struct WithSpread {
-    MapLengths here;
-    Eigen::Matrix2Xd spread_mm;
-  };
-
   virtual ~MapField() = default;
   [[nodiscard]] static std::shared_ptr<const MapField> make(const MapContents& contents);
 
   enum class Asked { lengths, spread };
   /// The spread only if asked for. If the map's continuation beyond the points differs from the
   /// surfaces' own, the difference is a separate direction, one sigma.
-  [[nodiscard]] tl::expected<WithSpread, MapFailure> at(model::MarkPoint mark,
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> at(model::MarkPoint mark,
                                                         Asked asked = Asked::lengths) const;
   /// The marks' sheet on the bed.
   [[nodiscard]] const model::SheetPlacement& sheet() const { return sheet_; }
@@ -37,7 +30,7 @@ class MapField {
  protected:
   explicit MapField(model::SheetPlacement sheet = {}) : sheet_(sheet) {}
   /// With the surfaces' own continuation.
-  [[nodiscard]] virtual tl::expected<WithSpread, MapFailure> continued(model::MarkPoint mark,
+  [[nodiscard]] virtual tl::expected<MapSpread, MapFailure> continued(model::MarkPoint mark,
                                                                        Asked asked) const = 0;
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 
