@@ -71,47 +71,20 @@ TrendRows distance_rows(const MeasuredHoles& set) {
   return rows;
 }
 
-class HoleTransformations {
- public:
-  explicit HoleTransformations(const MeasuredHoles& set) : set_(set) {}
+using HoleTransformations = Transformations<MeasuredHoles>;
 
-  /// For the holes, which all distances share.
-  Transformation& of_holes(ProblemKind kind,
-                           std::string sentence,
-                           const std::function<void(MeasuredHoles&)>& mend) {
-    Transformation own{kind, std::move(sentence), {}};
-    own.of = Transformation::Of::all;
-    own.mended = [&set = set_, mend](const RowSet&) {
-      MeasuredHoles meant = set;
-      mend(meant);
-      return distance_rows(meant);
-    };
-    return add(std::move(own));
-  }
-  Transformation& of_distances(ProblemKind kind,
-                               std::string sentence,
-                               const std::function<void(HoleDistance&, std::size_t row)>& mend) {
-    Transformation own{kind, std::move(sentence), {}};
-    own.mended = [&set = set_, mend](const RowSet& rows) {
-      MeasuredHoles meant = set;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i]) mend(meant.distances[i], i);
-      }
-      return distance_rows(meant);
-    };
-    return add(std::move(own));
-  }
-  [[nodiscard]] const std::vector<Transformation>& list() const { return list_; }
-
- private:
-  Transformation& add(Transformation own) {
-    list_.push_back(std::move(own));
-    return list_.back();
-  }
-
-  const MeasuredHoles& set_;
-  std::vector<Transformation> list_;
-};
+/// For the holes, which all distances share.
+Transformation& add_of_holes(HoleTransformations& list,
+                             ProblemKind kind,
+                             std::string sentence,
+                             const std::function<void(MeasuredHoles&)>& mend) {
+  Transformation& own =
+      list.add(kind, std::move(sentence), [mend](MeasuredHoles& meant, std::size_t row) {
+        if (row == 0) mend(meant);
+      });
+  own.of = Transformation::Of::all;
+  return own;
+}
 
 void scale_holes(MeasuredHoles& set, double factor) {
   for (Hole& hole : set.holes) {
@@ -122,15 +95,16 @@ void scale_holes(MeasuredHoles& set, double factor) {
 
 void add_units(HoleTransformations& list, Written written) {
   const auto unit = [&](const char* word, double factor) {
-    list.of_distances(
+    list.add(
         ProblemKind::other_unit,
         fmt::format("the distances look like {}, the holes' x_mm and y_mm like mm: multiply the "
                     "distances by {:g}{}",
                     word,
                     factor,
                     factor == kMmPerInch ? or_say_inches(written) : ""),
-        [=](HoleDistance& distance, std::size_t) { distance.distance_mm *= factor; });
-    list.of_holes(
+        [=](MeasuredHoles& meant, std::size_t row) { meant.distances[row].distance_mm *= factor; });
+    add_of_holes(
+        list,
         ProblemKind::other_unit,
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
@@ -145,7 +119,7 @@ void add_units(HoleTransformations& list, Written written) {
 
 void add_axes(HoleTransformations& list) {
   const auto holes = [&](const char* words, model::BedPoint (*meant)(model::BedPoint)) {
-    list.of_holes(ProblemKind::axes, words, [meant](MeasuredHoles& set) {
+    add_of_holes(list, ProblemKind::axes, words, [meant](MeasuredHoles& set) {
       for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
     });
   };
@@ -187,25 +161,28 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Hole
     const auto number = [&](const char* axis, double model::BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
-        list.of_holes(ProblemKind::doubtful_row,
-                      fmt::format("the {1} at which hole {0} was cut is {2}: {3}",
-                                  name,
-                                  axis,
-                                  digits_of(written),
-                                  slip.question),
-                      [=](MeasuredHoles& meant) { meant.holes[h].commanded.*of = slip.value; })
+        add_of_holes(list,
+                     ProblemKind::doubtful_row,
+                     fmt::format("the {1} at which hole {0} was cut is {2}: {3}",
+                                 name,
+                                 axis,
+                                 digits_of(written),
+                                 slip.question),
+                     [=](MeasuredHoles& meant) { meant.holes[h].commanded.*of = slip.value; })
             .penalty = slip.penalty;
       }
     };
     number("x_mm", &model::BedPoint::x_mm);
     number("y_mm", &model::BedPoint::y_mm);
-    list.of_holes(ProblemKind::doubtful_row,
+    add_of_holes(list,
+                 ProblemKind::doubtful_row,
                  fmt::format("are x_mm and y_mm of hole {} swapped?", name),
                  [=](MeasuredHoles& meant) {
                    std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
                  });
     for (std::size_t other = 0; other < h; ++other) {
-      list.of_holes(ProblemKind::other_order,
+      add_of_holes(list,
+                   ProblemKind::other_order,
                    fmt::format("holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
                      std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
@@ -218,17 +195,18 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Hole
 void add_slips(const MeasuredHoles& set, HoleTransformations& list) {
   const auto count = static_cast<std::ptrdiff_t>(set.distances.size());
   for (const std::ptrdiff_t by : {-1, 1}) {
-    list.of_distances(ProblemKind::row_slip,
-                      fmt::format("the distances fit the two holes of the line {}: is one left out or "
-                                  "written twice?",
-                                  by < 0 ? "before" : "after"),
-                      [&set, by, count](HoleDistance& to, std::size_t row) {
-                        const std::ptrdiff_t of = static_cast<std::ptrdiff_t>(row) + by;
-                        if (of < 0 || of >= count) return;  // one row stays off
-                        const double read_mm = to.distance_mm;
-                        to = set.distances[static_cast<std::size_t>(of)];
-                        to.distance_mm = read_mm;
-                      })
+    list.add(ProblemKind::row_slip,
+             fmt::format("the distances fit the two holes of the line {}: is one left out or "
+                         "written twice?",
+                         by < 0 ? "before" : "after"),
+             [&set, by, count](MeasuredHoles& meant, std::size_t row) {
+               const std::ptrdiff_t of = static_cast<std::ptrdiff_t>(row) + by;
+               if (of < 0 || of >= count) return;  // one row stays off
+               HoleDistance& to = meant.distances[row];
+               const double read_mm = to.distance_mm;
+               to = set.distances[static_cast<std::size_t>(of)];
+               to.distance_mm = read_mm;
+             })
         .of = Transformation::Of::tail;
   }
 }
@@ -320,7 +298,7 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   if (set.distances.empty()) return {};
   const TrendRows written_rows = distance_rows(set);
   const Eigen::VectorXd sigma_mm = distance_sigmas(set);
-  const RobustTrend trend = robust_trend(written_rows.basis, sigma_mm, written_rows.off_mm);
+  const RobustTrend trend = robust_trend(written_rows, sigma_mm);
   const DistanceRows rows{set, trend};
   std::vector<bool> is_gross;
   for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
@@ -328,13 +306,13 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   const bool is_odd = trend.prior_chi_square > kOddDistances || median_mm > kSoundMm ||
                       std::find(is_gross.begin(), is_gross.end(), true) != is_gross.end();
   if (!is_odd) return {};
-  HoleTransformations list(set);
+  HoleTransformations list(set, distance_rows);
   add_units(list, written);
   add_axes(list);
   add_holes(set, is_gross, list);
   add_slips(set, list);
   std::vector<Candidate> candidates =
-      searched(sigma_mm, written_rows, list.list(), [](std::size_t row) {
+      searched(sigma_mm, written_rows, list.take(), [](std::size_t row) {
         return fmt::format("{}", row + 1);
       });
   const std::size_t tried = candidates.size() + 2 * set.distances.size();

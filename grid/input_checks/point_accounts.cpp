@@ -53,11 +53,10 @@ bool PointAccounts::can_hold(model::MarkPoint mark) const {
   return kinematics_->inverse(model::identity_placement(mark)).has_value();
 }
 
-std::vector<Place> PointAccounts::places_of(const std::vector<MeasuredPoint>& points) const {
-  std::vector<Place> places;
-  places.reserve(points.size());
-  for (const MeasuredPoint& point : points) places.push_back(place_of(point));
-  return places;
+PlacedPoints PointAccounts::placed(const std::vector<MeasuredPoint>& points) const {
+  PlacedPoints placed{points, {}};
+  for (const MeasuredPoint& point : points) placed.places.push_back(place_of(point));
+  return placed;
 }
 
 Eigen::RowVectorXd PointAccounts::basis_at(model::BedPoint place) const {
@@ -69,8 +68,8 @@ Eigen::RowVectorXd PointAccounts::basis_at(model::BedPoint place) const {
   return basis;
 }
 
-TrendRows PointAccounts::rows(const std::vector<MeasuredPoint>& points,
-                              const std::vector<Place>& places) const {
+TrendRows PointAccounts::rows(const PlacedPoints& placed) const {
+  const auto& [points, places] = placed;
   const auto n = static_cast<Eigen::Index>(points.size());
   TrendRows rows{Eigen::MatrixXd::Zero(n, kPointBasis),
                  Eigen::MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
@@ -82,12 +81,6 @@ TrendRows PointAccounts::rows(const std::vector<MeasuredPoint>& points,
     rows.off_mm(i, 1) = points[k].mark.y_mm - places[k]->y_mm;
   }
   return rows;
-}
-
-RobustTrend PointAccounts::account(const std::vector<MeasuredPoint>& points,
-                                   const std::vector<Place>& places) const {
-  const TrendRows own = rows(points, places);
-  return robust_trend(own.basis, prior_sigma_mm_, own.off_mm);
 }
 
 double PointAccounts::turn_rad(const RobustTrend& trend) const {

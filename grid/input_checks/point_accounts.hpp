@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid/input_checks/transformation_search.hpp"
+#include "grid/input_checks/robust_trend.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/kinematics.hpp"
@@ -16,6 +16,12 @@
 namespace chaintrue::grid::input_checks {
 
 using Place = std::optional<model::BedPoint>;
+
+/// Points with the places where the stated machine puts their readings.
+struct PlacedPoints {
+  std::vector<MeasuredPoint> points;
+  std::vector<Place> places;
+};
 
 /// \pre the grid has a possible machine.
 class PointAccounts {
@@ -26,15 +32,11 @@ class PointAccounts {
   [[nodiscard]] Place place_of(const MeasuredPoint& point) const;
   /// True if the stated machine can hold the sled there.
   [[nodiscard]] bool can_hold(model::MarkPoint mark) const;
-  [[nodiscard]] std::vector<Place> places_of(const std::vector<MeasuredPoint>& points) const;
+  [[nodiscard]] PlacedPoints placed(const std::vector<MeasuredPoint>& points) const;
 
-  /// Marks relative to places, for a second-degree trend. A missing place is a missing row. \pre as
-  /// many places as points.
-  [[nodiscard]] TrendRows rows(const std::vector<MeasuredPoint>& points,
-                               const std::vector<Place>& places) const;
+  /// Marks relative to places, for a second-degree trend. A missing place is a missing row.
+  [[nodiscard]] TrendRows rows(const PlacedPoints& placed) const;
   [[nodiscard]] const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
-  [[nodiscard]] RobustTrend account(const std::vector<MeasuredPoint>& points,
-                                    const std::vector<Place>& places) const;
   /// The trend's rotation of the marks to the left about the bed's middle.
   [[nodiscard]] double turn_rad(const RobustTrend& trend) const;
   /// The largest of its relative stretches along x and y and its skew.

@@ -17,9 +17,6 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-using Points = std::vector<MeasuredPoint>;
-using Places = std::vector<Place>;
-
 /// Chi-square of the trend's twelve coefficients: the 98th percentile.
 constexpr double kOddPoints = 25.0;
 /// Half of the points are this far off, without an explanation: marks and readings are from two
@@ -57,18 +54,18 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
 
 std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
                                         const MeasuredGrid& grid,
-                                        const Places& places,
+                                        const PlacedPoints& all,
                                         const RobustTrend& trend,
                                         Written written) {
   const std::vector<std::size_t> looked = looked_at(grid.points.size());
   PlacedPoints few;
   for (const std::size_t row : looked) {
-    few.points.push_back(grid.points[row]);
-    few.places.push_back(places[row]);
+    few.points.push_back(all.points[row]);
+    few.places.push_back(all.places[row]);
   }
   const Eigen::VectorXd& sigma_mm = accounts.prior_sigma_mm();
-  const TrendRows few_rows = accounts.rows(few.points, few.places);
-  const Account plain = account_of(robust_trend(few_rows.basis, sigma_mm, few_rows.off_mm));
+  const TrendRows few_rows = accounts.rows(few);
+  const Account plain = account_of(robust_trend(few_rows, sigma_mm));
   std::vector<Candidate> candidates =
       searched(sigma_mm,
                few_rows,
@@ -79,9 +76,8 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
   }
   // These need neighbours in the file and, with all rows, a separate account of the uncorrected
   // file.
-  const PlacedPoints all{grid.points, places};
   std::vector<Candidate> of_all = searched(sigma_mm,
-                                           accounts.rows(all.points, all.places),
+                                           accounts.rows(all),
                                            slip_transformations(accounts, all),
                                            [&](std::size_t row) { return number_of(grid, row); });
   const double scale = plain.log_likelihood - trend.log_likelihood;
@@ -142,9 +138,8 @@ std::string capitalised(std::string text) {
 }
 
 /// Distance between the marks of this row and of the row with the nearest reading.
-std::optional<double> apart_from_its_repeat(const Points& points,
-                                            const Places& places,
-                                            std::size_t row) {
+std::optional<double> apart_from_its_repeat(const PlacedPoints& placed, std::size_t row) {
+  const auto& [points, places] = placed;
   std::optional<double> apart;
   for (std::size_t j = 0; j < points.size(); ++j) {
     if (j == row || !places[j]) continue;
@@ -160,11 +155,11 @@ std::optional<double> apart_from_its_repeat(const Points& points,
 struct PointRows {
   const PointAccounts& accounts;
   const MeasuredGrid& grid;
-  const Places& places;
+  const PlacedPoints& placed;
   const RobustTrend& trend;
 
   [[nodiscard]] double off_of(const RowError& slip, std::size_t row) const {
-    const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : places[row];
+    const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : placed.places[row];
     if (!place) return std::numeric_limits<double>::infinity();
     return accounts.off(trend, slip.meant.mark, *place).norm();
   }
@@ -196,8 +191,8 @@ struct PointRows {
   [[nodiscard]] std::optional<std::size_t> exchanged_with(
       std::size_t row, const std::vector<std::size_t>& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {
-      return places[reading] &&
-             accounts.off(trend, grid.points[mark].mark, *places[reading]).norm() <
+      return placed.places[reading] &&
+             accounts.off(trend, grid.points[mark].mark, *placed.places[reading]).norm() <
                  std::max(kSoundMm, 4.0 * trend.scale_mm);
     };
     for (const std::size_t other : gross) {
@@ -219,7 +214,7 @@ struct PointRows {
                   "Mark {} is where the machine cannot hold the sled: {}", number, slip.question),
               true};
     }
-    const auto apart = places[row] ? apart_from_its_repeat(grid.points, places, row) : std::nullopt;
+    const auto apart = placed.places[row] ? apart_from_its_repeat(placed, row) : std::nullopt;
     const std::string question = slip.number.empty()
                                      ? capitalised(slip.question)
                                      : fmt::format("{}: {}", slip.number, slip.question);
@@ -272,13 +267,13 @@ struct PointRows {
 Findings check_points(const MeasuredGrid& grid, Written written) {
   if (!grid.machine || !model::problems_of(*grid.machine).empty() || grid.points.empty()) return {};
   const PointAccounts accounts(grid);
-  const Places places = accounts.places_of(grid.points);
-  const RobustTrend trend = accounts.account(grid.points, places);
-  const PointRows rows{accounts, grid, places, trend};
+  const PlacedPoints placed = accounts.placed(grid.points);
+  const RobustTrend trend = robust_trend(accounts.rows(placed), accounts.prior_sigma_mm());
+  const PointRows rows{accounts, grid, placed, trend};
   bool is_odd = trend.prior_chi_square > kOddPoints || trend.median_residual_mm() > kSoundMm;
   for (std::size_t row = 0; row < grid.points.size(); ++row) is_odd = is_odd || rows.is_gross(row);
   Findings findings;
-  if (is_odd) findings.whole = of_the_file(accounts, grid, places, trend, written);
+  if (is_odd) findings.whole = of_the_file(accounts, grid, placed, trend, written);
   if (!findings.whole) findings.whole = turned_sheet(accounts, grid, trend);
   if (!is_odd) return findings;
   if (!findings.whole || findings.whole->is_doubtful) findings.rows = rows.findings();

@@ -39,9 +39,9 @@ double log_density_of(double residual_mm, double scale_mm, Eigen::Index componen
   return -0.5 * as_double(components + 1) * std::log1p(std::pow(residual_mm / scale_mm, 2));
 }
 
-RobustTrend robust_trend(const Eigen::MatrixXd& basis,
-                         const Eigen::VectorXd& prior_sigma_mm,
-                         const Eigen::MatrixXd& readings_mm) {
+RobustTrend robust_trend(const TrendRows& rows, const Eigen::VectorXd& prior_sigma_mm) {
+  const Eigen::MatrixXd& basis = rows.basis;
+  const Eigen::MatrixXd& readings_mm = rows.off_mm;
   const Eigen::Index n = readings_mm.rows();
   const Eigen::Index components = readings_mm.cols();
   const auto is_there = [&](Eigen::Index i) {

@@ -13,6 +13,12 @@
 
 namespace chaintrue::grid::input_checks {
 
+/// B and r of (1).
+struct TrendRows {
+  Eigen::MatrixXd basis;
+  Eigen::MatrixXd off_mm;
+};
+
 struct RobustTrend {
   Eigen::MatrixXd coefficients;   ///< (basis, component)
   Eigen::VectorXd residual_mm;         ///< |r_i - B_i beta|; infinity for a missing row
@@ -25,9 +31,8 @@ struct RobustTrend {
 
 /// A row that is not finite is missing and counts as uniform over the bed. \pre as many rows of
 /// basis as of readings, all sigmas positive.
-[[nodiscard]] RobustTrend robust_trend(const Eigen::MatrixXd& basis,
-                                       const Eigen::VectorXd& prior_sigma_mm,
-                                       const Eigen::MatrixXd& readings_mm);
+[[nodiscard]] RobustTrend robust_trend(const TrendRows& rows,
+                                       const Eigen::VectorXd& prior_sigma_mm);
 
 /// Log-likelihood of a reading that is off by this, relative to an exact one.
 [[nodiscard]] double log_density_of(double residual_mm, double scale_mm, Eigen::Index components);

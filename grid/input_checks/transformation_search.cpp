@@ -72,7 +72,7 @@ class Search {
          const std::function<std::string(std::size_t)>& name_of_row)
       : sigma_mm_(sigma_mm),
         plain_(plain),
-        plain_trend_(robust_trend(plain.basis, sigma_mm, plain.off_mm)),
+        plain_trend_(robust_trend(plain, sigma_mm)),
         name_of_row_(name_of_row) {}
 
   void take(const Transformation& own, std::vector<Candidate>& candidates) const {
@@ -92,7 +92,7 @@ class Search {
  private:
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(plain_.off_mm.rows()); }
   [[nodiscard]] RobustTrend trend_of(const TrendRows& rows) const {
-    return robust_trend(rows.basis, sigma_mm_, rows.off_mm);
+    return robust_trend(rows, sigma_mm_);
   }
 
   void add(const Transformation& own,

@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grid/input_checks/findings.hpp"
@@ -28,11 +29,6 @@ namespace chaintrue::grid::input_checks {
 
 /// The affected rows of a file.
 using RowSet = std::vector<bool>;
-
-struct TrendRows {
-  Eigen::MatrixXd basis;
-  Eigen::MatrixXd off_mm;
-};
 
 struct Transformation {
   ProblemKind kind = ProblemKind::axes;
@@ -46,6 +42,37 @@ struct Transformation {
   bool is_doubtful = false;
   /// Logarithm of the number of possible values of a parameter estimated from the file.
   double penalty = 0.0;
+};
+
+/// Transformations that change what a file holds of single rows.
+template <class Data>
+class Transformations {
+ public:
+  using RowsOf = std::function<TrendRows(const Data&)>;
+
+  /// `written` must outlive the transformations.
+  Transformations(const Data& written, RowsOf rows_of)
+      : written_(written), rows_of_(std::move(rows_of)) {}
+
+  Transformation& add(ProblemKind kind,
+                      std::string sentence,
+                      const std::function<void(Data&, std::size_t row)>& mend) {
+    const auto mended = [&written = written_, rows_of = rows_of_, mend](const RowSet& rows) {
+      Data meant = written;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i]) mend(meant, i);
+      }
+      return rows_of(meant);
+    };
+    list_.push_back({kind, std::move(sentence), mended});
+    return list_.back();
+  }
+  [[nodiscard]] std::vector<Transformation> take() { return std::move(list_); }
+
+ private:
+  const Data& written_;
+  RowsOf rows_of_;
+  std::vector<Transformation> list_;
 };
 
 [[nodiscard]] Account account_of(const RobustTrend& trend);

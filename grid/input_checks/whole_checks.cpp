@@ -30,35 +30,19 @@ void scale_reading(MeasuredPoint& point, double factor) {
     point.commanded = BedPoint{factor * point.commanded->x_mm, factor * point.commanded->y_mm};
 }
 
-/// The list, and its rows after a change of marks or readings.
-class List {
+/// The list, by changes of marks, of readings or of their places.
+class List : public Transformations<PlacedPoints> {
  public:
   List(const PointAccounts& accounts, const PlacedPoints& written)
-      : accounts_(accounts), written_(written) {}
+      : Transformations(written, [&](const PlacedPoints& meant) { return accounts.rows(meant); }),
+        accounts_(accounts) {}
 
-  using Mend = std::function<void(MeasuredPoint&, BedPoint place)>;
-
-  Transformation& add(ProblemKind kind, std::string sentence, bool mends_readings, const Mend& mend) {
-    Transformation own{kind, std::move(sentence), {}};
-    own.mended = [&accounts = accounts_, &written = written_, mends_readings, mend](
-                     const RowSet& rows) {
-      PlacedPoints meant = written;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (!rows[i]) continue;
-        MeasuredPoint& point = meant.points[i];
-        mend(point, meant.places[i].value_or(BedPoint{point.mark.x_mm, point.mark.y_mm}));
-        if (mends_readings) meant.places[i] = accounts.place_of(point);
-      }
-      return accounts.rows(meant.points, meant.places);
-    };
-    list_.push_back(std::move(own));
-    return list_.back();
-  }
   Transformation& mark(ProblemKind kind,
                        std::string sentence,
                        const std::function<MarkPoint(MarkPoint, BedPoint)>& meant) {
-    return add(kind, std::move(sentence), false, [meant](MeasuredPoint& point, BedPoint place) {
-      point.mark = meant(point.mark, place);
+    return add(kind, std::move(sentence), [meant](PlacedPoints& all, std::size_t row) {
+      MarkPoint& mark = all.points[row].mark;
+      mark = meant(mark, all.places[row].value_or(BedPoint{mark.x_mm, mark.y_mm}));
     });
   }
   Transformation& shift(double x_mm, double y_mm, std::string sentence) {
@@ -69,16 +53,25 @@ class List {
   Transformation& reading(ProblemKind kind,
                           std::string sentence,
                           const std::function<void(MeasuredPoint&)>& meant) {
-    return add(kind, std::move(sentence), true, [meant](MeasuredPoint& point, BedPoint) {
-      meant(point);
-    });
+    return add(kind,
+               std::move(sentence),
+               [&accounts = accounts_, meant](PlacedPoints& all, std::size_t row) {
+                 meant(all.points[row]);
+                 all.places[row] = accounts.place_of(all.points[row]);
+               });
   }
-  [[nodiscard]] std::vector<Transformation> take() { return std::move(list_); }
+  /// Each reading with the mark of another line.
+  Transformation& order(ProblemKind kind, std::string sentence, const std::vector<Place>& others) {
+    Transformation& own =
+        add(kind, std::move(sentence), [others](PlacedPoints& all, std::size_t row) {
+          all.places[row] = others[row];
+        });
+    own.of = Transformation::Of::all;
+    return own;
+  }
 
  private:
   const PointAccounts& accounts_;
-  const PlacedPoints& written_;
-  std::vector<Transformation> list_;
 };
 
 void add_axes(List& list) {
@@ -303,24 +296,6 @@ void add_lengths(List& list) {
   }
 }
 
-/// Each reading with the mark of another line.
-Transformation places_of_others(const PointAccounts& accounts,
-                                const PlacedPoints& written,
-                                ProblemKind kind,
-                                std::string sentence,
-                                std::vector<Place> others) {
-  Transformation own{kind, std::move(sentence), {}};
-  own.of = Transformation::Of::all;
-  own.mended = [&accounts, &written, others = std::move(others)](const RowSet& rows) {
-    std::vector<Place> places = written.places;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i]) places[i] = others[i];
-    }
-    return accounts.rows(written.points, places);
-  };
-  return own;
-}
-
 /// Assigns every mark to its nearest place, if this uses each place once.
 std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   std::vector<Place> nearest;
@@ -365,50 +340,42 @@ std::vector<Transformation> point_transformations(const PointAccounts& accounts,
   add_units(list, reads_lengths, as);
   add_shifts(list, reads_lengths);
   add_origins(list, *grid.machine);
-  std::vector<Transformation> result = list.take();
-  if (auto nearest = places_nearest(written)) {
-    result.push_back(places_of_others(
-        accounts,
-        written,
-        ProblemKind::other_order,
-        fmt::format("the {} belong to the marks of other lines: are the two lists sorted differently?",
-                    readings_of(written)),
-        std::move(*nearest)));
-    result.back().penalty = std::lgamma(static_cast<double>(written.points.size()) + 1.0);  // orders
+  if (const auto nearest = places_nearest(written)) {
+    list.order(ProblemKind::other_order,
+               fmt::format(
+                   "the {} belong to the marks of other lines: are the two lists sorted differently?",
+                   readings_of(written)),
+               *nearest)
+        .penalty = std::lgamma(static_cast<double>(written.points.size()) + 1.0);  // orders
   }
-  return result;
+  return list.take();
 }
 
 std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
                                                  const PlacedPoints& written) {
   const auto n = static_cast<std::ptrdiff_t>(written.places.size());
-  std::vector<Transformation> result;
+  List list(accounts, written);
   for (const std::ptrdiff_t by : {-1, 1}) {
     std::vector<Place> slipped;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
       const bool is_there = i + by >= 0 && i + by < n;
       slipped.push_back(is_there ? written.places[static_cast<std::size_t>(i + by)] : std::nullopt);
     }
-    result.push_back(places_of_others(
-        accounts,
-        written,
+    list.order(
         ProblemKind::row_slip,
         fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
                     written.points.front().lengths ? "lengths" : "command",
                     by < 0 ? "before" : "after",
                     by < 0 ? "written twice, or missing from the other columns"
                            : "missing, or written twice in the other columns"),
-        std::move(slipped)));
-    result.back().of = Transformation::Of::tail;
+        slipped).of = Transformation::Of::tail;
   }
-  result.push_back(places_of_others(
-      accounts,
-      written,
+  list.order(
       ProblemKind::other_order,
       fmt::format("one of the two lists, marks and {}, seems to be in reverse order",
                   readings_of(written)),
-      {written.places.rbegin(), written.places.rend()}));
-  return result;
+      {written.places.rbegin(), written.places.rend()});
+  return list.take();
 }
 
 }  // namespace chaintrue::grid::input_checks

@@ -11,12 +11,6 @@
 
 namespace chaintrue::grid::input_checks {
 
-/// Points with the places where the stated machine puts their readings.
-struct PlacedPoints {
-  std::vector<MeasuredPoint> points;
-  std::vector<Place> places;
-};
-
 /// The errors possible for such points on `grid`'s machine. All three must outlive the result.
 [[nodiscard]] std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                                 const MeasuredGrid& grid,

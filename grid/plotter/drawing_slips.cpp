@@ -14,7 +14,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using input_checks::RowSet;
 using input_checks::Transformation;
 using input_checks::TrendRows;
 using observation::DrawnMeasure;
@@ -45,18 +44,11 @@ std::vector<Transformation> drawing_transformations(
     const TestDrawing& drawing,
     const Eigen::VectorXd& as_set,
     const std::function<TrendRows(const TestDrawing&)>& rows) {
-  std::vector<Transformation> list;
+  input_checks::Transformations<TestDrawing> list(drawing, rows);
   const auto scale = [&](ProblemKind kind, std::string sentence, auto takes, double factor) -> Transformation& {
-    Transformation own{kind, std::move(sentence), {}};
-    own.mended = [&drawing, &rows, takes, factor](const RowSet& set) {
-      TestDrawing meant = drawing;
-      for (std::size_t i = 0; i < set.size(); ++i) {
-        if (set[i] && takes(meant.measures[i])) meant.measures[i].value_mm *= factor;
-      }
-      return rows(meant);
-    };
-    list.push_back(std::move(own));
-    return list.back();
+    return list.add(kind, std::move(sentence), [takes, factor](TestDrawing& meant, std::size_t row) {
+      if (takes(meant.measures[row])) meant.measures[row].value_mm *= factor;
+    });
   };
   const auto all = [](const DrawnMeasure&) { return true; };
   const auto lengths = [](const DrawnMeasure& m) { return m.kind == Kind::length; };
@@ -87,7 +79,7 @@ std::vector<Transformation> drawing_transformations(
     page.of = Transformation::Of::all;
     page.penalty = kOfAFactor;
   }
-  return list;
+  return list.take();
 }
 
 DrawingReason reason_of(ProblemKind kind) {
@@ -153,7 +145,7 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
   };
   const TrendRows written = rows(drawing);
   const auto plain =
-      input_checks::account_of(input_checks::robust_trend(written.basis, sigma, written.off_mm));
+      input_checks::account_of(input_checks::robust_trend(written, sigma));
   std::vector<input_checks::Candidate> candidates =
       input_checks::searched(sigma,
                              written,
