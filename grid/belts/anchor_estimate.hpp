@@ -15,12 +15,23 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/observation/belt_lengths.hpp"
 
 namespace chaintrue::grid::belts {
+
+/// Where the four spans of a point come nearest to one another, from where those of the lower
+/// anchors, or of the upper, cross.
+[[nodiscard]] model::FramePoint nearest_place(const model::BeltMachine& machine,
+                                              const BeltPoint& point,
+                                              const model::PerBelt<bool>& counting);
+
+/// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
+/// the lengths.
+[[nodiscard]] std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
 
 /// Readings that count, and the distances; units are places of which three or four readings count.
 /// `about` has a position of each point to linearise about, or is empty. \throws

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "grid/belts/anchor_estimate.hpp"
-#include "grid/belts/first_frames.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
 #include "grid/input_checks/findings.hpp"

@@ -3,17 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <vector>
 
-#include "grid/diagnosis/acting_causes.hpp"
-#include "grid/diagnosis/causes_held_out.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/order_search.hpp"
+#include "grid/diagnosis/regressor_places.hpp"
 #include "grid/diagnosis/regressors.hpp"
-#include "grid/map/larger_error.hpp"
+#include "grid/estimation/spatial_blocks.hpp"
+#include "grid/map/largest_error.hpp"
 #include "grid/parallel.hpp"
 #include "grid/raster.hpp"
 
@@ -21,6 +26,159 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 using model::effects::Station;
+
+using model::effects::EffectParameter;
+using model::effects::PlaceVariable;
+
+/// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
+struct HeldOutSquare {
+  double plain_mm2 = 0.0;
+  double with_causes_mm2 = 0.0;
+  std::size_t block = 0;
+};
+
+double square_at_tool(const FittedPoint& point) {
+  return (point.mark_jacobian.inverse() * point.blocked_residual_mm).squaredNorm();
+}
+
+/// Keys of points in both fits: the file's number and their own.
+using PointKey = std::pair<std::size_t, std::size_t>;
+
+/// Points that the map with causes keeps, and distances where there are no points. Points that it
+/// rejects are bad in any case; points that only the plain map rejects count, since the causes
+/// explain them.
+std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFit& with_causes) {
+  std::vector<HeldOutSquare> squares;
+  std::map<PointKey, const FittedPoint*> own;
+  std::map<std::size_t, std::vector<LengthPoint>> by_file;
+  for (const FittedPoint& point : with_causes.points) {
+    own[{point.file, point.point.index}] = &point;
+    by_file[point.file].push_back(point.point);
+  }
+  std::map<PointKey, std::size_t> block_of;
+  std::size_t blocks = 0;
+  for (const auto& [file, points] : by_file) {
+    for (const std::vector<std::size_t>& block : spatial_blocks(points)) {
+      for (const std::size_t k : block) block_of[{file, points[k].index}] = blocks;
+      ++blocks;
+    }
+  }
+  for (const FittedPoint& point : plain.points) {
+    const PointKey key{point.file, point.point.index};
+    const FittedPoint& other = *own.at(key);
+    if (!other.bad)
+      squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
+  }
+  if (!squares.empty()) return squares;
+  for (std::size_t f = 0; f < plain.distances.size(); ++f) {
+    const auto& before = plain.distances[f].distances;
+    const auto& after = with_causes.distances[f].distances;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (after[k].rejected) continue;
+      squares.push_back({before[k].left_out_mm * before[k].left_out_mm,
+                         after[k].left_out_mm * after[k].left_out_mm,
+                         squares.size()});
+    }
+  }
+  return squares;
+}
+
+HeldOutBlocksError error_of(const std::vector<HeldOutSquare>& squares) {
+  HeldOutBlocksError sum;
+  for (const HeldOutSquare& one : squares) {
+    sum.plain_mm += one.plain_mm2;
+    sum.with_causes_mm += one.with_causes_mm2;
+  }
+  const auto count = as_double(std::max<std::size_t>(squares.size(), 1));
+  return {std::sqrt(sum.plain_mm / count), std::sqrt(sum.with_causes_mm / count)};
+}
+
+/// D of (1) exceeds its standard error.
+bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares) {
+  std::map<std::size_t, std::pair<double, double>> blocks;  // d_b and n_b
+  double total = 0.0;
+  for (const HeldOutSquare& one : squares) {
+    auto& [difference, count] = blocks[one.block];
+    difference += one.plain_mm2 - one.with_causes_mm2;
+    count += 1.0;
+    total += one.plain_mm2 - one.with_causes_mm2;
+  }
+  const auto b = as_double(blocks.size());
+  if (b < 2.0) return false;
+  const auto n = as_double(squares.size());
+  const double mean = total / n;
+  double sum = 0.0;
+  for (const auto& [block, of] : blocks) sum += std::pow(of.first - of.second * mean, 2);
+  return mean > std::sqrt(b / (b - 1.0) * sum) / n;
+}
+
+struct ActingCause {
+  Cause cause;
+  std::vector<model::AppliedEffect> effects;
+};
+
+bool has_order(const MeasuredFile& file) {
+  const MeasuredGrid* grid = file.grid();
+  return grid != nullptr &&
+         all_of(grid->points, [](const MeasuredPoint& point) { return point.order.has_value(); });
+}
+
+/// Its place, if a step or bend depends on it and it is uncertain; else null.
+const ParameterEstimate* unsure_place(const Cause& cause) {
+  const model::effects::Effect& effect = *cause.cause.effect;
+  const EffectParameter* place = place_parameter(effect);
+  if (place == nullptr || place->integer) return nullptr;
+  const PlaceVariable of = variable_of_place(effect, *place);
+  if (of == PlaceVariable::none || of == PlaceVariable::phase || of == PlaceVariable::visit)
+    return nullptr;
+  for (const ParameterEstimate& p : cause.parameters) {
+    if (p.parameter == place->name) return p.sigma > 0.0 ? &p : nullptr;
+  }
+  return nullptr;
+}
+
+/// A share of the cause, and the distance of its place from the likeliest.
+model::AppliedEffect applied_at(const Cause& cause,
+                                const ParameterEstimate& place,
+                                double off,
+                                double share) {
+  const EffectParameter& bounds = *place_parameter(*cause.cause.effect);
+  const EffectParameter& size = cause.cause.effect->parameters.front();
+  model::AppliedEffect effect = applied(cause);
+  effect.parameters[place.parameter] = std::clamp(place.value + off, bounds.lower, bounds.upper);
+  double& own = effect.parameters[std::string(size.name)];
+  own = size.null + share * (own - size.null);
+  return effect;
+}
+
+std::vector<ActingCause> over_places(const std::vector<Cause>& causes) {
+  std::vector<ActingCause> acting;
+  for (const Cause& cause : causes) acting.push_back({cause, applied_over_places(cause)});
+  return acting;
+}
+
+/// Readings of machines on which the causes act. Effects at a visit apply to the session whose
+/// visits were analysed: the first with an order.
+Measured with_effects(const Measured& measured, const std::vector<ActingCause>& causes) {
+  Measured changed;
+  bool is_before_visits = true;
+  for (MeasuredFile file : measured.files()) {
+    const bool has_visits = is_before_visits && has_order(file);
+    is_before_visits = is_before_visits && !has_visits;
+    std::visit(
+        [&](auto& own) {
+          if (!own.machine) return;
+          auto& effects = own.machine->effects;
+          for (const ActingCause& acting : causes) {
+            if (has_visits || !model::effects::depends_on_visit(*acting.cause.cause.effect))
+              append_all(effects, acting.effects);
+          }
+        },
+        file.measured);
+    changed.add(std::move(file));
+  }
+  return changed;
+}
 
 /// A comparison of these takes half a minute (docs/reliability.md).
 constexpr std::size_t kMostWeighed = 1200;
@@ -185,6 +343,26 @@ void offer(const std::vector<Cause>& causes, OfferedCause::Reason reason, Causes
 }
 
 }  // namespace
+
+model::AppliedEffect applied(const Cause& cause) {
+  model::AppliedEffect effect{
+      std::string(cause.cause.effect->id), std::string(model::effects::name(cause.cause.side)), {}};
+  for (const ParameterEstimate& p : cause.parameters) effect.parameters[p.parameter] = p.value;
+  return effect;
+}
+
+std::vector<model::AppliedEffect> applied_over_places(const Cause& cause) {
+  const ParameterEstimate* place = unsure_place(cause);
+  if (place == nullptr) return {applied(cause)};
+  // A ninth of a gap between marks: less than a surface of these marks can show.
+  constexpr int kPlaces = 9;
+  std::vector<model::AppliedEffect> effects;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double off = std::sqrt(3.0) * place->sigma * ((2.0 * k + 1.0) / kPlaces - 1.0);
+    effects.push_back(applied_at(cause, *place, off, 1.0 / kPlaces));
+  }
+  return effects;
+}
 
 tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {

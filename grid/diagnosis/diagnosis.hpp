@@ -26,11 +26,24 @@
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/pictures.hpp"
-#include "grid/diagnosis/visiting_order_found.hpp"
 #include "grid/map/error_summary.hpp"
+#include "grid/observation/visiting_order.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+struct VisitingOrderFound {
+  VisitingOrder order;  ///< the likeliest
+  /// Probability of this order; if the corner is unknown, of its lines and direction from any
+  /// corner.
+  double probability = 0.0;
+  bool corner_known = true;
+};
+
+/// "Nobody wrote down in which order the marks were visited. The readings say it: ... (99.8 %). ..." With the name of
+/// a session "the marks of C.json".
+[[nodiscard]] std::string in_words(const VisitingOrderFound& found,
+                                   const std::string& session = {});
 
 enum class Verdict {
   named,              ///< one cause, or one class that no data of this kind can separate
@@ -165,7 +178,14 @@ struct Bound {
   double upper_95 = 0.0;  ///< of the absolute value
 };
 
-/// The result for an effect that the user declared (declared_answers.hpp).
+/// The result for an effect that the user declared.
+///
+///   confirmed     named, at kLawClaimed and more
+///   denied        no more than 1 - kLawClaimed, and it would have been detected with the file's size: its size
+///                 lies below the usual one at 95 %, or the readings are likelier without it than with its
+///                 usual values, by the odds of kLawClaimed
+///   open          neither
+///   not testable  these readings do not show it, whatever its size
 struct DeclaredAnswer {
   enum class Says { confirmed, denied, open, not_testable };
   CauseId cause;
@@ -201,7 +221,7 @@ struct HeldOutImprovement {
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
   /// The reduction of the tool's mean square error over the measured area
-  /// (expected_improvement.hpp). Held-out blocks show a larger reduction, since both models
+  /// (held_out_fold.hpp). Held-out blocks show a larger reduction, since both models
   /// extrapolate there.
   double drop_mm2 = 0.0;
   /// That drop relative to the mean square before it, both without the noise of the readings.

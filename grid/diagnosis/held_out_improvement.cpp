@@ -8,7 +8,6 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/expected_improvement.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/diagnosis/observations.hpp"
 #include "grid/parallel.hpp"

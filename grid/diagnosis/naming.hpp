@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/visiting_order_found.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/observation/measured.hpp"
 

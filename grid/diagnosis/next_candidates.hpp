@@ -36,8 +36,8 @@ struct CandidateReadings {
   FollowUp observation;
   std::vector<Candidate> all;
 };
-/// For a part with distances: those not measured yet, and holes not cut yet with their distances;
-/// next_distances.cpp. Empty if nothing of this kind can be measured.
+/// For a part with distances: those not measured yet, and holes not cut yet with their distances.
+/// Empty if nothing of this kind can be measured.
 [[nodiscard]] std::optional<CandidateReadings> candidate_distances(const Analysis& analysis,
                                                                    std::size_t part);
 

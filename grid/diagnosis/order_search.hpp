@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/visiting_order_found.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -13,7 +13,7 @@
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/map/fit_part.hpp"
-#include "grid/map/larger_error.hpp"
+#include "grid/map/largest_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/map/map_parts.hpp"
 #include "grid/observation/single_readings.hpp"

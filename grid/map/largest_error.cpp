@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <variant>
 
-#include "interp/linear_algebra.hpp"
+#include "grid/containers.hpp"
+#include "grid/map/map_parts.hpp"
 #include "grid/precondition.hpp"
 #include "grid/random.hpp"
+#include "grid/raster.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -22,6 +27,54 @@ Eigen::MatrixXd drawn(Eigen::Index directions) {
   Eigen::MatrixXd draws(directions, kDraws);
   for (double& z : draws.reshaped()) z = random.normal();
   return draws;
+}
+
+ModelSurface& surface_of(MapContents& contents) {
+  auto* surface = std::get_if<ModelSurface>(&contents.surface);
+  if (surface == nullptr) throw precondition("a larger error of a map without a machine");
+  return *surface;
+}
+
+/// Differences of the lengths at one place, a row for each chain; empty where a map does not answer.
+Eigen::Matrix2Xd differences_at(const std::vector<MapDifference>& differences,
+                                model::MarkPoint mark) {
+  Eigen::Matrix2Xd at(2, std::ssize(differences));
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    const auto from = differences[k].from.lengths(mark);
+    const auto to = differences[k].to.lengths(mark);
+    if (!from || !to) return Eigen::Matrix2Xd(2, 0);
+    at.col(as_index(k)) << to->lengths.left_mm - from->lengths.left_mm,
+        to->lengths.right_mm - from->lengths.right_mm;
+    at.col(as_index(k)) *= differences[k].share;
+  }
+  return at;
+}
+
+/// Spline coefficients of the differences, left and right one below the other, a column each.
+Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis,
+                           const std::vector<MapDifference>& differences) {
+  // Two places for each function of an axis determine the splines; the ridge holds those that no place is near.
+  constexpr int kPerFunction = 2;
+  constexpr double kRidge = 1e-6;
+  const std::vector<model::MarkPoint> marks =
+      raster(basis.rectangle(),
+             kPerFunction * static_cast<int>(basis.columns_x()),
+             kPerFunction * static_cast<int>(basis.columns_y()),
+             RasterOf::nodes);
+  const auto count = std::ssize(differences);
+  Eigen::MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
+  Eigen::Index used = 0;
+  for (const model::MarkPoint& mark : marks) {
+    const Eigen::Matrix2Xd at = differences_at(differences, mark);
+    if (at.cols() != count) continue;
+    design.row(used) = basis.row(mark.x_mm, mark.y_mm);
+    response.row(used++) = at.reshaped().transpose();
+  }
+  Eigen::MatrixXd normal = linear::gram(design.topRows(used));
+  normal.diagonal().array() += kRidge;
+  const Eigen::MatrixXd right =
+      linear::product(linear::transposed(design.topRows(used)), response.topRows(used));
+  return linear::Cholesky(std::move(normal)).solve(right).reshaped(2 * basis.size(), count);
 }
 
 }  // namespace
@@ -44,6 +97,25 @@ double LargestError::bound_mm() const {
   const auto at = static_cast<Eigen::Index>(kLevel * static_cast<double>(kDraws));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
   return std::sqrt(sorted[at]);
+}
+
+CompensationMap with_larger_error(const CompensationMap& map, double factor) {
+  if (!(factor >= 1.0)) throw precondition("an error {} times as large", factor);
+  MapContents contents = map.contents();
+  surface_of(contents).covariance_factor *= factor;
+  return with_expected_error(std::move(contents));
+}
+
+CompensationMap with_differences(const CompensationMap& map,
+                                 const std::vector<MapDifference>& differences) {
+  MapContents contents = map.contents();
+  ModelSurface& surface = surface_of(contents);
+  const Eigen::MatrixXd splines = on_splines(surface.residual.basis, differences);
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(surface.columns.total(), splines.cols());
+  directions.middleRows(surface.columns.spline(model::Side::left), splines.rows()) = splines;
+  surface.covariance_factor =
+      lower_factor(linear::outer(surface.covariance_factor) + linear::outer(directions));
+  return with_expected_error(std::move(contents));
 }
 
 }  // namespace chaintrue::grid

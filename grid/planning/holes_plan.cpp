@@ -4,24 +4,81 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
-#include "grid/planning/detectable_effects.hpp"
-#include "grid/planning/tool_error.hpp"
+#include "grid/planning/distance_choice.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
+#include "interp/linear_algebra.hpp"
+#include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
+#include "model/machine.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
 using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
+
+/// Derivatives by the unknowns of a plan, kPlanUnknowns columns.
+struct ToolError {
+  /// L: L' L is the mean squared motion of the tool over the bed.
+  Eigen::MatrixXd root;
+  /// The part common to all positions: shift in x, in y (mm) and rotation (rad).
+  Eigen::MatrixXd whole;
+};
+
+/// Derivative by the unknowns of the position on the sheet that is cut with the chain lengths of a
+/// given position; empty if the machine has no pose there.
+std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, MarkPoint place) {
+  const auto reading = model.at(model::identity_placement(place));
+  if (!reading) return std::nullopt;
+  Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
+  for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
+    lengths.col(as_index(i)) = model.sensitivity(*reading, model::kMachineSettings[i]);
+  }
+  lengths.rightCols<2>() =
+      Eigen::Vector2d(reading->lengths.left_mm, reading->lengths.right_mm).asDiagonal();
+  PlannedPlace planned{place, {}};
+  planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
+      -model::SheetPlacement{}.sensitivity(place);
+  return planned;
+}
+
+/// If the sheet's placement does not matter, `root` is without the common part (best placement of
+/// the sheet).
+ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
+  const model::ReadingModel model(machine);
+  std::vector<PlannedPlace> places;
+  for (const MarkPoint& place : raster(area_of(machine.bed), 13, 7, RasterOf::cells)) {
+    if (const auto planned = planned_place(model, place)) places.push_back(*planned);
+  }
+  const auto count = std::ssize(places);
+  if (count < kPlanUnknowns) {
+    return {Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns),
+            Eigen::MatrixXd::Zero(3, kPlanUnknowns)};
+  }
+  Eigen::MatrixXd motion(2 * count, kPlanUnknowns);
+  Eigen::MatrixXd rigid(2 * count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const PlannedPlace& place = places[as_size(i)];
+    motion.middleRows<2>(2 * i) = place.by_unknown;
+    rigid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(place.place);
+  }
+  ToolError error;
+  error.whole = linear::least_squares(rigid, motion);
+  if (!sheet_counts) linear::add_product(motion, -1.0, rigid, error.whole);
+  error.root = linear::upper_triangle(motion) / std::sqrt(as_double(count));
+  return error;
+}
 
 /// Closer holes weaken the sheet and carry little information; a small bed has room only for closer
 /// ones.
@@ -221,7 +278,71 @@ Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   return prior;
 }
 
+/// cos 5 degrees: signatures nearer than this need hundreds of readings to be distinguished.
+constexpr double kOneDirection = 0.9962;
+
+/// An effect's secant: the change of the distances at its nominal size.
+struct Secant {
+  const model::effects::Effect* effect = nullptr;
+  model::effects::EffectSide side{};
+  Eigen::VectorXd change_mm;
+};
+
+struct Pattern {
+  DetectableEffect found;
+  Eigen::VectorXd white;
+};
+
+bool shows_in_distances(const model::effects::Effect& effect) {
+  return effect.station != model::effects::Station::paper &&
+         !model::effects::depends_on_visit(effect);
+}
+
+/// The set linearised about the stated machine.
+struct Stated {
+  Eigen::MatrixXd covariance;  ///< K
+  std::vector<Secant> secants;
+};
+
+std::optional<Stated> stated_of(const MeasuredHoles& set) {
+  if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
+  const auto distances = observation::TapeDistances::in_given_order(set);
+  if (!distances) return std::nullopt;
+  // Distances between holes do not depend on the sheet's placement; in those to its edges, a shift
+  // of the whole must not be mistaken for an effect.
+  const observation::Columns columns{.parameters = true, .sheet = true};
+  const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
+  if (!line) return std::nullopt;
+  Eigen::VectorXd prior(line->by_setting.cols());
+  prior << estimation::stated_knowledge(*set.machine)
+               .covariance.diagonal()
+               .head(model::kMachineSettings.size()),
+      std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2),
+      std::pow(observation::kSheetTurnRad, 2);
+  Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +
+                    line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),
+                {}};
+  for (const model::effects::Effect* effect : model::effects::effects_of(*set.machine)) {
+    if (!shows_in_distances(*effect)) continue;
+    for (const model::effects::EffectSide side : effect->sides) {
+      model::Machine machine = *set.machine;
+      machine.effects.push_back(
+          model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
+      if (!model::effects::problems_of_effects(machine).empty()) continue;
+      const auto with = distances->predicted({model::ReadingModel(machine), {}});
+      if (with) stated.secants.push_back({effect, side, *with - line->predicted});
+    }
+  }
+  return stated;
+}
+
 }  // namespace
+
+double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd root =
+      tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
+  return std::sqrt(std::max(0.0, linear::carried(root, covariance).trace()));
+}
 
 int fewest_distances(bool edges) {
   return static_cast<int>(kFewestHoleDistances) + (edges ? 3 : 0);
@@ -262,6 +383,35 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
       knowledge_of(prior, after, request.edges ? std::optional(error.whole) : std::nullopt);
   plan.effects = detectable_effects(plan.set);
   return plan;
+}
+
+std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
+  const auto stated = stated_of(set);
+  if (!stated) return {};
+  const linear::Cholesky covariance(stated->covariance);
+  std::vector<Pattern> patterns;
+  for (const Secant& secant : stated->secants) {
+    Pattern pattern;
+    pattern.found.effect = secant.effect->id;
+    pattern.found.side = model::effects::name(secant.side);
+    pattern.white = covariance.half_solve(secant.change_mm);
+    pattern.found.sigmas = pattern.white.norm();
+    patterns.push_back(std::move(pattern));
+  }
+  stable_sort(patterns,
+              [](const Pattern& a, const Pattern& b) { return a.found.sigmas > b.found.sigmas; });
+  std::vector<DetectableEffect> found;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    for (std::size_t j = 0; j < patterns.size(); ++j) {
+      if (i == j) continue;
+      const double together = patterns[i].found.sigmas * patterns[j].found.sigmas;
+      if (together > 0.0 &&
+          std::abs(patterns[i].white.dot(patterns[j].white)) > kOneDirection * together)
+        patterns[i].found.same_as.push_back(j);
+    }
+    found.push_back(patterns[i].found);
+  }
+  return found;
 }
 
 }  // namespace chaintrue::grid

@@ -92,4 +92,13 @@ struct HolesPlan {
 [[nodiscard]] double tool_sigma_mm(const model::Machine& machine,
                                    const Eigen::MatrixXd& covariance);
 
+// The catalogue's effects as observed by a set of distances: the size of each after projection on
+// the settings, and which of them are collinear. Secants at the nominal strength, whitened by K =
+// V + A P A'.
+
+/// Largest first. Effects of the paper, and those that depend on the visit, are left out: distances
+/// between holes do not depend on either. \throws std::invalid_argument for a set without a
+/// machine.
+[[nodiscard]] std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set);
+
 }  // namespace chaintrue::grid

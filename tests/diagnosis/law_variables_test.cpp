@@ -3,7 +3,6 @@
 /// Variables and entries of laws: for four belts a law's columns are the difference of readings
 /// with the law; short waves that evenly spaced marks alias are not tried; a step in one chain's
 /// variable lies between that chain's readings.
-#include "grid/diagnosis/law_variables.hpp"
 
 #include <gtest/gtest.h>
 

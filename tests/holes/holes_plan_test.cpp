@@ -11,7 +11,7 @@
 
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/joint_fit.hpp"
-#include "grid/planning/detectable_effects.hpp"
+#include "grid/planning/holes_plan.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::grid {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The uncertainty of a map grows by the difference of two others, only where they differ.
-#include "grid/map/larger_error.hpp"
+#include "grid/map/largest_error.hpp"
 
 #include <gtest/gtest.h>
 
