@@ -19,8 +19,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "grid/containers.hpp"
+#include "grid/precondition.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -41,10 +46,33 @@ struct DisplacementParts {
 class ToolDisplacement {
  public:
   /// \throws std::invalid_argument if `at_mm` does not fit the places.
-  explicit ToolDisplacement(DisplacementParts parts);
-  [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const;
+  explicit ToolDisplacement(DisplacementParts parts) : parts_(std::move(parts)) {
+    const auto count = std::ssize(parts_.places);
+    if (parts_.at_mm.size() != 2 * count || count == 0 || !(parts_.reach_mm > 0.0)) {
+      throw precondition(
+          "{} displacements of {} places over {} mm", parts_.at_mm.size(), count, parts_.reach_mm);
+    }
+    // Keeps K positive definite for two holes at one place; a ten-thousandth of the size is below any
+    // tape.
+    constexpr double kSamePlace = 1e-8;
+    Eigen::MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
+    kernel.diagonal().array() += kSamePlace;
+    inverse_ = linear::Cholesky(std::move(kernel)).inverse();
+    Eigen::MatrixX2d at(count, 2);
+    for (Eigen::Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
+    weights_mm_ = inverse_ * at;
+  }
+
+  [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const {
+    return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
+  }
+
   /// For each axis, in addition to the uncertainty at the places.
-  [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const;
+  [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const {
+    const Eigen::RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
+    return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
+  }
+
   [[nodiscard]] const DisplacementParts& parts() const { return parts_; }
 
  private:

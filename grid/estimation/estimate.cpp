@@ -24,6 +24,27 @@ constexpr double kConvergedWeight = 1e-2;
 /// Passes with soft weights only, so that several bad units cannot hide each other.
 constexpr int kSoftRounds = 4;
 
+/// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
+/// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
+double chi(Eigen::Index n, double z) {
+  const double part = 2.0 / (9.0 * as_double(n));
+  return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
+}
+
+/// The treatment of a unit by its distance.
+struct UnitRule {
+  double full_weight_within;  ///< 95 % of good units
+  double rejected_beyond;
+  bool worst_first;  ///< one at a time, against the others' prediction and noise
+};
+
+UnitRule rule_of(Eigen::Index rows) {
+  if (rows == 1) return {1.96, kBadDistanceSigmas, true};
+  if (rows == 2) return {2.4477, kBadPointDistance, false};
+  // The same probabilities as for two rows: 5 % and 4e-5.
+  return {chi(rows, 1.6449), chi(rows, 3.9444), false};
+}
+
 /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
 /// from what is estimated, holes lie where the last step put them; distances converge more slowly, one
 /// of them being rejected at a time.

@@ -12,10 +12,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/joint_problem.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -27,9 +31,24 @@ class LeftOut {
           const Eigen::VectorXd& weights)
       : problem_(problem), fit_(fit), weights_(weights) {}
   /// Call first if all units are needed: X C X' of all takes a fraction of the time.
-  void prepare_units();
+  void prepare_units() {
+    if (problem_.local() == nullptr) {
+      prepare_all();
+      return;
+    }
+    spreads_ = problem_.local()->spreads(fit_.covariance);
+    residuals_ = problem_.response() - problem_.design() * fit_.coefficients;
+  }
+
   /// Likewise for groups.
-  void prepare_all();
+  void prepare_all() {
+    if (by_root_.size() > 0) return;
+    const linear::Cholesky factor(fit_.covariance);
+    // Positive up to rounding.
+    by_root_ = linear::product(
+        problem_.design(),
+        factor.is_positive_definite() ? factor.lower() : linear::covariance_root(fit_.covariance));
+  }
 
   struct Conditioned {
     Eigen::VectorXd residual;
@@ -37,24 +56,139 @@ class LeftOut {
   };
   /// Residual and covariance of a unit. If the unit nearly determines its own prediction, I - w X C
   /// X' / s^2 is rounding: the rest is then fitted again with the smoothing of the whole.
-  [[nodiscard]] Conditioned conditioned(std::size_t unit) const;
+  [[nodiscard]] Conditioned conditioned(std::size_t unit) const {
+    const auto at = as_index(unit);
+    const bool by_formula =
+        weights_[at] == 0.0 ||
+        interp::held_out_residual(residual_of(unit), weights_[at] * spread_of(unit), fit_.sigma2);
+    if (!by_formula) {
+      if (const auto rest = fit_without({unit})) {
+        const Eigen::MatrixXd rows = rows_of(unit);
+        Conditioned conditioned{response_of(unit) - rows * rest->coefficients,
+                                linear::carried(rows, rest->covariance)};
+        conditioned.covariance.diagonal().array() += fit_.sigma2;
+        return conditioned;
+      }
+    }
+    return {residual(unit), covariance(unit)};
+  }
+
   /// The whitened left-out residual of a unit. Rejected readings are not in the fit.
-  [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const;
+  [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const {
+    const double weight = weights_[as_index(unit)];
+    Eigen::VectorXd residual = residual_of(unit);
+    if (weight == 0.0) return residual;
+    const auto held = interp::held_out_residual(residual, weight * spread_of(unit), fit_.sigma2);
+    return held ? *held : residual;
+  }
+
   /// Those of a group of units with all of them left out. \throws std::logic_error before
   /// prepare_all().
-  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const;
+  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const {
+    if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
+    std::vector<Eigen::Index> rows;
+    std::vector<double> roots;
+    for (const std::size_t unit : group) {
+      const double weight = weights_[as_index(unit)];
+      if (weight == 0.0) continue;
+      const SystemUnit& own = problem_.units()[unit];
+      for (Eigen::Index i = 0; i < own.rows; ++i) {
+        rows.push_back(own.first_row + i);
+        roots.push_back(std::sqrt(weight));
+      }
+    }
+    std::vector<Eigen::VectorXd> residuals;
+    if (rows.empty()) {
+      for (const std::size_t unit : group) residuals.push_back(residual_of(unit));
+      return residuals;
+    }
+    const auto count = std::ssize(rows);
+    const Eigen::Map<const Eigen::VectorXd> root(roots.data(), count);
+    Eigen::VectorXd residual(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Index row = rows[as_size(i)];
+      residual[i] =
+          root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
+    }
+    const auto held = interp::held_out_residual_by_root(
+        residual, root.asDiagonal() * by_root_(rows, Eigen::all), fit_.sigma2);
+    if (!held) {
+      if (const auto rest = fit_without(group)) {
+        for (const std::size_t unit : group)
+          residuals.push_back(response_of(unit) - rows_of(unit) * rest->coefficients);
+        return residuals;
+      }
+    }
+    Eigen::Index at = 0;
+    for (const std::size_t unit : group) {
+      const double weight = weights_[as_index(unit)];
+      if (held && weight > 0.0) {
+        const Eigen::Index own = problem_.units()[unit].rows;
+        residuals.emplace_back(held->segment(at, own) / std::sqrt(weight));
+        at += own;
+      } else {
+        residuals.push_back(residual_of(unit));
+      }
+    }
+    return residuals;
+  }
+
   /// (1), whitened, the unit's noise at its full weight.
-  [[nodiscard]] Eigen::MatrixXd covariance(std::size_t unit) const;
-  [[nodiscard]] double distance(std::size_t unit) const;
+  [[nodiscard]] Eigen::MatrixXd covariance(std::size_t unit) const {
+    const double weight = weights_[as_index(unit)];
+    Eigen::MatrixXd spread = spread_of(unit);
+    const Eigen::MatrixXd noise =
+        fit_.sigma2 * Eigen::MatrixXd::Identity(spread.rows(), spread.rows());
+    if (weight > 0.0) {
+      const linear::Cholesky kept(noise - weight * spread);
+      if (kept.is_positive_definite()) spread = fit_.sigma2 * kept.solve(spread);
+    }
+    return noise + spread;
+  }
+
+  [[nodiscard]] double distance(std::size_t unit) const {
+    const Eigen::VectorXd residual = this->residual(unit);
+    return std::sqrt(residual.dot(linear::PivotedCholesky(covariance(unit)).solve(residual)));
+  }
 
  private:
-  [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const;
+  [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const {
+    const SystemUnit& own = problem_.units()[unit];
+    return problem_.design().middleRows(own.first_row, own.rows);
+  }
+
   /// The fit of the rest, with the smoothing of the whole; empty if there is none.
-  [[nodiscard]] std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const;
+  [[nodiscard]] std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const {
+    Eigen::VectorXd without = weights_;
+    for (const std::size_t unit : group) without[as_index(unit)] = 0.0;
+    auto rest = interp::fit_with_smoothing(problem_.weighted(without), fit_.lambda, fit_.sigma2);
+    return rest ? std::optional(*std::move(rest)) : std::nullopt;
+  }
+
   /// X C X'.
-  [[nodiscard]] Eigen::MatrixXd spread_of(std::size_t unit) const;
-  [[nodiscard]] Eigen::VectorXd residual_of(std::size_t unit) const;
-  [[nodiscard]] Eigen::VectorXd response_of(std::size_t unit) const;
+  [[nodiscard]] Eigen::MatrixXd spread_of(std::size_t unit) const {
+    if (!spreads_.empty()) return spreads_[unit];
+    if (by_root_.size() == 0) {
+      const Eigen::MatrixXd design = rows_of(unit);
+      return linear::carried(design, fit_.covariance);
+    }
+    const SystemUnit& own = problem_.units()[unit];
+    const auto root = by_root_.middleRows(own.first_row, own.rows);
+    return root.lazyProduct(root.transpose());
+  }
+
+  [[nodiscard]] Eigen::VectorXd residual_of(std::size_t unit) const {
+    if (residuals_.size() > 0) {
+      const SystemUnit& own = problem_.units()[unit];
+      return residuals_.segment(own.first_row, own.rows);
+    }
+    return response_of(unit) - rows_of(unit) * fit_.coefficients;
+  }
+
+  [[nodiscard]] Eigen::VectorXd response_of(std::size_t unit) const {
+    const SystemUnit& own = problem_.units()[unit];
+    return problem_.response().segment(own.first_row, own.rows);
+  }
 
   const JointProblem& problem_;
   const interp::PenalisedFit& fit_;
@@ -63,13 +197,5 @@ class LeftOut {
   Eigen::VectorXd residuals_;             ///< there, of all rows
   Eigen::MatrixXd by_root_;  ///< X R of all units, C = R R'; empty before prepare_all()
 };
-
-/// The treatment of a unit by its distance.
-struct UnitRule {
-  double full_weight_within;  ///< 95 % of good units
-  double rejected_beyond;
-  bool worst_first;  ///< one at a time, against the others' prediction and noise
-};
-[[nodiscard]] UnitRule rule_of(Eigen::Index rows);
 
 }  // namespace chaintrue::grid::estimation

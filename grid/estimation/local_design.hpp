@@ -12,12 +12,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/linearised_system.hpp"
 #include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "interp/linear_algebra.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -31,7 +34,44 @@ class LocalDesign {
               const Unknowns& unknowns,
               const ObservedSubspace& observed,
               const interp::BsplineBasis& basis,
-              const std::vector<model::MarkPoint>& marks);
+              const std::vector<model::MarkPoint>& marks)
+      : units_(units), rows_(as_size(design.rows())) {
+    const Eigen::Index penalised = observed.penalised();
+    const Eigen::Index first_bend = unknowns.first_penalised_of(model::Side::left);
+    const Eigen::Index plain = unknowns.total() - 2 * penalised;
+    const auto splines = [&](model::Side side) { return plain + row_of(side) * basis.size(); };
+    to_unknowns_ = Eigen::MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index k = 0; k < unknowns.total(); ++k) {
+      if (k >= first_bend && k < first_bend + 2 * penalised) continue;
+      to_unknowns_(std::ssize(columns), k) = 1.0;
+      columns.push_back(k);
+    }
+    for (const model::Side side : model::kSides) {
+      to_unknowns_.block(
+          splines(side), unknowns.first_penalised_of(side), basis.size(), penalised) =
+          observed.penalised_basis();
+    }
+    for (Eigen::Index k = 0; k < plain; ++k) {
+      const auto column = design.col(columns[as_size(k)]);
+      for (Eigen::Index row = 0; row < design.rows(); ++row) {
+        if (column[row] != 0.0) rows_[as_size(row)].emplace_back(k, column[row]);
+      }
+    }
+    for (const SystemUnit& unit : units) {
+      for (const observation::PlaceColumns& place : unit.places) {
+        const interp::BasisSupport at = basis.at(marks[place.place].x_mm, marks[place.place].y_mm);
+        for (Eigen::Index i = 0; i < unit.rows; ++i) {
+          auto& row = rows_[as_size(unit.first_row + i)];
+          for (const model::Side side : model::kSides) {
+            const double by_chain = place.by_chain(i, row_of(side));
+            for (std::size_t k = 0; by_chain != 0.0 && k < at.index.size(); ++k)
+              row.emplace_back(splines(side) + at.index[k], by_chain * at.value[k]);
+          }
+        }
+      }
+    }
+  }
 
   /// Worth its cost of q^3 with more rows than this per unknown.
   static constexpr Eigen::Index kRowsForEachUnknown = 4;
@@ -39,9 +79,62 @@ class LocalDesign {
   /// Adds X' w X, X' w y, y' w y and the rows of positive weight; a weight for each unit.
   void add_rows(const Eigen::VectorXd& response,
                 const Eigen::VectorXd& weights,
-                interp::PenalisedProblem& problem) const;
+                interp::PenalisedProblem& problem) const {
+    const Eigen::Index size = to_unknowns_.rows();
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd moment = Eigen::VectorXd::Zero(size);
+    for (std::size_t u = 0; u < units_.size(); ++u) {
+      const double weight = weights[as_index(u)];
+      if (weight == 0.0) continue;
+      for (Eigen::Index i = 0; i < units_[u].rows; ++i) {
+        const Eigen::Index at = units_[u].first_row + i;
+        const auto& row = rows_[as_size(at)];
+        // Columns rise along a row except where two places meet: entries above the diagonal are added
+        // below it.
+        for (std::size_t a = 0; a < row.size(); ++a) {
+          const double value = weight * row[a].second;
+          moment[row[a].first] += value * response[at];
+          for (std::size_t b = 0; b <= a; ++b) {
+            const auto [low, high] = std::minmax(row[a].first, row[b].first);
+            const bool twice = a != b && low == high;
+            gram(high, low) += (twice ? 2.0 : 1.0) * value * row[b].second;
+          }
+        }
+        problem.response_square += weight * response[at] * response[at];
+        ++problem.rows;
+      }
+    }
+    gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+    linear::add_product(
+        problem.gram, 1.0, linear::transposed(to_unknowns_), linear::product(gram, to_unknowns_));
+    // Symmetric up to rounding.
+    problem.gram.triangularView<Eigen::StrictlyUpper>() = problem.gram.transpose();
+    linear::add_product(problem.moment, 1.0, linear::transposed(to_unknowns_), moment);
+  }
+
   /// X_u C X_u' of every unit.
-  [[nodiscard]] std::vector<Eigen::MatrixXd> spreads(const Eigen::MatrixXd& covariance) const;
+  [[nodiscard]] std::vector<Eigen::MatrixXd> spreads(const Eigen::MatrixXd& covariance) const {
+    const Eigen::MatrixXd local = linear::carried(to_unknowns_, covariance);
+    std::vector<Eigen::MatrixXd> result;
+    result.reserve(units_.size());
+    for (const SystemUnit& unit : units_) {
+      Eigen::MatrixXd spread(unit.rows, unit.rows);
+      for (Eigen::Index i = 0; i < unit.rows; ++i) {
+        for (Eigen::Index j = 0; j <= i; ++j) {
+          double sum = 0.0;
+          for (const auto& [a, left] : rows_[as_size(unit.first_row + j)]) {
+            double part = 0.0;
+            for (const auto& [b, right] : rows_[as_size(unit.first_row + i)])
+              part += local(b, a) * right;
+            sum += left * part;
+          }
+          spread(i, j) = spread(j, i) = sum;
+        }
+      }
+      result.push_back(std::move(spread));
+    }
+    return result;
+  }
 
  private:
   using Entry = std::pair<Eigen::Index, double>;  ///< column of D, value

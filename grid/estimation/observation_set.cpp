@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/observation_set.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
-#include "grid/containers.hpp"
-#include "grid/precondition.hpp"
-#include "grid/statistics.hpp"
-#include "model/calibration/setting.hpp"
-#include "model/reading_model.hpp"
-
 namespace chaintrue::grid::estimation {
 namespace {
 
@@ -125,59 +116,6 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
     append(std::move(part), other);
   }
   return other;
-}
-
-Eigen::Index ObservationSet::sheet_column(std::size_t sheet) {
-  return kMachineSettingCount + as_index(model::kSheetSettings.size() * sheet);
-}
-
-std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part) const {
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
-  // Follow-up readings may be in the frame of a sheet that they do not depend on.
-  const bool has_sheet = part.sheet && part.observation->sheet();
-  for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
-    columns.push_back(sheet_column(*part.sheet) + as_index(k));
-  return columns;
-}
-
-bool ObservationSet::reads_chains() const {
-  return any_of(parts, [](const ObservationPart& part) { return part.reads_chains(); });
-}
-
-bool ObservationSet::has_distances() const {
-  return !parts_of<observation::TapeDistances>(*this).empty();
-}
-
-bool ObservationSet::ordered() const {
-  return any_of(parts, [](const ObservationPart& part) {
-    return part.reads_chains() && part.observation->ordered();
-  });
-}
-
-const std::vector<ExtraReading>& ObservationSet::readings() const {
-  static const std::vector<ExtraReading> kNone;
-  const auto own = parts_of<observation::SingleReadings>(*this);
-  return own.empty() ? kNone : own.front().second->readings();
-}
-
-bool ObservationSet::knows(std::size_t column) const {
-  if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
-  return any_of(parts, [&](const ObservationPart& part) {
-    return part.sheet && part.observation->sheet() &&
-           (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
-           part.observation->sheet()->knows(settings[column]);
-  });
-}
-
-std::string_view ObservationSet::units_word() const {
-  std::string_view word;
-  for (const ObservationPart& part : parts) {
-    if (!part.observation->may_be_outlier()) continue;
-    const std::string_view own = part.observation->kind().units;
-    word = word.empty() || word == own ? own : "readings";
-  }
-  return word;
 }
 
 MachineState stated_state(const ObservationSet& set) {

@@ -19,14 +19,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
+#include "model/calibration/setting.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -70,6 +76,12 @@ struct NumberedUnit {
   Eigen::Index rows = 1;
 };
 
+struct ObservationSet;
+/// The parts of one kind. `What` is ChainLengthReadings or TapeDistances.
+template <class What>
+[[nodiscard]] std::vector<std::pair<const ObservationPart*, const What*>> parts_of(
+    const ObservationSet& set);
+
 struct ObservationSet {
   model::Machine stated;
   /// The mechanism: two chains of `stated`, or another one, which `stated` does not describe.
@@ -98,22 +110,67 @@ struct ObservationSet {
   [[nodiscard]] Eigen::Index nuisances() const {
     return stated_value.size() - setting_columns() - 2 * as_index(own_zeros);
   }
+
   /// Whether the mechanism is two chains, described by `stated`.
   [[nodiscard]] bool is_of_chains() const { return !settings.empty(); }
-  [[nodiscard]] bool reads_chains() const;
-  [[nodiscard]] bool has_distances() const;
+  [[nodiscard]] bool reads_chains() const {
+    return any_of(parts, [](const ObservationPart& part) { return part.reads_chains(); });
+  }
+
+  [[nodiscard]] bool has_distances() const {
+    return !parts_of<observation::TapeDistances>(*this).empty();
+  }
+
   /// Chains were read, and the visits' order is known.
-  [[nodiscard]] bool ordered() const;
+  [[nodiscard]] bool ordered() const {
+    return any_of(parts, [](const ObservationPart& part) {
+      return part.reads_chains() && part.observation->ordered();
+    });
+  }
+
   /// The readings of the machine itself, if any.
-  [[nodiscard]] const std::vector<ExtraReading>& readings() const;
+  [[nodiscard]] const std::vector<ExtraReading>& readings() const {
+    static const std::vector<ExtraReading> kNone;
+    const auto own = parts_of<observation::SingleReadings>(*this);
+    return own.empty() ? kNone : own.front().second->readings();
+  }
+
   /// Whether the readings depend on the setting in this column.
-  [[nodiscard]] bool knows(std::size_t column) const;
+  [[nodiscard]] bool knows(std::size_t column) const {
+    if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
+    return any_of(parts, [&](const ObservationPart& part) {
+      return part.sheet && part.observation->sheet() &&
+             (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
+             part.observation->sheet()->knows(settings[column]);
+    });
+  }
+
   /// The first of the three columns of a sheet.
-  [[nodiscard]] static Eigen::Index sheet_column(std::size_t sheet);
+  [[nodiscard]] static Eigen::Index sheet_column(std::size_t sheet) {
+    return kMachineSettingCount + as_index(model::kSheetSettings.size() * sheet);
+  }
+
   /// Columns of an observation's own settings, as observation::columns_of() has them.
-  [[nodiscard]] std::vector<Eigen::Index> columns_of(const ObservationPart& part) const;
+  [[nodiscard]] std::vector<Eigen::Index> columns_of(const ObservationPart& part) const {
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
+    // Follow-up readings may be in the frame of a sheet that they do not depend on.
+    const bool has_sheet = part.sheet && part.observation->sheet();
+    for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
+      columns.push_back(sheet_column(*part.sheet) + as_index(k));
+    return columns;
+  }
+
   /// Word for these units: "points", "distances", or "readings" for both.
-  [[nodiscard]] std::string_view units_word() const;
+  [[nodiscard]] std::string_view units_word() const {
+    std::string_view word;
+    for (const ObservationPart& part : parts) {
+      if (!part.observation->may_be_outlier()) continue;
+      const std::string_view own = part.observation->kind().units;
+      word = word.empty() || word == own ? own : "readings";
+    }
+    return word;
+  }
 };
 
 /// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
@@ -132,10 +189,8 @@ struct FollowUp {
 [[nodiscard]] ObservationSet with_observations(const ObservationSet& set,
                                                std::vector<FollowUp> parts);
 
-/// The parts of one kind. `What` is ChainLengthReadings or TapeDistances.
 template <class What>
-[[nodiscard]] std::vector<std::pair<const ObservationPart*, const What*>> parts_of(
-    const ObservationSet& set) {
+std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const ObservationSet& set) {
   std::vector<std::pair<const ObservationPart*, const What*>> result;
   for (const ObservationPart& part : set.parts) {
     if (const auto* own = dynamic_cast<const What*>(part.observation.get())) {
@@ -154,6 +209,7 @@ struct MachineState {
   [[nodiscard]] model::SheetPlacement sheet_of(const ObservationPart& part) const {
     return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
   }
+
   [[nodiscard]] observation::View view(const ObservationPart& part) const {
     if (mechanism) return {mechanism, sheet_of(part)};
     return {model::ReadingModel(machine), sheet_of(part)};

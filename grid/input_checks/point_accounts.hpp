@@ -4,6 +4,9 @@
 /// them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,28 +29,106 @@ struct PlacedPoints {
 /// \pre the grid has a possible machine.
 class PointAccounts {
  public:
-  explicit PointAccounts(const MeasuredGrid& grid);
+  explicit PointAccounts(const MeasuredGrid& grid)
+      : zero_(grid.machine->chain_zero),
+        half_width_mm_(0.5 * grid.machine->bed.width_mm),
+        half_height_mm_(0.5 * grid.machine->bed.height_mm),
+        prior_sigma_mm_(point_sigmas(grid)),
+        kinematics_(model::make_kinematics(model::equilibrium_parameters(*grid.machine))),
+        controller_(model::make_controller_kinematics(*grid.machine)) {}
 
   /// The tool's position by its lengths or its command; empty if no pose has them.
-  [[nodiscard]] Place place_of(const MeasuredPoint& point) const;
+  [[nodiscard]] Place place_of(const MeasuredPoint& point) const {
+    model::ChainLengths lengths;
+    if (point.lengths) {
+      lengths = *point.lengths;
+    } else {
+      if (!point.commanded) return std::nullopt;
+      const auto paid_out = controller_->lengths(*point.commanded);
+      if (!paid_out) return std::nullopt;
+      lengths = *paid_out;
+    }
+    lengths.left_mm -= zero_.left_mm;
+    lengths.right_mm -= zero_.right_mm;
+    const auto pose = kinematics_->forward(lengths);
+    if (!pose) return std::nullopt;
+    return pose->position;
+  }
+
   /// True if the stated machine can hold the sled there.
-  [[nodiscard]] bool can_hold(model::MarkPoint mark) const;
-  [[nodiscard]] PlacedPoints placed(const std::vector<MeasuredPoint>& points) const;
+  [[nodiscard]] bool can_hold(model::MarkPoint mark) const {
+    return kinematics_->inverse(model::identity_placement(mark)).has_value();
+  }
+
+  [[nodiscard]] PlacedPoints placed(const std::vector<MeasuredPoint>& points) const {
+    PlacedPoints placed{points, {}};
+    for (const MeasuredPoint& point : points) placed.places.push_back(place_of(point));
+    return placed;
+  }
 
   /// Marks relative to places, for a second-degree trend. A missing place is a missing row.
-  [[nodiscard]] TrendRows rows(const PlacedPoints& placed) const;
+  [[nodiscard]] TrendRows rows(const PlacedPoints& placed) const {
+    const auto& [points, places] = placed;
+    const auto n = static_cast<Eigen::Index>(points.size());
+    TrendRows rows{Eigen::MatrixXd::Zero(n, kPointBasis),
+                   Eigen::MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (!places[k]) continue;
+      rows.basis.row(i) = basis_at(*places[k]);
+      rows.off_mm(i, 0) = points[k].mark.x_mm - places[k]->x_mm;
+      rows.off_mm(i, 1) = points[k].mark.y_mm - places[k]->y_mm;
+    }
+    return rows;
+  }
+
   [[nodiscard]] const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
   /// The trend's rotation of the marks to the left about the bed's middle.
-  [[nodiscard]] double turn_rad(const RobustTrend& trend) const;
+  [[nodiscard]] double turn_rad(const RobustTrend& trend) const {
+    const double up_along_x = trend.coefficients(1, 1) / half_width_mm_;
+    const double right_along_y = trend.coefficients(2, 0) / half_height_mm_;
+    return 0.5 * (up_along_x - right_along_y);
+  }
+
   /// The largest of its relative stretches along x and y and its skew.
-  [[nodiscard]] double strain(const RobustTrend& trend) const;
+  [[nodiscard]] double strain(const RobustTrend& trend) const {
+    const Eigen::MatrixXd& c = trend.coefficients;
+    const double skew = 0.5 * (c(1, 1) / half_width_mm_ + c(2, 0) / half_height_mm_);
+    return std::max(
+        {std::abs(c(1, 0)) / half_width_mm_, std::abs(c(2, 1)) / half_height_mm_, std::abs(skew)});
+  }
+
   /// Residual of a mark at a place from a trend.
   [[nodiscard]] Eigen::Vector2d off(const RobustTrend& trend,
                                     model::MarkPoint mark,
-                                    model::BedPoint place) const;
+                                    model::BedPoint place) const {
+    return Eigen::Vector2d(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) -
+           (basis_at(place) * trend.coefficients).transpose();
+  }
 
  private:
-  [[nodiscard]] Eigen::RowVectorXd basis_at(model::BedPoint place) const;
+  static constexpr Eigen::Index kPointBasis = 6;
+
+  static Eigen::VectorXd point_sigmas(const MeasuredGrid& grid) {
+    // Uncalibrated machines as stated have errors of 3 to 13 mm rms over the bed (scans of a real
+    // machine), in constant, slope and bend equally.
+    constexpr double kErrorMm = 10.0;
+    Eigen::VectorXd sigma = Eigen::VectorXd::Constant(kPointBasis, kErrorMm);
+    if (!grid.sheet) return sigma;
+    const double half_mm = 0.5 * grid.machine->bed.width_mm;
+    sigma[0] = std::hypot(kErrorMm, grid.sheet->shift_mm);
+    sigma[1] = sigma[2] = std::hypot(kErrorMm, 1e-3 * grid.sheet->rotation_mrad * half_mm);
+    return sigma;
+  }
+
+  [[nodiscard]] Eigen::RowVectorXd basis_at(model::BedPoint place) const {
+    // Wrong lengths may end anywhere: the second-degree trend is kept constant beyond the bed.
+    const double u = std::clamp(place.x_mm / half_width_mm_, -1.5, 1.5);
+    const double v = std::clamp(place.y_mm / half_height_mm_, -1.5, 1.5);
+    Eigen::RowVectorXd basis(kPointBasis);
+    basis << 1.0, u, v, u * u, u * v, v * v;
+    return basis;
+  }
 
   model::ChainLengths zero_;
   double half_width_mm_;

@@ -341,11 +341,12 @@ std::vector<Transformation> point_transformations(const PointAccounts& accounts,
   add_shifts(list, reads_lengths);
   add_origins(list, *grid.machine);
   if (const auto nearest = places_nearest(written)) {
-    list.order(ProblemKind::other_order,
-               fmt::format(
-                   "the {} belong to the marks of other lines: are the two lists sorted differently?",
-                   readings_of(written)),
-               *nearest)
+    list.order(
+            ProblemKind::other_order,
+            fmt::format(
+                "the {} belong to the marks of other lines: are the two lists sorted differently?",
+                readings_of(written)),
+            *nearest)
         .penalty = std::lgamma(static_cast<double>(written.points.size()) + 1.0);  // orders
   }
   return list.take();

@@ -41,8 +41,7 @@ constexpr std::size_t kMostCheckedDistances = 20000;
 constexpr std::size_t kMostCheckedHoles = 500;
 
 /// No workshop reading is more accurate.
-constexpr double kLeastVarianceMm2 =
-    observation::kKnownNuisanceMm * observation::kKnownNuisanceMm;
+constexpr double kLeastVarianceMm2 = observation::kKnownNuisanceMm * observation::kKnownNuisanceMm;
 
 /// Readings at one mark are replaced by their mean.
 struct Repeated {

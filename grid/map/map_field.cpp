@@ -47,7 +47,7 @@ class ModelField final : public MapField {
 
  private:
   [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
-                                                               Asked asked) const override {
+                                                              Asked asked) const override {
     const auto reading = model_.at(sheet().to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     MapSpread found{corrected(mark, *reading), {}};
@@ -120,7 +120,7 @@ class LatticeField final : public MapField {
 
  private:
   [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
-                                                               Asked asked) const override {
+                                                              Asked asked) const override {
     const auto reading = model_.at(sheet().to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     const auto spline = splines_.at(mark);
@@ -168,7 +168,7 @@ class DirectField final : public MapField {
   /// Each node has the readings' noise, with the place's error carried into the chains by the
   /// slope; between the nodes the interpolation's estimated error is added.
   [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
-                                                               Asked asked) const override {
+                                                              Asked asked) const override {
     const interp::PairGradient z = both_.at(mark.x_mm, mark.y_mm);
     MapSpread found;
     found.here.lengths = {z.value[0], z.value[1]};

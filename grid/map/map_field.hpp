@@ -23,7 +23,7 @@ class MapField {
   /// The spread only if asked for. If the map's continuation beyond the points differs from the
   /// surfaces' own, the difference is a separate direction, one sigma.
   [[nodiscard]] tl::expected<MapSpread, MapFailure> at(model::MarkPoint mark,
-                                                        Asked asked = Asked::lengths) const;
+                                                       Asked asked = Asked::lengths) const;
   /// The marks' sheet on the bed.
   [[nodiscard]] const model::SheetPlacement& sheet() const { return sheet_; }
 
@@ -31,7 +31,7 @@ class MapField {
   explicit MapField(model::SheetPlacement sheet = {}) : sheet_(sheet) {}
   /// With the surfaces' own continuation.
   [[nodiscard]] virtual tl::expected<MapSpread, MapFailure> continued(model::MarkPoint mark,
-                                                                       Asked asked) const = 0;
+                                                                      Asked asked) const = 0;
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 
  private:

@@ -4,6 +4,8 @@
 /// the sheet's placement removed.
 #pragma once
 
+#include <array>
+
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
@@ -17,19 +19,49 @@ class MapInFrame final : public LengthMap {
   explicit MapInFrame(const CompensationMap& map, MapFrame frame = MapFrame::marks)
       : map_(map), frame_(frame) {}
 
-  [[nodiscard]] std::span<const std::string_view> length_names() const override;
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
+  [[nodiscard]] std::span<const std::string_view> length_names() const override {
+    static constexpr std::array<std::string_view, 2> kNames = {"left", "right"};
+    return kNames;
+  }
+
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(
+      model::BedPoint point) const override {
+    const auto found = map_.query(mark_of(point));
+    if (!found) return tl::unexpected(found.error());
+    return LengthsAnswer{Eigen::Vector2d(found->lengths.left_mm, found->lengths.right_mm),
+                         found->sigma,
+                         found->tool_sigma_mm,
+                         found->status};
+  }
+
   [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
-      model::BedPoint point) const override;
+      model::BedPoint point) const override {
+    const auto found = map_.lengths(mark_of(point));
+    if (!found) return tl::unexpected(found.error());
+    return found->lengths;
+  }
+
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
-      model::ChainLengths lengths) const override;
-  [[nodiscard]] MapStatus status(model::BedPoint point) const override;
+      model::ChainLengths lengths) const override {
+    const auto found = map_.inverse(lengths);
+    if (!found) return tl::unexpected(found.error());
+    return frame_ == MapFrame::bed ? map_.to_bed(*found) : model::identity_placement(*found);
+  }
+
+  [[nodiscard]] MapStatus status(model::BedPoint point) const override {
+    return map_.status(mark_of(point));
+  }
   /// In directions of the marks' axes.
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override {
+    return map_.tool_spread(mark_of(point));
+  }
+
   [[nodiscard]] const interp::Rectangle& domain() const override { return map_.contents().domain; }
 
  private:
-  [[nodiscard]] model::MarkPoint mark_of(model::BedPoint point) const;
+  [[nodiscard]] model::MarkPoint mark_of(model::BedPoint point) const {
+    return frame_ == MapFrame::bed ? map_.to_mark(point) : model::identity_placement(point);
+  }
 
   const CompensationMap& map_;
   MapFrame frame_;

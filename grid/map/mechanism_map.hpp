@@ -9,17 +9,21 @@
 /// root: the sum of squares of their lengths' differences, plus the sheet's own uncertainty.
 ///
 /// \code
-///   const auto map = MechanismMap::of(fitted, measured_points);
+///   const auto map = of(fitted, measured_points);
 ///   const auto lengths = map.lengths({100.0, -900.0});
 /// \endcode
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/mechanism.hpp"
 
@@ -39,8 +43,14 @@ class SheetInFrame {
 class LaidSheet final : public SheetInFrame {
  public:
   explicit LaidSheet(model::SheetPlacement laid = {}) : laid_(laid) {}
-  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const override;
-  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const override;
+  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const override {
+    const model::BedPoint at = laid_.to_bed(model::identity_placement(sheet));
+    return {at.x_mm, at.y_mm};
+  }
+
+  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const override {
+    return model::identity_placement(laid_.to_mark({position.x_mm, position.y_mm}));
+  }
 
  private:
   model::SheetPlacement laid_;
@@ -67,27 +77,106 @@ using PlacedAt = std::function<PlacedMechanism(const Eigen::VectorXd& values)>;
 
 class MechanismMap : public LengthMap {
  public:
-  MechanismMap(PlacedMechanism fitted, MechanismSpread spread, MeasuredArea area);
+  MechanismMap(PlacedMechanism fitted, MechanismSpread spread, MeasuredArea area)
+      : fitted_(std::move(fitted)), spread_(std::move(spread)), area_(std::move(area)) {}
   /// In the mechanism's own frame, over its extent. \throws std::invalid_argument for fewer than
   /// three points.
   [[nodiscard]] static MechanismMap of(const FittedMechanism& fitted,
-                                       const std::vector<model::BedPoint>& measured);
+                                       const std::vector<model::BedPoint>& measured) {
+    const PlacedMechanism best{fitted.mechanism, std::make_shared<const LaidSheet>()};
+    const model::MechanismExtent e = fitted.mechanism->extent();
+    std::vector<model::MarkPoint> points;
+    for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
+    return {
+        best,
+        spread_about(fitted.mechanism->values(),
+                     fitted.covariance,
+                     [&](const Eigen::VectorXd& values) {
+                       return PlacedMechanism{fitted.mechanism->with_values(values), best.sheet};
+                     }),
+        MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
+  }
 
-  [[nodiscard]] std::span<const std::string_view> length_names() const override;
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
+  [[nodiscard]] std::span<const std::string_view> length_names() const override {
+    return fitted_.mechanism->lengths();
+  }
+
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(
+      model::BedPoint point) const override {
+    if (!area_.domain().contains(point.x_mm, point.y_mm))
+      return tl::unexpected(MapReason::outside_map);
+    const auto found = fitted_.mechanism->predict(
+        fitted_.sheet->in_frame(point), {}, model::Derivatives::by_position);
+    if (!found) return tl::unexpected(unreachable(found.error()));
+    return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
+  }
+
   [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
-      model::BedPoint point) const override;
+      model::BedPoint point) const override {
+    if (!area_.domain().contains(point.x_mm, point.y_mm))
+      return tl::unexpected(MapReason::outside_map);
+    const auto found = lengths_of(fitted_, point);
+    if (!found) return tl::unexpected(unreachable(found.error()));
+    return *found;
+  }
+
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
-      model::ChainLengths lengths) const override;
-  [[nodiscard]] MapStatus status(model::BedPoint point) const override;
+      model::ChainLengths lengths) const override {
+    const auto found = fitted_.mechanism->locate_by_first(lengths);
+    if (!found) return tl::unexpected(unreachable(found.error()));
+    return fitted_.sheet->on_sheet(*found);
+  }
+
+  [[nodiscard]] MapStatus status(model::BedPoint point) const override {
+    return area_.status(model::identity_placement(point));
+  }
+
   [[nodiscard]] const interp::Rectangle& domain() const override { return area_.domain(); }
   /// One sigma of the first two lengths; a point that lengths() answers.
-  [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const;
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
+  [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const {
+    const auto centre = lengths_of(spread_.centre, point);
+    model::ChainLengths variance;
+    for (const PlacedMechanism& other : spread_.others) {
+      const auto there = lengths_of(other, point);
+      if (!centre || !there) continue;
+      variance.left_mm += std::pow(there->left_mm - centre->left_mm, 2);
+      variance.right_mm += std::pow(there->right_mm - centre->right_mm, 2);
+    }
+    const double own = fitted_.sheet->own_variance_mm2(point);
+    return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
+  }
+
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override {
+    const auto others = std::ssize(spread_.others);
+    Eigen::Matrix2Xd spread = Eigen::Matrix2Xd::Zero(2, others + 2);
+    if (const auto paid_out = lengths_of(spread_.centre, point)) {
+      for (Eigen::Index i = 0; i < others; ++i) {
+        const PlacedMechanism& other = spread_.others[as_size(i)];
+        const auto there = other.mechanism->locate_by_first(*paid_out);
+        if (!there) continue;
+        const model::BedPoint tool = other.sheet->on_sheet(*there);
+        spread.col(i) << tool.x_mm - point.x_mm, tool.y_mm - point.y_mm;
+      }
+    }
+    spread.rightCols<2>() =
+        std::sqrt(fitted_.sheet->own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
+    return spread;
+  }
+
   /// Corners of what was measured.
-  [[nodiscard]] std::vector<model::BedPoint> hull() const;
+  [[nodiscard]] std::vector<model::BedPoint> hull() const {
+    std::vector<model::BedPoint> corners;
+    for (const model::MarkPoint corner : area_.hull())
+      corners.push_back({corner.x_mm, corner.y_mm});
+    return corners;
+  }
 
  private:
+  static tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(
+      const PlacedMechanism& placed, model::BedPoint point) {
+    return placed.mechanism->first_lengths(placed.sheet->in_frame(point));
+  }
+
   PlacedMechanism fitted_;
   MechanismSpread spread_;
   MeasuredArea area_;

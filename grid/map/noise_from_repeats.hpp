@@ -5,10 +5,16 @@
 /// below the resolution of the rule.
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/map/fitted_points.hpp"
+#include "grid/observation/length_points.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 
@@ -36,9 +42,30 @@ class RepeatScatter {
   RepeatScatter(const observation::PointNoise& noise, const observation::PointNoise& rounding)
       : noise_(noise), rounding_(rounding) {}
   /// \param by_mark derivatives of the lengths by the mark
-  void add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2d& by_mark);
-  void end_group();
-  [[nodiscard]] std::optional<RepeatNoise> noise() const;
+  void add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2d& by_mark) {
+    const Eigen::LLT<Eigen::Matrix2d> factor(observation::covariance_of(noise_, by_mark));
+    group_.emplace_back(factor.matrixL().solve(residual_mm));
+    const Eigen::Matrix2d rounding = observation::covariance_of(rounding_, by_mark);
+    rounding_squares_ += factor.solve(rounding).trace();
+    rows_ += 2.0;
+  }
+
+  void end_group() {
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& w : group_) mean += w / as_double(group_.size());
+    for (const Eigen::Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
+    if (!group_.empty()) dof_ += 2.0 * as_double(group_.size() - 1);
+    group_.clear();
+  }
+
+  [[nodiscard]] std::optional<RepeatNoise> noise() const {
+    constexpr double kFewestDof = 4.0;
+    // For the noise that residuals are whitened by: repeats that agree so well are copies.
+    constexpr double kNothing = 1e-6;
+    if (dof_ < kFewestDof) return std::nullopt;
+    const double factor = std::sqrt(std::max(squares_ / dof_, rounding_squares_ / rows_));
+    return factor > kNothing ? std::optional(RepeatNoise{factor, dof_}) : std::nullopt;
+  }
 
  private:
   observation::PointNoise noise_;

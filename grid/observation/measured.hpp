@@ -28,33 +28,65 @@ struct MeasuredFile {
   [[nodiscard]] const MeasuredGrid* grid() const { return std::get_if<MeasuredGrid>(&measured); }
   [[nodiscard]] const MeasuredHoles* holes() const { return std::get_if<MeasuredHoles>(&measured); }
   /// The machine that the file states, if any.
-  [[nodiscard]] const std::optional<model::Machine>& machine() const;
+  [[nodiscard]] const std::optional<model::Machine>& machine() const {
+    return std::visit(
+        [](const auto& own) -> const auto& { return own.machine; }, measured);
+  }
 };
 
 class Measured {
  public:
   Measured() = default;
-  Measured(MeasuredGrid grid);  // NOLINT: a grid is a measurement
-  Measured(MeasuredHoles set);  // NOLINT: and so are holes
+  Measured(MeasuredGrid grid) { add(std::move(grid)); }  // NOLINT: a grid is a measurement
+  Measured(MeasuredHoles set) { add(std::move(set)); }   // NOLINT: and so are holes
   Measured(std::initializer_list<MeasuredFile> files) : files_(files) {}
 
   /// Without a given name they keep their own in messages.
-  void add(MeasuredGrid grid);
-  void add(MeasuredHoles set);
+  void add(MeasuredGrid grid) {
+    std::string name = grid.name;
+    files_.push_back({std::move(name), std::move(grid)});
+  }
+
+  void add(MeasuredHoles set) {
+    std::string name = set.name;
+    files_.push_back({std::move(name), std::move(set)});
+  }
+
   void add(MeasuredFile file) { files_.push_back(std::move(file)); }
 
   [[nodiscard]] const std::vector<MeasuredFile>& files() const { return files_; }
   /// Those of one kind, in their order.
-  [[nodiscard]] std::vector<const MeasuredGrid*> grids() const;
-  [[nodiscard]] std::vector<const MeasuredHoles*> holes() const;
+  [[nodiscard]] std::vector<const MeasuredGrid*> grids() const { return of_kind<MeasuredGrid>(); }
+  [[nodiscard]] std::vector<const MeasuredHoles*> holes() const { return of_kind<MeasuredHoles>(); }
   /// Null if there is none.
-  [[nodiscard]] MeasuredGrid* first_grid();
+  [[nodiscard]] MeasuredGrid* first_grid() {
+    for (MeasuredFile& file : files_) {
+      if (auto* own = std::get_if<MeasuredGrid>(&file.measured)) return own;
+    }
+    return nullptr;
+  }
+
   /// The name in the first file; empty if there is none.
-  [[nodiscard]] std::string name() const;
+  [[nodiscard]] std::string name() const {
+    if (files_.empty()) return {};
+    return std::visit([](const auto& own) { return own.name; }, files_.front().measured);
+  }
+
   /// The machine that the first file states.
-  [[nodiscard]] std::optional<model::Machine> machine() const;
+  [[nodiscard]] std::optional<model::Machine> machine() const {
+    return files_.empty() ? std::nullopt : files_.front().machine();
+  }
 
  private:
+  template <class Kind>
+  [[nodiscard]] std::vector<const Kind*> of_kind() const {
+    std::vector<const Kind*> result;
+    for (const MeasuredFile& file : files_) {
+      if (const auto* own = std::get_if<Kind>(&file.measured)) result.push_back(own);
+    }
+    return result;
+  }
+
   std::vector<MeasuredFile> files_;
 };
 

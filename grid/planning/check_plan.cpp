@@ -10,10 +10,10 @@
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
-#include "grid/raster.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
+#include "grid/raster.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/chains/chain_changes.hpp"
 
 namespace chaintrue::grid {

@@ -19,9 +19,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "grid/planning/holes_plan.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 
@@ -38,23 +44,103 @@ struct PlannedPlace {
 /// Immutable, thread safe.
 class DistanceChooser {
  public:
+  using Holes = std::vector<const PlannedPlace*>;
+
   /// `prior` is S before any measurement; `root` is L.
   DistanceChooser(const model::Machine& machine,
                   const HolesPlanRequest& request,
                   Eigen::MatrixXd prior,
-                  Eigen::MatrixXd root);
+                  Eigen::MatrixXd root)
+      : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
+    frame_.machine = machine;
+    frame_.tape.sigma_mm = request.tape_sigma_mm;
+    frame_.hole_sigma_mm = request.hole_sigma_mm;
+  }
 
   struct Choice {
     std::vector<HoleDistance> distances;
     double variance_mm2 = 0.0;  ///< trace(C S)
   };
   /// Adds distances one by one, each time the one that lowers the variance most.
-  [[nodiscard]] Choice greedy(const std::vector<const PlannedPlace*>& holes) const;
+  [[nodiscard]] Choice greedy(const Holes& holes) const {
+    // Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many
+    // updates; the first one is kept.
+    constexpr double kBetterChoice = 1.0 + 1e-6;
+    Measurable all = measurable(holes, in_reach(holes));
+    const double tape2 = request_.tape_sigma_mm * request_.tape_sigma_mm;
+    const auto count = std::ssize(all.distances);
+    const auto wanted = std::min(as_index(distances_of(request_)), count);
+    Choice choice;
+    choice.variance_mm2 = linear::carried(root_, prior_).trace();
+    std::vector<bool> taken(all.distances.size(), false);
+    for (Eigen::Index i = 0; i < wanted; ++i) {
+      Eigen::Index best = -1;
+      double best_gain = 0.0;
+      for (Eigen::Index k = 0; k < count; ++k) {
+        if (taken[as_size(k)]) continue;
+        const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
+        if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
+        best_gain = gain;
+        best = k;
+      }
+      taken[as_size(best)] = true;
+      choice.distances.push_back(all.distances[as_size(best)]);
+      choice.variance_mm2 -= best_gain;
+      const Eigen::VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
+      all.pull -= Eigen::VectorXd(all.pull.col(best)) * with.transpose();
+      all.known -= Eigen::VectorXd(all.known.col(best)) * with.transpose();
+    }
+    return choice;
+  }
+
   /// Exchanges single distances as long as an exchange is an improvement.
-  [[nodiscard]] Choice exchange(const std::vector<const PlannedPlace*>& holes, Choice choice) const;
+  [[nodiscard]] Choice exchange(const Holes& holes, Choice choice) const {
+    constexpr int kSweeps = 5;
+    constexpr double kWorthwhile = 1e-6;
+    const Measurable all = measurable(holes, in_reach(holes));
+    const auto number_of = [&all](const HoleDistance& distance) {
+      const auto at =
+          std::find_if(all.distances.begin(), all.distances.end(), [&](const auto& one) {
+            return one.from == distance.from && one.to == distance.to && one.edge == distance.edge;
+          });
+      return as_size(at - all.distances.begin());
+    };
+    std::vector<std::size_t> chosen;
+    for (const HoleDistance& distance : choice.distances) chosen.push_back(number_of(distance));
+    bool moved = true;
+    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+      moved = false;
+      for (std::size_t& one : chosen) {
+        const auto done = as_double(&one - chosen.data());
+        tell(request_.progress,
+             {"which distances are measured", 2, 2, done / as_double(chosen.size()), sweep + 1});
+        for (std::size_t other = 0; other < all.distances.size(); ++other) {
+          if (contains(chosen, other)) continue;
+          const std::size_t before = std::exchange(one, other);
+          const double variance = variance_mm2(all, chosen);
+          if (variance < choice.variance_mm2 * (1.0 - kWorthwhile)) {
+            choice.variance_mm2 = variance;
+            moved = true;
+          } else {
+            one = before;
+          }
+        }
+      }
+    }
+    choice.distances.clear();
+    for (const std::size_t k : chosen) choice.distances.push_back(all.distances[k]);
+    return choice;
+  }
+
   /// S after these measurements.
-  [[nodiscard]] Eigen::MatrixXd covariance(const std::vector<const PlannedPlace*>& holes,
-                                           const std::vector<HoleDistance>& distances) const;
+  [[nodiscard]] Eigen::MatrixXd covariance(const Holes& holes,
+                                           const std::vector<HoleDistance>& distances) const {
+    const Measurable measured = measurable(holes, distances);
+    Eigen::MatrixXd k = measured.known;
+    k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
+    const Eigen::MatrixXd cross = linear::product(prior_, linear::transposed(measured.by_unknown));
+    return prior_ - linear::product(cross, linear::Cholesky(std::move(k)).solve(cross.transpose()));
+  }
 
  private:
   /// All distances that a tape can measure, before any measurement.
@@ -64,13 +150,64 @@ class DistanceChooser {
     Eigen::MatrixXd known;       ///< K without the tape's part
     Eigen::MatrixXd pull;        ///< b
   };
-  [[nodiscard]] Measurable measurable(const std::vector<const PlannedPlace*>& holes,
-                                      std::vector<HoleDistance> distances) const;
-  [[nodiscard]] std::vector<HoleDistance> in_reach(
-      const std::vector<const PlannedPlace*>& holes) const;
+  [[nodiscard]] Measurable measurable(const Holes& holes,
+                                      std::vector<HoleDistance> distances) const {
+    MeasuredHoles set = frame_;
+    set.distances = std::move(distances);
+    std::vector<model::MarkPoint> marks;
+    for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
+    const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks);
+    const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
+    Eigen::MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      marks_by_unknown.middleRows<2>(2 * as_index(i)) = holes[i]->by_unknown;
+    }
+    Measurable all;
+    all.by_unknown = geometry.by_mark * marks_by_unknown;
+    const Eigen::MatrixXd cross = prior_ * all.by_unknown.transpose();
+    all.known = all.by_unknown * cross + noise.holes_mm2 + noise.size_mm2 + noise.tape_zero_mm2;
+    all.pull = root_ * cross;
+    all.distances = std::move(set.distances);
+    return all;
+  }
+
+  [[nodiscard]] std::vector<HoleDistance> in_reach(const Holes& holes) const {
+    std::vector<HoleDistance> distances;
+    for (std::size_t a = 0; a < holes.size(); ++a) {
+      for (std::size_t b = a + 1; b < holes.size(); ++b) {
+        const double way_mm = std::hypot(holes[a]->place.x_mm - holes[b]->place.x_mm,
+                                         holes[a]->place.y_mm - holes[b]->place.y_mm);
+        if (way_mm <= request_.longest_mm) distances.push_back({.from = a, .to = b});
+      }
+    }
+    if (!request_.edges) return distances;
+    // A tape is held square to an edge by eye, to a degree: 0.15 mm at this length.
+    constexpr double kLongestToEdgeMm = 1000.0;
+    const model::Bed& bed = frame_.machine->bed;
+    const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
+    for (std::size_t a = 0; a < holes.size(); ++a) {
+      // The nearer of two edges: it is as informative.
+      const model::MarkPoint at = holes[a]->place;
+      const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,
+                                 at.y_mm < 0.0 ? SheetEdge::bottom : SheetEdge::top};
+      const double way_mm[] = {0.5 * bed.width_mm - std::abs(at.x_mm),
+                               0.5 * bed.height_mm - std::abs(at.y_mm)};
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (way_mm[i] <= longest_mm) distances.push_back({.from = a, .edge = edges[i]});
+      }
+    }
+    return distances;
+  }
+
   /// trace(C S) after measuring those with these numbers.
   [[nodiscard]] double variance_mm2(const Measurable& all,
-                                    const std::vector<std::size_t>& chosen) const;
+                                    const std::vector<std::size_t>& chosen) const {
+    Eigen::MatrixXd k = all.known(chosen, chosen);
+    k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
+    const Eigen::MatrixXd pull = all.pull(Eigen::all, chosen);
+    const Eigen::MatrixXd half = linear::Cholesky(std::move(k)).half_solve(pull.transpose());
+    return linear::carried(root_, prior_).trace() - half.squaredNorm();
+  }
 
   HolesPlanRequest request_;
   MeasuredHoles frame_;  ///< the machine, the sheet and the sigmas, without holes

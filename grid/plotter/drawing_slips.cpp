@@ -45,10 +45,12 @@ std::vector<Transformation> drawing_transformations(
     const Eigen::VectorXd& as_set,
     const std::function<TrendRows(const TestDrawing&)>& rows) {
   input_checks::Transformations<TestDrawing> list(drawing, rows);
-  const auto scale = [&](ProblemKind kind, std::string sentence, auto takes, double factor) -> Transformation& {
-    return list.add(kind, std::move(sentence), [takes, factor](TestDrawing& meant, std::size_t row) {
-      if (takes(meant.measures[row])) meant.measures[row].value_mm *= factor;
-    });
+  const auto scale =
+      [&](ProblemKind kind, std::string sentence, auto takes, double factor) -> Transformation& {
+    return list.add(
+        kind, std::move(sentence), [takes, factor](TestDrawing& meant, std::size_t row) {
+          if (takes(meant.measures[row])) meant.measures[row].value_mm *= factor;
+        });
   };
   const auto all = [](const DrawnMeasure&) { return true; };
   const auto lengths = [](const DrawnMeasure& m) { return m.kind == Kind::length; };
@@ -144,8 +146,7 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
     return own;
   };
   const TrendRows written = rows(drawing);
-  const auto plain =
-      input_checks::account_of(input_checks::robust_trend(written, sigma));
+  const auto plain = input_checks::account_of(input_checks::robust_trend(written, sigma));
   std::vector<input_checks::Candidate> candidates =
       input_checks::searched(sigma,
                              written,
