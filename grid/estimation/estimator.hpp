@@ -2,20 +2,30 @@
 /// \file
 /// The passes of estimate() and their state. Private to grid/estimation.
 ///
-/// estimate.cpp repeats linearise, solve and weigh until a pass changes nothing;
-/// rejected_readings.cpp leaves out single readings; estimate_result.cpp makes the estimate from
-/// the last pass.
+/// They repeat linearise, solve and weigh until a pass changes nothing. Then single readings that the
+/// others contradict are left out one at a time, the worst first. The last pass makes the estimate.
 #pragma once
 
+#include <fmt/format.h>
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/joint_problem.hpp"
+#include "grid/estimation/left_out.hpp"
+#include "grid/estimation/unknowns.hpp"
+#include "interp/linear_algebra.hpp"
+#include "model/calibration/setting.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -34,36 +44,481 @@ class Estimator {
         problem_(std::make_unique<JointProblem>(input_, input_.surface == SurfaceUse::smoothed)),
         state_(problem_->stated()) {}
 
-  tl::expected<Estimate, EstimationFailure> run();
+  tl::expected<Estimate, EstimationFailure> run() {
+    if (auto done = approach(); !done) return tl::unexpected(done.error());
+    if (auto done = converge(); !done) return tl::unexpected(done.error());
+    if (input_.reading_limits) reject_readings();
+    if (input_.surface == SurfaceUse::on_evidence) {
+      if (auto done = choose_surface(); !done) return tl::unexpected(done.error());
+    }
+    return result();
+  }
 
  private:
+  using Reason = EstimationFailure::Reason;
+
+  /// A smaller change of a weight changes results by at most a few hundredths of a sigma.
+  static constexpr double kConvergedWeight = 1e-2;
+  /// Passes with soft weights only, so that several bad units cannot hide each other.
+  static constexpr int kSoftRounds = 4;
+
+  /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
+  /// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
+  static double chi(Eigen::Index n, double z) {
+    const double part = 2.0 / (9.0 * as_double(n));
+    return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
+  }
+
+  /// The treatment of a unit by its distance.
+  struct UnitRule {
+    double full_weight_within;  ///< 95 % of good units
+    double rejected_beyond;
+    bool worst_first;  ///< one at a time, against the others' prediction and noise
+  };
+
+  static UnitRule rule_of(Eigen::Index rows) {
+    if (rows == 1) return {1.96, kBadDistanceSigmas, true};
+    if (rows == 2) return {2.4477, kBadPointDistance, false};
+    // The same probabilities as for two rows: 5 % and 4e-5.
+    return {chi(rows, 1.6449), chi(rows, 3.9444), false};
+  }
+
+  /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
+  /// from what is estimated, holes lie where the last step put them; distances converge more slowly, one
+  /// of them being rejected at a time.
+  static ConvergenceRule convergence_rule_of(const EstimationInput& input, bool places_move) {
+    if (input.fixed_weights) return {12, 1e-6, true, 0};
+    return places_move ? ConvergenceRule{40, 1e-3, true, kSoftRounds + 2}
+                       : ConvergenceRule{25, 3e-3, false, kSoftRounds + 2};
+  }
+
+  static EstimationFailure failure_of(const interp::FitFailure& refusal) {
+    return {refusal.reason == interp::FitFailure::Reason::rank_deficient ? Reason::rank_deficient
+                                                                         : Reason::not_converged,
+            refusal.sentence()};
+  }
+
   /// Choosing the smoothing costs some twenty times a solution.
   enum class Smoothing { choose, keep };
   using Fit = tl::expected<interp::PenalisedFit, EstimationFailure>;
   [[nodiscard]] Fit solve(const Eigen::VectorXd& weights,
                           Smoothing smoothing,
-                          bool correct_covariance) const;
-  tl::expected<void, EstimationFailure> approach();
-  tl::expected<void, EstimationFailure> converge();
-  void begin_weights();
+                          bool correct_covariance) const {
+    const interp::PenalisedProblem problem = problem_->weighted(weights);
+    interp::FitOptions options;
+    options.correct_covariance = correct_covariance;
+    options.prior = input_.noise_prior;
+    auto fit = smoothing == Smoothing::choose
+                   ? interp::fit_penalised(problem, options)
+                   : interp::fit_with_smoothing(problem, fit_.lambda, fit_.sigma2);
+    if (!fit) return tl::unexpected(failure_of(fit.error()));
+    return *std::move(fit);
+  }
+
+  tl::expected<void, EstimationFailure> approach() {
+    constexpr int kMostSteps = 100;
+    constexpr double kLargestDamping = 1e12;
+    // Relative reduction of the sum of squares: smaller steps are a small part of a sigma. The second
+    // is for noise-free readings.
+    constexpr double kNear = 1e-6;
+    constexpr double kNearNothing = 1e-12;
+    const Unknowns& layout = problem_->layout();
+    bool is_known = true;
+    for (Eigen::Index i = 0; i < layout.settings(); ++i)
+      is_known = is_known && std::isfinite(layout.sigma(i));
+    const bool has_settings_alone =
+        input_.surface == SurfaceUse::none && layout.total() == layout.settings();
+    if (is_known || !has_settings_alone) return {};
+    if (auto done = problem_->linearise(state_); !done) return done;
+    begin_weights();
+    const auto square_at = [](const interp::PenalisedProblem& problem, const Eigen::VectorXd& x) {
+      const Eigen::VectorXd off = x - problem.prior_mean;
+      return (problem.response - linear::product(problem.design, x)).squaredNorm() +
+             off.dot(linear::product(problem.prior_precision, off));
+    };
+    interp::PenalisedProblem now = problem_->weighted(weights_);
+    double square = square_at(now, state_.settings);
+    double damping = 1e-4;
+    is_linearised_ = true;
+    for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
+      Eigen::MatrixXd normal = now.gram + now.prior_precision;
+      const Eigen::VectorXd downhill = now.moment +
+                                       linear::product(now.prior_precision, now.prior_mean) -
+                                       linear::product(normal, state_.settings);
+      normal.diagonal() += damping * now.gram.diagonal();
+      State next = state_;
+      next.settings += linear::PivotedCholesky(normal).solve(downhill);
+      is_linearised_ = next.settings.allFinite() && problem_->linearise(next).has_value();
+      if (is_linearised_) {
+        interp::PenalisedProblem there = problem_->weighted(weights_);
+        const double left = square_at(there, next.settings);
+        is_linearised_ = left <= square;
+        if (is_linearised_) {
+          const bool is_near = square - left <= kNear * square + kNearNothing;
+          state_ = std::move(next);
+          now = std::move(there);
+          square = left;
+          damping = std::max(damping / 100.0, 1e-15);
+          if (is_near) break;
+          continue;
+        }
+      }
+      damping *= 4.0;
+    }
+    return {};
+  }
+
+  tl::expected<void, EstimationFailure> converge() {
+    ConvergenceRule rule = convergence_rule_of(input_, problem_->places_move());
+    if (input_.most_passes > 0) rule.most_passes = input_.most_passes;
+    converged_ = false;
+    Smoothing smoothing = Smoothing::choose;
+    for (int pass = 0; pass < rule.most_passes; ++pass) {
+      WorkStep work = input_.step;
+      work.pass = pass + 1;
+      tell(input_.progress, work);
+      // Once all but the smoothing has converged, the iteration that chooses it may be the last.
+      const bool last = pass + 1 == rule.most_passes;
+      const bool perhaps_last = converged_ || last || !problem_->has_surface();
+      if (perhaps_last) smoothing = Smoothing::choose;
+      if (!is_linearised_) {
+        if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
+      }
+      is_linearised_ = false;
+      begin_weights();
+      if (as_stated_.empty()) {
+        for (std::size_t k = 0; k < input_.observations.size(); ++k)
+          as_stated_.push_back(problem_->marks(k));
+      }
+      Fit fit = solve(weights_, smoothing, perhaps_last && problem_->has_surface());
+      if (!fit) return tl::unexpected(fit.error());
+      fit_ = *std::move(fit);
+      State next = problem_->state_of(fit_);
+      const double step = step_to(next, rule);
+      state_ = std::move(next);
+      const Eigen::VectorXd solved_with = weights_;
+      converged_ =
+          !update_weights(pass) && step < rule.step_sigmas && pass + 1 >= rule.fewest_rounds;
+      if (perhaps_last && (converged_ || last)) {
+        // The reported units belong to the weights of the last solution.
+        weights_ = solved_with;
+        break;
+      }
+      // Otherwise chosen again only when the bad units are first rejected.
+      smoothing = pass == kSoftRounds ? Smoothing::choose : Smoothing::keep;
+    }
+    return {};
+  }
+
+  void begin_weights() {
+    if (weights_.size() > 0) return;
+    const auto units = std::ssize(problem_->units());
+    weights_ = input_.fixed_weights.value_or(Eigen::VectorXd::Ones(units));
+    distances_ = Eigen::VectorXd::Zero(units);
+  }
+
   /// A reading and the number of its unit in the problem.
   struct Shift : ReadingShift {
     observation::UnitReading at;
   };
   /// Among the rejected readings, or among the others.
-  [[nodiscard]] std::vector<Shift> shifts(bool of_rejected) const;
-  [[nodiscard]] std::optional<Shift> worst_reading() const;
-  [[nodiscard]] std::optional<Shift> best_rejected() const;
-  [[nodiscard]] bool converge_without(RejectedReadings rejected);
-  void reject_readings();
-  [[nodiscard]] double step_to(const State& next, const ConvergenceRule& rule) const;
-  [[nodiscard]] bool update_weights(int pass);
-  [[nodiscard]] std::optional<std::size_t> worst_alone() const;
-  tl::expected<void, EstimationFailure> choose_surface();
-  [[nodiscard]] tl::expected<Estimate, EstimationFailure> result() const;
-  void fill_units(Estimate& estimate) const;
-  tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const;
-  void fill_covariances(Estimate& estimate) const;
+  [[nodiscard]] std::vector<Shift> shifts(bool of_rejected) const {
+    std::vector<Shift> all;
+    const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
+    const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
+    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+      const SystemUnit& unit = problem_->units()[u];
+      const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
+      std::vector<Eigen::Index> readings = rejected;
+      if (!of_rejected) {
+        readings = numbers_below<Eigen::Index>(unit.by_reading.cols());
+        std::erase_if(readings, [&](Eigen::Index i) { return contains(rejected, i); });
+      }
+      for (const Eigen::Index i : readings)
+        all.push_back({shift_of(rows, unit, rejected, i), {u, i}});
+    }
+    return all;
+  }
+
+  [[nodiscard]] std::optional<Shift> worst_reading() const {
+    std::optional<Shift> worst;
+    // Readings that share one check deviate equally; the first of them is taken.
+    constexpr double kSame = 1e-6;
+    for (const Shift& one : shifts(false)) {
+      if (!worst || one.sigmas > (1.0 + kSame) * worst->sigmas) worst = one;
+    }
+    return worst;
+  }
+
+  [[nodiscard]] std::optional<Shift> best_rejected() const {
+    std::optional<Shift> best;
+    for (const Shift& one : shifts(true)) {
+      if (one.sigmas > 0.0 && (!best || one.sigmas < best->sigmas)) best = one;
+    }
+    return best;
+  }
+
+  [[nodiscard]] bool converge_without(RejectedReadings rejected) {
+    std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
+    for (std::size_t u = 0; u < rejected.size(); ++u) {
+      const SystemUnit& unit = problem_->units()[u];
+      for (const Eigen::Index i : rejected[u])
+        of_observation[unit.observation].push_back({unit.unit, i});
+    }
+    const observation::Observations before = input_.observations;
+    auto fit = fit_;
+    auto state = state_;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (auto other = before[k]->about_others(of_observation[k]))
+        input_.observations[k] = std::move(other);
+    }
+    auto problem =
+        std::exchange(problem_, std::make_unique<JointProblem>(input_, false, std::move(rejected)));
+    is_linearised_ = false;
+    if (converge()) return true;
+    problem_ = std::move(problem);
+    input_.observations = before;
+    fit_ = std::move(fit);
+    state_ = std::move(state);
+    return false;
+  }
+
+  void reject_readings() {
+    const ReadingLimits& limits = *input_.reading_limits;
+    if (std::sqrt(fit_.sigma2) > limits.most_noise) return;
+    Eigen::Index readings = 0;
+    for (const SystemUnit& unit : problem_->units()) readings += unit.by_reading.cols();
+    const auto most = static_cast<std::size_t>(limits.most_share * as_double(readings));
+    const auto of_now = [this] {
+      RejectedReadings rejected = problem_->rejected();
+      rejected.resize(problem_->units().size());
+      return rejected;
+    };
+    for (std::size_t out = 0; out < most && problem_->dof(fit_) > 1.0; ++out) {
+      const auto worst = worst_reading();
+      if (!worst || worst->sigmas < limits.rejected_beyond) break;
+      RejectedReadings more = of_now();
+      more[worst->at.unit].push_back(worst->at.reading);
+      if (!converge_without(std::move(more))) break;
+    }
+    // A reading rejected while a worse one was still included may fit after all.
+    for (std::size_t back = 0; back < most; ++back) {
+      const auto best = best_rejected();
+      if (!best || best->sigmas >= limits.rejected_beyond) break;
+      const RejectedReadings now = of_now();
+      RejectedReadings fewer = now;
+      std::erase(fewer[best->at.unit], best->at.reading);
+      if (!converge_without(std::move(fewer))) break;
+      const auto worst = worst_reading();
+      if (!worst || worst->sigmas < limits.rejected_beyond) continue;
+      if (!converge_without(now)) break;
+      break;
+    }
+  }
+
+  [[nodiscard]] double step_to(const State& next, const ConvergenceRule& rule) const {
+    double step = 0.0;
+    const Unknowns& unknowns = problem_->unknowns();
+    for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
+      if (unknowns.sigma(i) <= kKnownSigma) continue;
+      // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
+      // micrometre.
+      constexpr double kLeastSigma = 1e-3;
+      const double sigma = std::isfinite(unknowns.sigma(i))
+                               ? unknowns.sigma(i)
+                               : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
+      step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
+    }
+    for (const model::Side side : model::kSides) {
+      if (!rule.scales_count || unknowns.scales() == 0) break;
+      step = std::max(
+          step, std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
+    }
+    return step;
+  }
+
+  [[nodiscard]] bool update_weights(int pass) {
+    if (input_.fixed_weights) return false;
+    LeftOut left_out(*problem_, fit_, weights_);
+    left_out.prepare_units();
+    for (Eigen::Index u = 0; u < distances_.size(); ++u)
+      distances_[u] = left_out.distance(as_size(u));
+    double change = 0.0;
+    Eigen::VectorXd next = weights_;
+    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+      const UnitRule rule = rule_of(problem_->units()[u].rows);
+      const auto at = as_index(u);
+      if (rule.worst_first && weights_[at] == 0.0) continue;
+      const bool bad =
+          !rule.worst_first && pass >= kSoftRounds && distances_[at] > rule.rejected_beyond;
+      next[at] =
+          bad ? 0.0 : std::min(1.0, rule.full_weight_within / std::max(distances_[at], 1e-12));
+      change = std::max(change, std::abs(next[at] - weights_[at]));
+    }
+    weights_ = std::move(next);
+    if (pass >= kSoftRounds) {
+      if (const auto worst = worst_alone()) {
+        weights_[as_index(*worst)] = 0.0;
+        return true;
+      }
+    }
+    return change > kConvergedWeight;
+  }
+
+  [[nodiscard]] std::optional<std::size_t> worst_alone() const {
+    constexpr double kSuspect = 2.5;
+    std::optional<std::size_t> worst;
+    std::size_t candidates = 0;
+    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+      const auto at = as_index(u);
+      if (weights_[at] == 0.0 || !rule_of(problem_->units()[u].rows).worst_first) continue;
+      ++candidates;
+      if (distances_[at] <= kSuspect) continue;
+      if (!worst || distances_[at] > distances_[as_index(*worst)]) worst = u;
+    }
+    if (!worst || candidates <= kFewestSingleRows) return std::nullopt;
+    Eigen::VectorXd without = weights_;
+    without[as_index(*worst)] = 0.0;
+    const Fit fit = solve(without, Smoothing::choose, false);
+    if (!fit) return std::nullopt;
+    const bool bad =
+        LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).rejected_beyond;
+    return bad ? worst : std::nullopt;
+  }
+
+  tl::expected<void, EstimationFailure> choose_surface() {
+    interp::FitOptions plain;
+    plain.prior = interp::SmoothingPrior::none;
+    plain.correct_covariance = false;
+    // V without a surface; for unknown noise it includes the prior (reml.hpp).
+    const bool unknown = input_.noise.knowledge == interp::NoiseKnowledge::unknown;
+    const double without = fit_.minus_two_log_reml + (unknown ? std::log(fit_.sigma2) : 0.0);
+    auto bent = std::make_unique<JointProblem>(input_, true);
+    State state = bent->stated();
+    state.settings = state_.settings;
+    state.surface.scale = state_.surface.scale;
+    if (auto done = bent->linearise(state); !done) return done;
+    const auto with = interp::fit_penalised(bent->weighted(weights_), plain);
+    if (!with) return {};  // readings that do not determine a surface do not support one
+    // The polynomials' prior, added to V as a constant.
+    const double prior = 2.0 * as_double(bent->unknowns().surface().polynomials) *
+                         std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
+    surface_log_evidence_ = 0.5 * (without - (with->minus_two_log_reml - prior));
+    if (surface_log_evidence_ < kSurfaceEvidence) return {};
+    problem_ = std::move(bent);
+    state_ = std::move(state);
+    weights_.resize(0);
+    return converge();
+  }
+
+  [[nodiscard]] tl::expected<Estimate, EstimationFailure> result() const {
+    auto found = problem_->unknowns().mechanism_at(problem_->coefficients(fit_));
+    const auto* chains = dynamic_cast<const model::ReadingModel*>(found.get());
+    const observation::Columns columns = observation::columns_of(*input_.observations.front());
+    Estimate estimate{
+        chains != nullptr ? chains->machine() : input_.machine,
+        chains != nullptr ? observation::settings_in(columns) : std::vector<model::Setting>{},
+        {},
+        {},
+        state_.surface,
+        problem_->has_surface(),
+        surface_log_evidence_,
+        {},
+        {},
+        std::sqrt(fit_.sigma2),
+        fit_.edf,
+        {},
+        {},
+        {},
+        converged_,
+        std::move(found)};
+    fill_covariances(estimate);
+    fill_units(estimate);
+    if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
+    return estimate;
+  }
+
+  void fill_units(Estimate& estimate) const {
+    LeftOut left_out(*problem_, fit_, weights_);
+    left_out.prepare_units();
+    if (!input_.held_out_together.empty()) left_out.prepare_all();
+    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+      const SystemUnit& unit = problem_->units()[u];
+      const auto at = as_index(u);
+      const auto back = unit.whitening.inverse();
+      const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
+      const double distance = input_.fixed_weights ? left_out.distance(u) : distances_[at];
+      UnitEstimate own{unit.observation, unit.unit, weights_[at], distance, {}, {}, {}, {}};
+      own.residual = back * (problem_->response().segment(unit.first_row, unit.rows) -
+                             rows * fit_.coefficients);
+      const LeftOut::Conditioned conditioned = left_out.conditioned(u);
+      own.left_out = back * conditioned.residual;
+      own.left_out_covariance = back * conditioned.covariance * back.transpose();
+      estimate.units.push_back(std::move(own));
+    }
+    for (const Shift& one : shifts(true)) {
+      const SystemUnit& unit = problem_->units()[one.at.unit];
+      estimate.rejected_readings.push_back(
+          {unit.observation, {unit.unit, one.at.reading}, one.residual_mm, one.sigmas});
+    }
+    for (const UnitGroup& group : input_.held_out_together) {
+      const auto residuals = left_out.residuals(group);
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        estimate.units[group[k]].left_out_with_group =
+            problem_->units()[group[k]].whitening.inverse() * residuals[k];
+      }
+    }
+  }
+
+  tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const {
+    const Unknowns& unknowns = problem_->unknowns();
+    const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
+    const Eigen::VectorXd variance = problem_->covariance(fit_).diagonal();
+    const auto corrections = problem_->corrections_of(state_);
+    for (std::size_t k = 0; k < input_.observations.size(); ++k) {
+      const observation::Observation& observation = *input_.observations[k];
+      ObservationEstimate own;
+      own.sheet = unknowns.sheet_at(coefficients, k);
+      const auto line = observation.linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
+      if (!line) {
+        return tl::unexpected(
+            problem_->unreachable(line.error().at(PlaceOfObservation{k, line.error().place})));
+      }
+      own.predicted = line->predicted;
+      if (const Eigen::Index first = unknowns.zeros(k); first >= 0) {
+        const Eigen::Vector2d zeros = coefficients.segment<2>(first);
+        const Eigen::Vector2d sigma = variance.segment<2>(first).cwiseMax(0.0).cwiseSqrt();
+        own.zeros = {{{zeros[0], sigma[0]}, {zeros[1], sigma[1]}}};
+        for (std::size_t u = 0; u < line->units.size(); ++u) {
+          const observation::Unit& rows = observation.units()[u];
+          for (const observation::PlaceColumns& place : line->units[u].places)
+            own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
+        }
+      }
+      for (std::size_t i = 0; i < line->places.size(); ++i) {
+        const observation::ChainPlaceState& place = line->places[i];
+        own.places.push_back({as_stated_[k][i], place.mark, place.by_mark, place.reading.lengths});
+      }
+      const Eigen::Index count = observation.nuisance_sigma().size();
+      own.nuisance = coefficients.segment(unknowns.nuisance(k), count);
+      own.nuisance_sigma = variance.segment(unknowns.nuisance(k), count).cwiseMax(0.0).cwiseSqrt();
+      estimate.observations.push_back(std::move(own));
+    }
+    return {};
+  }
+
+  void fill_covariances(Estimate& estimate) const {
+    const Unknowns& unknowns = problem_->unknowns();
+    estimate.columns = {unknowns.settings(), estimate.surface.basis.size()};
+    estimate.covariance = problem_->map_covariance(fit_, estimate.columns);
+    std::vector<Eigen::Index> own;
+    for (Eigen::Index i = 0; i < unknowns.parameters(); ++i) own.push_back(i);
+    for (Eigen::Index i = 0; i < unknowns.scales(); ++i) own.push_back(unknowns.settings() + i);
+    const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
+    estimate.map_unknowns = coefficients.head(unknowns.settings() + unknowns.scales());
+    estimate.knowledge.mean = coefficients(own);
+    estimate.knowledge.covariance = problem_->covariance(fit_)(own, own);
+  }
 
   EstimationInput input_;
   std::unique_ptr<JointProblem> problem_;
