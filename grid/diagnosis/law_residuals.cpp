@@ -2,9 +2,11 @@
 #include "grid/diagnosis/law_residuals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
@@ -69,6 +71,181 @@ const Law* claimed_law(const Diagnosis& d) {
   if (!d.unexplained || d.unexplained->laws.empty()) return nullptr;
   const Law& first = d.unexplained->laws.front();
   return first.probability >= kLawClaimed ? &first : nullptr;
+}
+
+namespace {
+
+using Units = std::vector<std::size_t>;
+using Rows = std::vector<Eigen::Index>;
+
+constexpr std::size_t kFolds = 4;
+/// Number of values of a place or period that a part may choose from.
+constexpr std::size_t kMostValues = 5;
+
+bool has(const Units& units, std::size_t unit) { return contains(units, unit); }
+
+/// Distances between holes.
+bool joins_places(const RegressorSystem& system) {
+  return any_of(system.units, [](const SystemUnit& unit) { return unit.places.size() > 1; });
+}
+
+/// Every fourth place.
+std::vector<Units> folds(const RegressorSystem& system, const KeptRows& kept) {
+  std::vector<Units> result(kFolds);
+  if (!joins_places(system)) {
+    for (std::size_t k = 0; k < kept.units().size(); ++k)
+      result[k % kFolds].push_back(kept.units()[k].unit);
+    return result;
+  }
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    for (const KeptRows::Unit& unit : kept.units()) {
+      const auto& places = system.units[unit.unit].places;
+      if (any_of(places, [&](const auto& own) { return own.place % kFolds == fold; }))
+        result[fold].push_back(unit.unit);
+    }
+  }
+  return result;
+}
+
+/// A quarter of the places, those farthest towards a direction.
+Units quarter_of_places(const RegressorSystem& system, const KeptRows& kept, double towards_rad) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t p = 0; p < system.places.size(); ++p) {
+    const model::MarkPoint& mark = system.places[p].mark;
+    order.emplace_back(-(mark.x_mm * std::cos(towards_rad) + mark.y_mm * std::sin(towards_rad)), p);
+  }
+  sort(order);
+  order.resize(order.size() / 4);
+  Units units;
+  for (const KeptRows::Unit& unit : kept.units()) {
+    const auto& places = system.units[unit.unit].places;
+    if (any_of(places, [&](const auto& own) {
+          return any_of(order, [&](const auto& p) { return p.second == own.place; });
+        }))
+      units.push_back(unit.unit);
+  }
+  return units;
+}
+
+class Predictor {
+ public:
+  Predictor(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law)
+      : system_(a.system),
+        marginalised_(a.comparison.marginalised_systems[evidence.marginalised]),
+        without_(model_with(a, evidence, nullptr)) {
+    for (const WeighedLaw& own : evidence.laws) {
+      if (own.curve != law.curve || with_.size() == kMostValues) continue;
+      WeighedLaw other = own;
+      other.set = law.set;
+      other.discrepancy = law.discrepancy;
+      with_.push_back(model_with(a, evidence, &other));
+    }
+  }
+
+  /// Root mean square over all parts.
+  LawHeldOut::Errors errors(const std::vector<Units>& parts) const {
+    double without = 0.0;
+    double with = 0.0;
+    double count = 0.0;
+    for (const Units& left_out : parts) {
+      const Rows kept = marginalised_.kept.positions(left_out, false);
+      const Rows out = marginalised_.kept.positions(left_out);
+      // No prediction for a part that was rejected, or that is everything.
+      if (out.empty() || kept.empty()) continue;
+      without += square_mm2(without_, kept, out, left_out);
+      with += square_mm2(likeliest(kept), kept, out, left_out);
+      count += 1.0;
+    }
+    if (!(count > 0.0)) return {};
+    return {std::sqrt(without / count), std::sqrt(with / count)};
+  }
+
+ private:
+  const LawModel& likeliest(const Rows& kept) const {
+    std::vector<double> density;
+    for (const LawModel& model : with_) density.push_back(model.log_density(kept));
+    return with_[as_size(max_element(density) - density.begin())];
+  }
+
+  double square_mm2(const LawModel& model,
+                    const Rows& kept,
+                    const Rows& out,
+                    const Units& units) const {
+    const Eigen::VectorXd wrong = model.left_of_prediction(kept, out);
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
+    Eigen::Index at = 0;
+    for (const KeptRows::Unit& unit : marginalised_.kept.units()) {
+      if (!has(units, unit.unit)) continue;
+      if (!unit.across)
+        rows.segment(system_.units[unit.unit].first_row, unit.rows) = wrong.segment(at, unit.rows);
+      at += unit.rows;
+    }
+    return std::pow(rms_of_units_mm(system_, marginalised_.kept, rows, units), 2);
+  }
+
+  const RegressorSystem& system_;
+  const MarginalisedSystem& marginalised_;
+  LawModel without_;
+  std::vector<LawModel> with_;
+};
+
+}  // namespace
+
+std::optional<LawHeldOut> held_out_with(const Analysis& a,
+                                        const LawEvidence& evidence,
+                                        const WeighedLaw& law) {
+  const std::vector<BedPart> quarters =
+      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+  if (quarters.empty()) return std::nullopt;
+  const Predictor predictor(a, evidence, law);
+  const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
+  std::vector<Units> parts;
+  for (const BedPart& quarter : quarters) {
+    parts.push_back(joins_places(a.system) ? quarter_of_places(a.system, kept, quarter.towards_rad)
+                                           : quarter.units);
+  }
+  return LawHeldOut{predictor.errors(folds(a.system, kept)), predictor.errors(parts)};
+}
+
+double rms_of_units_mm(const RegressorSystem& system,
+                       const KeptRows& kept,
+                       const Eigen::VectorXd& rows,
+                       const std::vector<std::size_t>& units) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const KeptRows::Unit& unit : kept.units()) {
+    if (unit.across || (!units.empty() && !has(units, unit.unit))) continue;
+    sum += error_of_unit(system, rows, unit.unit).squaredNorm();
+    // A place's four belts leave two checks.
+    count += system.is_of_lengths() ? 2.0 : 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+double averaged_over_parts(const Analysis& a,
+                           const LawEvidence& evidence,
+                           const WeighedLaw& law,
+                           double probability) {
+  const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
+  const std::vector<BedPart> parts =
+      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+  if (parts.empty()) return probability;
+  const LawModel with = model_with(a, evidence, &law);
+  const LawModel without = model_with(a, evidence, nullptr);
+  const auto all = kept.positions({}, false);
+  const double of_all = with.log_density(all) - without.log_density(all);
+  // Keeps the odds finite.
+  const double sure = std::min(probability, 1.0 - 1e-15);
+  const double log_odds = std::log(sure) - std::log1p(-sure);
+  double sum = 0.0;
+  for (const BedPart& part : parts) {
+    const auto rows = kept.positions(part.units, false);
+    const double counts = as_double(all.size()) / as_double(rows.size());
+    const double own =
+        log_odds + counts * (with.log_density(rows) - without.log_density(rows)) - of_all;
+    sum += 1.0 / (1.0 + std::exp(-own));
+  }
+  return std::min(probability, sum / as_double(parts.size()));
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -8,15 +8,20 @@
 ///   const double w = system.log_weight(equations, {set, discrepancy}, {0});
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
+#include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -38,26 +43,93 @@ class LawSystem {
  public:
   /// `number` of one of the comparison's marginalised systems; `sets` of the system's regressors. The
   /// analysis must outlive this.
-  LawSystem(const Analysis& analysis,
-            std::size_t number,
-            const std::vector<std::vector<int>>& sets);
+  LawSystem(const Analysis& a, std::size_t number, const std::vector<std::vector<int>>& sets)
+      : from_(a.system),
+        marginalised_(a.comparison.marginalised_systems[number]),
+        noise_(a.system.noise_dof, marginalised_.kept.size()),
+        columns_(a.system) {
+    std::set<int> used;
+    for (const auto& set : sets) used.insert(set.begin(), set.end());
+    const std::vector<int> all(used.begin(), used.end());
+    causes_ = marginalised_.g.dense(all);
+    for (const auto& set : sets) {
+      std::vector<Eigen::Index> at;
+      for (const int k : set)
+        at.push_back(std::lower_bound(all.begin(), all.end(), k) - all.begin());
+      sets_.push_back(std::move(at));
+      log_prior_.push_back({log_prior(a.system, set, false), log_prior(a.system, set, true)});
+    }
+    for (const int k : all) cause_regressors_.push_back(from_.regressors[as_size(k)]);
+    own_.units = from_.units;
+    own_.places = from_.places;
+    own_.discrepancies = from_.discrepancies;
+    own_.unit_of_row = from_.unit_of_row;
+    own_.e = from_.e;
+    auto kernels = numbers_below(own_.discrepancies->kernels.size());
+    basis_.emplace(own_, marginalised_, kernels);
+    take(Eigen::MatrixXd(rows(), 0));
+  }
+
   LawSystem(const LawSystem&) = delete;
   LawSystem& operator=(const LawSystem&) = delete;
 
   /// A curve's columns at these grid points, in the kept rows after projection on the settings.
-  [[nodiscard]] Eigen::MatrixXd columns(const LawCurve& curve, const std::vector<double>& at) const;
+  [[nodiscard]] Eigen::MatrixXd columns(const LawCurve& curve,
+                                        const std::vector<double>& at) const {
+    return marginalised_.root.solve(marginalised_.kept.of(columns_.of(curve, at)));
+  }
+
   /// Replaces the columns of laws.
-  void take(const Eigen::MatrixXd& laws);
+  void take(const Eigen::MatrixXd& laws) {
+    Eigen::MatrixXd g(rows(), causes_.cols() + laws.cols());
+    g << causes_, laws;
+    marginalised_.g = RegressorColumns(std::move(g));
+    Regressor law;
+    law.lowest = kMinusInfinity;
+    law.highest = kInfinity;
+    own_.regressors = cause_regressors_;
+    own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
+    auto all = numbers_below<int>(own_.regressors.size());
+    given_.clear();
+    plain_ = &plains_.emplace_back(normal_equations(own_, marginalised_, std::move(all)));
+  }
 
   /// For the causes and the laws taken last.
-  [[nodiscard]] NormalEquations equations(int discrepancy);
+  [[nodiscard]] NormalEquations equations(int discrepancy) {
+    if (discrepancy < 0) return *plain_;
+    const std::size_t kernel = family().kernel_of(discrepancy);
+    auto found = given_.find(kernel);
+    if (found == given_.end()) found = given_.emplace(kernel, basis_->given(kernel, *plain_)).first;
+    return found->second.equations(family().strength_of(discrepancy), plain_->columns);
+  }
+
   /// Log prior and evidence of a context with some of the laws' columns; without the laws' prior.
   [[nodiscard]] double log_weight(const NormalEquations& equations,
                                   const LawContext& context,
-                                  const std::vector<Eigen::Index>& laws) const;
+                                  const std::vector<Eigen::Index>& laws) const {
+    const Priors& priors = log_prior_[context.set];
+    const bool given = context.discrepancy >= 0;
+    const double prior =
+        given ? priors.given + family().log_share_of(context.discrepancy) : priors.alone;
+    return prior + marginalised_.log_outliers +
+           set_evidence(equations, own_.regressors, all_columns(context, laws), noise_)
+               .log_evidence;
+  }
+
   [[nodiscard]] LawAmplitudes amplitudes(const NormalEquations& equations,
                                          const LawContext& context,
-                                         const std::vector<Eigen::Index>& laws) const;
+                                         const std::vector<Eigen::Index>& laws) const {
+    const std::vector<Eigen::Index> all = all_columns(context, laws);
+    Eigen::MatrixXd a = equations.gg(all, all);
+    const Eigen::VectorXd prior = equations.prior_square(all);
+    a.diagonal() += prior / (kWideSignalToNoise * kWideSignalToNoise);
+    const linear::Cholesky factor(std::move(a));
+    const Eigen::VectorXd c = equations.ge(all);
+    const Eigen::VectorXd b = factor.solve(c);
+    const double square = noise_.noise_square(std::max(equations.ee - c.dot(b), 0.0));
+    const auto m = std::ssize(laws);
+    return {b.tail(m), square * factor.inverse().bottomRightCorner(m, m)};
+  }
 
   [[nodiscard]] const DiscrepancyFamily& family() const { return *own_.discrepancies; }
   [[nodiscard]] std::size_t sets() const { return sets_.size(); }
@@ -66,7 +138,12 @@ class LawSystem {
  private:
   /// Columns in a context: of its causes and of some laws.
   [[nodiscard]] std::vector<Eigen::Index> all_columns(const LawContext& context,
-                                                      const std::vector<Eigen::Index>& laws) const;
+                                                      const std::vector<Eigen::Index>& laws) const {
+    std::vector<Eigen::Index> all = sets_[context.set];
+    for (const Eigen::Index k : laws) all.push_back(causes_.cols() + k);
+    return all;
+  }
+
   struct Priors {
     double alone = 0.0;
     double given = 0.0;  ///< with a discrepancy

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/law_held_out.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
