@@ -7,10 +7,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/evidence.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -20,21 +24,90 @@ class SingleScore {
  public:
   SingleScore(const RegressorSystem& system,
               const MarginalisedSystem& marginalised,
-              double noise_dof);
+              double noise_dof)
+      : marginalised_(marginalised), dof_(noise_dof) {
+    square_ = marginalised.g.squared_norms();
+    constant_.resize(square_.size());
+    for (Eigen::Index k = 0; k < square_.size(); ++k) {
+      const Regressor& d = system.regressor(k);
+      fixed_.push_back(d.fixed);
+      sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
+                                                                     : (d.highest > 0.0 ? 1 : -1));
+      constant_(k) = d.log_prior;
+      if (!d.fixed) constant_(k) -= std::log(kUsualSignalToNoise) + 0.5 * std::log1p(precision());
+      if (sign_.back() != 0) constant_(k) += std::log(2.0);
+    }
+  }
+
   /// The largest of all; `e` like MarginalisedSystem::e.
-  [[nodiscard]] double largest(const Eigen::VectorXd& e) const;
-  /// The largest over the columns of normal equations with this many rows.
-  [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const;
+  [[nodiscard]] double largest(const Eigen::VectorXd& e) const {
+    const Eigen::VectorXd c = marginalised_.g.transpose_times(e);
+    const double ee = e.squaredNorm();
+    const auto n = as_double(e.size());
+    double result = kNoScore;
+    for (Eigen::Index k = 0; k < c.size(); ++k)
+      result = std::max(result, score(k, square_(k), c(k), ee, n));
+    return result;
+  }
+
+  /// The largest over the columns of normal equations of so many rows.
+  [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const {
+    double result = kNoScore;
+    for (std::size_t i = 0; i < equations.columns.size(); ++i) {
+      const auto at = as_index(i);
+      result = std::max(result,
+                        score(equations.columns[i],
+                              equations.gg(at, at),
+                              equations.ge(at),
+                              equations.ee,
+                              as_double(rows)));
+    }
+    return result;
+  }
+
   /// For each column of `e`.
-  [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
+  [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const {
+    const RegressorColumns& g = marginalised_.g;
+    const Eigen::MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
+    const auto n = as_double(e.rows());
+    Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
+    for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {
+      const double ee = e.col(draw).squaredNorm();
+      for (Eigen::Index k = 0; k < g.cols(); ++k) {
+        const double own = g.factor(k) * c(g.index(k), draw);
+        if (most(k, square_(k), own, ee, n) > result(draw))
+          result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));
+      }
+    }
+    return result;
+  }
 
  private:
+  static constexpr double kNoScore = -1e3;
+  /// Prior of a strength.
+  static double precision() { return 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise); }
+
   /// For a regressor with this square and inner product with the residual, in this many rows.
-  [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
+  [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const {
+    const auto at = as_size(k);
+    if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
+    return constant_(k) - 0.5 * (n + dof_) * std::log1p(-share_taken(at, square, c, ee));
+  }
+
   /// A bound of it without a logarithm.
-  [[nodiscard]] double most(Eigen::Index k, double square, double c, double ee, double n) const;
+  [[nodiscard]] double most(Eigen::Index k, double square, double c, double ee, double n) const {
+    // -log(1 - x) <= x / (1 - x); the last digits of either side do not matter to a score that is far below.
+    constexpr double kRounding = 1e-9;
+    const double taken = share_taken(as_size(k), square, c, ee);
+    return constant_(k) + 0.5 * (n + dof_) * taken / (1.0 - taken) + kRounding;
+  }
+
   /// The reduction of the residual's square by the regressor's best size, relative to noise.
-  [[nodiscard]] double share_taken(std::size_t at, double square, double c, double ee) const;
+  [[nodiscard]] double share_taken(std::size_t at, double square, double c, double ee) const {
+    const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + precision()));
+    return drop / (dof_ + ee);
+  }
+
   const MarginalisedSystem& marginalised_;
   double dof_;
   Eigen::VectorXd square_;
@@ -46,7 +119,11 @@ class SingleScore {
 struct NullDistribution {
   std::vector<double> largest;  ///< ascending
   /// Share of draws at least as large: never 0, the data count as one draw.
-  [[nodiscard]] double p_value(double score) const;
+  [[nodiscard]] double p_value(double score) const {
+    const auto first = std::lower_bound(largest.begin(), largest.end(), score);
+    const auto above = as_double(largest.end() - first);
+    return (above + 1.0) / (as_double(largest.size()) + 1.0);
+  }
 };
 [[nodiscard]] NullDistribution draw_null(const SingleScore& score,
                                          Eigen::Index rows,

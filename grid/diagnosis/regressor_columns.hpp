@@ -13,9 +13,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/precondition.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -24,12 +27,29 @@ class RegressorColumns {
   RegressorColumns() = default;
   explicit RegressorColumns(Eigen::Index rows) : distinct_(rows, 0) {}
   /// Each column separately.
-  RegressorColumns(Eigen::MatrixXd columns);  // NOLINT(google-explicit-constructor): it is a matrix
+  RegressorColumns(Eigen::MatrixXd columns)  // NOLINT(google-explicit-constructor): it is a matrix
+      : distinct_(std::move(columns)), count_(distinct_.cols()) {
+    for (Eigen::Index k = 0; k < count_; ++k) of_.push_back({k, 1.0});
+  }
 
   /// factor times this.
-  void add(const Eigen::VectorXd& column, double factor = 1.0);
+  void add(const Eigen::VectorXd& column, double factor = 1.0) {
+    if (column.size() != rows()) {
+      throw precondition("a column of {} rows among columns of {}", column.size(), rows());
+    }
+    if (count_ == distinct_.cols()) {
+      distinct_.conservativeResize(Eigen::NoChange, std::max<Eigen::Index>(16, 2 * count_));
+    }
+    distinct_.col(count_) = column;
+    of_.push_back({count_, factor});
+    ++count_;
+  }
+
   /// factor times the last added column.
-  void add_multiple(double factor);
+  void add_multiple(double factor) {
+    if (count_ == 0) throw precondition("{} times the last of no columns", factor);
+    of_.push_back({count_ - 1, factor});
+  }
 
   /// Column k is factor(k) times column index(k) of these.
   [[nodiscard]] auto distinct() const { return distinct_.leftCols(count_); }
@@ -41,11 +61,35 @@ class RegressorColumns {
                                        Eigen::Index k) const {
     return distinct_.col(index(k))(rows) * factor(k);
   }
+
   /// rows() x cols()
-  [[nodiscard]] Eigen::MatrixXd dense() const;
+  [[nodiscard]] Eigen::MatrixXd dense() const {
+    Eigen::MatrixXd result(rows(), cols());
+    for (Eigen::Index k = 0; k < cols(); ++k) result.col(k) = col(k);
+    return result;
+  }
+
   /// rows() x columns.size()
-  [[nodiscard]] Eigen::MatrixXd dense(const std::vector<int>& columns) const;
-  [[nodiscard]] RegressorColumns subset(const std::vector<Eigen::Index>& columns) const;
+  [[nodiscard]] Eigen::MatrixXd dense(const std::vector<int>& columns) const {
+    Eigen::MatrixXd result(rows(), std::ssize(columns));
+    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+      result.col(k) = col(columns[as_size(k)]);
+    }
+    return result;
+  }
+
+  [[nodiscard]] RegressorColumns subset(const std::vector<Eigen::Index>& columns) const {
+    std::vector<Eigen::Index> kept;  // for the distinct columns, in their order
+    RegressorColumns result;
+    for (const Eigen::Index k : columns) {
+      if (kept.empty() || kept.back() != index(k)) kept.push_back(index(k));
+      result.of_.push_back({std::ssize(kept) - 1, factor(k)});
+    }
+    result.distinct_ = distinct_(Eigen::all, kept);
+    result.count_ = result.distinct_.cols();
+    return result;
+  }
+
   /// Applies a linear map to all columns: `map` takes and returns a matrix of as many columns.
   template <typename Map>
   [[nodiscard]] RegressorColumns mapped(const Map& map) const {
@@ -57,9 +101,20 @@ class RegressorColumns {
   }
 
   /// cols(): inner products of every column with a vector.
-  [[nodiscard]] Eigen::VectorXd transpose_times(const Eigen::VectorXd& vector) const;
+  [[nodiscard]] Eigen::VectorXd transpose_times(const Eigen::VectorXd& vector) const {
+    const Eigen::VectorXd products = linear::product(linear::transposed(distinct()), vector);
+    Eigen::VectorXd result(cols());
+    for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * products(index(k));
+    return result;
+  }
+
   /// cols()
-  [[nodiscard]] Eigen::VectorXd squared_norms() const;
+  [[nodiscard]] Eigen::VectorXd squared_norms() const {
+    const Eigen::VectorXd squares = distinct().colwise().squaredNorm();
+    Eigen::VectorXd result(cols());
+    for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * factor(k) * squares(index(k));
+    return result;
+  }
 
   [[nodiscard]] Eigen::Index index(Eigen::Index k) const { return of_[as_size(k)].index; }
   [[nodiscard]] double factor(Eigen::Index k) const { return of_[as_size(k)].factor; }

@@ -1,75 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/drawn_measures.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/LU>
-#include <algorithm>
-#include <tuple>
-
-#include "grid/containers.hpp"
-#include "grid/precondition.hpp"
-
 namespace chaintrue::grid::observation {
 
 const Kind drawn_measures{"drawn_measures", "measure", "measures", "point", false};
-
-DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points,
-                             std::vector<DrawnMeasure> measures,
-                             double noise_dof)
-    : Observation(false, noise_dof), points_(std::move(points)) {
-  std::vector<std::size_t> order(measures.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const DrawnMeasure& own = measures[i];
-    if (!(own.sigma_mm > 0.0))
-      throw precondition("a measure with sigma {} mm; it must be positive", own.sigma_mm);
-    if (std::max({own.from, own.to, own.middle}) >= points_.size())
-      throw precondition(
-          "a measure from point {} to {} of {} points", own.from, own.to, points_.size());
-    order[i] = i;
-  }
-  const auto key = [&](std::size_t i) {
-    const DrawnMeasure& m = measures[i];
-    return std::tie(m.kind, points_[m.from].name, points_[m.to].name, m.value_mm, m.sigma_mm);
-  };
-  sort(order, ascending(key));
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    places_.push_back({i, points_[i].name, points_[i].commanded, points_[i].paid_out});
-  measured_.resize(std::ssize(order));
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    measures_.push_back(measures[order[k]]);
-    measured_[as_index(k)] = measures_.back().value_mm;
-    units_.push_back({as_index(k), 1, order[k]});
-  }
-}
-
-tl::expected<std::vector<DrawnMeasures::Located>, Unreachable> DrawnMeasures::located(
-    const View& view, bool with_parameters) const {
-  const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
-                                      : model::Derivatives::by_position;
-  std::vector<Located> all;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto tool = view.mechanism->locate_by_first(points_[i].paid_out);
-    if (!tool) return tl::unexpected(tool.error().at(i));
-    Located own{{tool->x_mm, tool->y_mm}, Eigen::Matrix2Xd::Zero(2, 0)};
-    if (with_parameters) {
-      const auto lengths = view.mechanism->predict(*tool, {}, wanted);
-      if (!lengths) return tl::unexpected(lengths.error().at(i));
-      const Eigen::Matrix2d slope = lengths->by_position.topRows<2>();
-      own.by_parameter = -slope.inverse() * lengths->by_parameter.topRows<2>();
-    }
-    all.push_back(std::move(own));
-  }
-  return all;
-}
-
-namespace {
-
-/// (1) as a row: the measure and its derivatives by the three points.
-struct MeasureRow {
-  double value_mm = 0.0;
-  Eigen::RowVector2d by_from, by_to, by_middle;
-};
 
 MeasureRow measure_row(DrawnMeasure::Kind kind,
                        const Eigen::Vector2d& from,
@@ -85,52 +19,11 @@ MeasureRow measure_row(DrawnMeasure::Kind kind,
   return {across.dot(middle - from), (share - 1.0) * across, -share * across, across};
 }
 
-}  // namespace
-
 double measured_between(DrawnMeasure::Kind kind,
                         const Eigen::Vector2d& from,
                         const Eigen::Vector2d& to,
                         const Eigen::Vector2d& middle) {
   return measure_row(kind, from, to, middle).value_mm;
-}
-
-tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& view,
-                                                                  const Columns& columns) const {
-  const auto at = located(view, columns.parameters);
-  if (!at) return tl::unexpected(at.error());
-  const Eigen::Index p = columns.parameters ? view.mechanism->values().size() : 0;
-  Linearisation line;
-  line.predicted.resize(rows());
-  line.by_setting = Eigen::MatrixXd::Zero(rows(), p + (columns.sheet ? 3 : 0));
-  line.by_nuisance.resize(rows(), 0);
-  for (std::size_t k = 0; k < measures_.size(); ++k) {
-    const auto row = as_index(k);
-    const DrawnMeasure& m = measures_[k];
-    const Located &from = (*at)[m.from], &to = (*at)[m.to], &middle = (*at)[m.middle];
-    const MeasureRow own = measure_row(m.kind, from.at, to.at, middle.at);
-    line.predicted[row] = own.value_mm;
-    if (columns.parameters) {
-      line.by_setting.row(row).head(p) = own.by_from * from.by_parameter +
-                                         own.by_to * to.by_parameter +
-                                         own.by_middle * middle.by_parameter;
-    }
-    line.units.push_back({Eigen::MatrixXd::Constant(1, 1, m.sigma_mm * m.sigma_mm), {}});
-  }
-  return line;
-}
-
-std::string DrawnMeasures::untestable(const model::effects::Effect& effect,
-                                      model::effects::EffectSide /*side*/) const {
-  if (effect.needs != model::effects::DataNeed::order) return "";
-  return fmt::format("a drawing does not show the order of its lines, which {} needs", effect.id);
-}
-
-std::string DrawnMeasures::name_of(std::size_t unit) const {
-  const DrawnMeasure& m = measures_.at(unit);
-  return fmt::format("the {} {}-{}",
-                     m.kind == DrawnMeasure::Kind::length ? "length" : "bow of",
-                     points_[m.from].name,
-                     points_[m.to].name);
 }
 
 }  // namespace chaintrue::grid::observation

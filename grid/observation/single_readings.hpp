@@ -7,8 +7,14 @@
 /// They are linear in the settings.
 #pragma once
 
+#include <fmt/format.h>
+#include <tuple>
+
+#include "grid/containers.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/observation/observation.hpp"
+#include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -23,14 +29,61 @@ namespace chaintrue::grid::observation {
 class SingleReadings final : public Observation {
  public:
   /// Sorted by what is read. \throws std::invalid_argument for a sigma that is not positive.
-  explicit SingleReadings(std::vector<ExtraReading> readings);
+  explicit SingleReadings(std::vector<ExtraReading> readings)
+      : Observation(false, kInfinity, false), readings_(std::move(readings)) {
+    sort(readings_, [](const ExtraReading& a, const ExtraReading& b) {
+      return std::tie(a.what, a.side, a.value, a.sigma) <
+             std::tie(b.what, b.side, b.value, b.sigma);
+    });
+    measured_.resize(std::ssize(readings_));
+    for (std::size_t k = 0; k < readings_.size(); ++k) {
+      if (!(readings_[k].sigma > 0.0)) {
+        throw precondition("a reading of {} with sigma {}; it must be positive",
+                           name(readings_[k].what),
+                           readings_[k].sigma);
+      }
+      measured_(as_index(k)) = readings_[k].value;
+      units_.push_back({as_index(k), 1, k});
+    }
+  }
 
   [[nodiscard]] const Kind& kind() const override { return single_readings; }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
-      const View& view, const Columns& columns) const override;
+      const View& view, const Columns& columns) const override {
+    const std::vector<model::Setting> settings = settings_in(columns);
+    const model::Machine& machine = view.chains().machine();
+    Linearisation line;
+    line.predicted.resize(rows());
+    for (std::size_t k = 0; k < readings_.size(); ++k)
+      line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
+    line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
+    line.by_nuisance.resize(rows(), 0);
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+      if (model::is_of_sheet(settings[s])) continue;
+      const model::Machine moved = model::with_setting(
+          machine, settings[s], model::stated_value(machine, settings[s]) + 1.0);
+      for (std::size_t k = 0; k < readings_.size(); ++k) {
+        line.by_setting(as_index(k), as_index(s)) =
+            predicted_reading(moved, readings_[k]) - predicted_reading(machine, readings_[k]);
+      }
+    }
+    for (const ExtraReading& reading : readings_) {
+      line.units.push_back({Eigen::MatrixXd::Constant(1, 1, reading.sigma * reading.sigma), {}});
+    }
+    return line;
+  }
+
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
-                                       model::effects::EffectSide side) const override;
-  [[nodiscard]] std::string name_of(std::size_t unit) const override;
+                                       model::effects::EffectSide) const override {
+    return fmt::format("readings of the machine's parts alone do not show {}", effect.id);
+  }
+
+  [[nodiscard]] std::string name_of(std::size_t unit) const override {
+    const ExtraReading& reading = readings_.at(unit);
+    return reading.side.empty()
+               ? fmt::format("the reading of {}", name(reading.what))
+               : fmt::format("the reading of {} ({})", name(reading.what), reading.side);
+  }
 
   [[nodiscard]] const std::vector<ExtraReading>& readings() const { return readings_; }
 
