@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/tool_displacement.hpp"
 
+#include <cmath>
+
 namespace chaintrue::grid {
 
 Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,

@@ -20,7 +20,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "grid/containers.hpp"

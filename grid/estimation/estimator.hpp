@@ -6,14 +6,12 @@
 /// others contradict are left out one at a time, the worst first. The last pass makes the estimate.
 #pragma once
 
-#include <fmt/format.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
@@ -24,7 +22,6 @@
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "interp/linear_algebra.hpp"
-#include "model/calibration/setting.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {

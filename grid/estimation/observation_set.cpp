@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/observation_set.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
+#include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
+
 namespace chaintrue::grid::estimation {
 namespace {
 

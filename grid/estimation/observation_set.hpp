@@ -19,18 +19,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
-#include "grid/precondition.hpp"
-#include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/reading_model.hpp"
 

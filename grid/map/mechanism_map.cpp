@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/mechanism_map.hpp"
 
+#include "interp/linear_algebra.hpp"
+
 namespace chaintrue::grid {
 
 model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,

@@ -23,7 +23,6 @@
 #include "grid/containers.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/mechanism.hpp"
 

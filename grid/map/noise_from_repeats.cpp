@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/noise_from_repeats.hpp"
 
+#include "grid/observation/length_points.hpp"
+
 namespace chaintrue::grid {
 
 observation::PointNoise rounding_noise(const MeasuredGrid& grid) {

@@ -13,7 +13,6 @@
 
 #include "grid/containers.hpp"
 #include "grid/map/fitted_points.hpp"
-#include "grid/observation/length_points.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {

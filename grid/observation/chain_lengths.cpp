@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/chain_lengths.hpp"
 
+#include <cmath>
+
 namespace chaintrue::grid::observation {
 
 const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};

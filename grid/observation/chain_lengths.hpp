@@ -10,7 +10,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <cmath>
 #include <tuple>
 
 #include "grid/containers.hpp"
