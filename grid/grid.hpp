@@ -17,7 +17,6 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/effect_file.hpp"
-#include "grid/files/fit_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/holes_file.hpp"

@@ -13,7 +13,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "grid/synthetic/effect_picture.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/holes.hpp"
 
@@ -25,5 +27,14 @@ namespace chaintrue::grid::files {
 /// "bad_points".
 [[nodiscard]] std::string write_answer(const synthetic::SyntheticHoles& made,
                                        const synthetic::HolesSpec& spec);
+
+// The catalogue of effects, and the picture of one effect, as JSON for programs.
+
+/// { "file_type": "chaintrue_effects", ..., "effects": [ {"effect", "station", "sides",
+/// "parameters", words ...} ] }
+[[nodiscard]] std::string write_catalogue(
+    const std::vector<const model::effects::Effect*>& effects);
+/// { "file_type": "chaintrue_effect_picture", ..., "effect", "marks", "squares", "strength" }
+[[nodiscard]] std::string write_effect_picture(const synthetic::EffectPicture& picture);
 
 }  // namespace chaintrue::grid::files

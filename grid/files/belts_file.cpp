@@ -36,12 +36,11 @@ void move_ends(const std::vector<std::optional<std::size_t>>& kept,
       auto* index = std::get_if<std::size_t>(end);
       if (index == nullptr || *index >= kept.size()) continue;
       if (!kept[*index]) {
-        problems.add(
-            fmt::format("/distances/{}", i),
-            words_of(*end),
-            "a point that is used: --without leaves it out. Remove the distance from the file, or "
-            "keep the point",
-            ProblemKind::contradiction);
+        problems.add(fmt::format("/distances/{}", i),
+                     words_of(*end),
+                     "a point that is used: --without leaves it out. Remove the distance from the "
+                     "file, or keep the point",
+                     ProblemKind::contradiction);
         return;
       }
       *index = *kept[*index];
@@ -78,10 +77,10 @@ std::vector<std::size_t> point_numbers_of(const std::string& text,
   for (const std::string& part : parts_at_commas(text)) {
     const auto number = number_of(part);
     if (!number || !(*number >= 1.0) || !(*number <= kMost) || *number != std::floor(*number)) {
-      throw InputError({{"the command line",
-                         option,
-                         shortened(text),
-                         fmt::format("numbers of {}, counted from 1, as in 7,12", what)}});
+      refuse("the command line",
+             option,
+             shortened(text),
+             fmt::format("numbers of {}, counted from 1, as in 7,12", what));
     }
     numbers.push_back(static_cast<std::size_t>(*number));
   }

@@ -42,15 +42,13 @@ Record<StatedAnchor> anchor_record() {
                 kMillimetres);
 }
 
-const Record<PerBelt<StatedAnchor>>& anchors_record() {
+Record<PerBelt<StatedAnchor>> anchors_record() {
   using Anchors = PerBelt<StatedAnchor>;
-  static const auto record =
-      Record<Anchors>("four anchors")
-          .required("tl", "Top left.", &Anchors::tl, anchor_record())
-          .required("tr", "Top right.", &Anchors::tr, anchor_record())
-          .required("bl", "Bottom left, the origin.", &Anchors::bl, anchor_record())
-          .required("br", "Bottom right, on the x axis.", &Anchors::br, anchor_record());
-  return record;
+  return Record<Anchors>("four anchors")
+      .required("tl", "Top left.", &Anchors::tl, anchor_record())
+      .required("tr", "Top right.", &Anchors::tr, anchor_record())
+      .required("bl", "Bottom left, the origin.", &Anchors::bl, anchor_record())
+      .required("br", "Bottom right, on the x axis.", &Anchors::br, anchor_record());
 }
 
 void read_anchors(const Cursor& at, BeltMachine& machine) {
@@ -216,18 +214,16 @@ Record<BeltPoint> belt_point_record() {
   return point;
 }
 
-const Record<model::BedPoint>& hole_place_record() {
-  static const auto record =
-      Record<model::BedPoint>("where a hole was commanded")
-          .required("x_mm",
-                    "Commanded x, to the right of the crossing of the frame's diagonals.",
-                    &model::BedPoint::x_mm,
-                    number({"mm", -20000.0, 20000.0}))
-          .required("y_mm",
-                    "Commanded y, up from there.",
-                    &model::BedPoint::y_mm,
-                    number({"mm", -20000.0, 20000.0}));
-  return record;
+Record<model::BedPoint> hole_place_record() {
+  return Record<model::BedPoint>("where a hole was commanded")
+      .required("x_mm",
+                "Commanded x, to the right of the crossing of the frame's diagonals.",
+                &model::BedPoint::x_mm,
+                number({"mm", -20000.0, 20000.0}))
+      .required("y_mm",
+                "Commanded y, up from there.",
+                &model::BedPoint::y_mm,
+                number({"mm", -20000.0, 20000.0}));
 }
 
 void add_end(Record<BeltDistance>& record,
@@ -286,99 +282,88 @@ Record<BeltDistance> belt_distance_record() {
 
 }  // namespace
 
-const Record<FirmwareFit>& firmware_fit_record() {
+Record<FirmwareFit> firmware_fit_record() {
   constexpr Range kMisfit{"mm", 0.0, 10000.0};
-  static const auto record =
-      Record<FirmwareFit>("the machine's own words of its fit")
-          .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, kMisfit)
-          .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, kMisfit);
-  return record;
+  return Record<FirmwareFit>("the machine's own words of its fit")
+      .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, kMisfit)
+      .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, kMisfit);
 }
 
-const Record<BeltPrediction>& prediction_record() {
-  static const auto record =
-      Record<BeltPrediction>("what was predicted")
-          .required("readings",
-                    "Number of predicted readings of lower belts.",
-                    &BeltPrediction::readings,
-                    index_number(0, kMostReadings))
-          .required(
-              "rms_mm", "Rms of reading minus prediction.", &BeltPrediction::rms_mm, kSpreadMm)
-          .required("largest_mm", "Largest difference.", &BeltPrediction::largest_mm, kSpreadMm);
-  return record;
+Record<BeltPrediction> prediction_record() {
+  return Record<BeltPrediction>("what was predicted")
+      .required("readings",
+                "Number of predicted readings of lower belts.",
+                &BeltPrediction::readings,
+                index_number(0, kMostReadings))
+      .required("rms_mm", "Rms of reading minus prediction.", &BeltPrediction::rms_mm, kSpreadMm)
+      .required("largest_mm", "Largest difference.", &BeltPrediction::largest_mm, kSpreadMm);
 }
 
-const Record<BeltScale>& scale_record() {
-  static const auto record =
-      Record<BeltScale>("a scale")
-          .required("factor",
-                    "True length divided by the belts' length.",
-                    &BeltScale::factor,
-                    number({"", 0.1, 10.0}))
-          .required(
-              "sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, number({"", 0.0, 10.0}))
-          .required("residuals_mm",
-                    "Taped minus fitted, for each distance.",
-                    &BeltScale::residuals_mm,
-                    list(kMisfitMm));
-  return record;
+Record<BeltScale> scale_record() {
+  return Record<BeltScale>("a scale")
+      .required("factor",
+                "True length divided by the belts' length.",
+                &BeltScale::factor,
+                number({"", 0.1, 10.0}))
+      .required("sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, number({"", 0.0, 10.0}))
+      .required("residuals_mm",
+                "Taped minus fitted, for each distance.",
+                &BeltScale::residuals_mm,
+                list(kMisfitMm));
 }
 
-const Record<BeltMachine>& belt_machine_record() {
-  static const auto record = [] {
-    Record<BeltMachine> machine("a machine with four belts");
-    machine.optional("name", "Name of the machine in messages and pages.", &BeltMachine::name)
-        .custom("anchors",
-                "Where the belts leave the frame; absent: not known yet.",
-                false,
-                anchors_record().expected(),
-                read_anchors,
-                written_anchors)
-        .part("belt", "The belts.", false, belt_record())
-        .optional("arm_mm",
-                  "From the tool to the point where a belt's end is attached.",
-                  &BeltMachine::arm_mm,
-                  kMillimetres)
-        .optional("end_extension_mm",
-                  "Length of the belt's end, from its last tooth to the arm.",
-                  &BeltMachine::end_extension_mm,
-                  kMillimetres)
-        .optional("surface_mm",
-                  "Thickness of spoilboard and work together, added to the heights of the anchors.",
-                  &BeltMachine::surface_mm,
-                  kMillimetres)
-        .optional("orientation",
-                  "How the frame stands, which decides which belts are pulled.",
-                  &BeltMachine::orientation,
-                  by_name({model::Orientation::upright, model::Orientation::flat}))
-        .optional("lengths",
-                  "What a printed length includes: the belt, the belt with extension and arm, or "
-                  "the level span from anchor to tool.",
-                  &BeltMachine::lengths,
-                  by_name({model::BeltLengths::belt,
-                           model::BeltLengths::belt_and_arm,
-                           model::BeltLengths::span}))
-        .optional("scale_x",
-                  "The controller's factor for commands along x.",
-                  &BeltMachine::scale_x,
-                  number_in(""))
-        .optional("scale_y",
-                  "The controller's factor for commands along y.",
-                  &BeltMachine::scale_y,
-                  number_in(""))
-        .optional(
-            "setting_names",
-            "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
-            "the top level, as before July 2025.",
-            &BeltMachine::setting_names,
-            choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
-                                         {"top_level", model::SettingNames::top_level}}))
-        .check([](const Cursor& at, BeltMachine& own) {
-          report_impossible(at, model::problems_of(own));
-        });
-    return machine;
-  }();
-  return record;
+Record<BeltMachine> belt_machine_record() {
+  Record<BeltMachine> machine("a machine with four belts");
+  machine.optional("name", "Name of the machine in messages and pages.", &BeltMachine::name)
+      .custom("anchors",
+              "Where the belts leave the frame; absent: not known yet.",
+              false,
+              anchors_record().expected(),
+              read_anchors,
+              written_anchors)
+      .part("belt", "The belts.", false, belt_record())
+      .optional("arm_mm",
+                "From the tool to the point where a belt's end is attached.",
+                &BeltMachine::arm_mm,
+                kMillimetres)
+      .optional("end_extension_mm",
+                "Length of the belt's end, from its last tooth to the arm.",
+                &BeltMachine::end_extension_mm,
+                kMillimetres)
+      .optional("surface_mm",
+                "Thickness of spoilboard and work together, added to the heights of the anchors.",
+                &BeltMachine::surface_mm,
+                kMillimetres)
+      .optional("orientation",
+                "How the frame stands, which decides which belts are pulled.",
+                &BeltMachine::orientation,
+                by_name({model::Orientation::upright, model::Orientation::flat}))
+      .optional("lengths",
+                "What a printed length includes: the belt, the belt with extension and arm, or the "
+                "level span from anchor to tool.",
+                &BeltMachine::lengths,
+                by_name({model::BeltLengths::belt,
+                         model::BeltLengths::belt_and_arm,
+                         model::BeltLengths::span}))
+      .optional("scale_x",
+                "The controller's factor for commands along x.",
+                &BeltMachine::scale_x,
+                number_in(""))
+      .optional("scale_y",
+                "The controller's factor for commands along y.",
+                &BeltMachine::scale_y,
+                number_in(""))
+      .optional(
+          "setting_names",
+          "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
+          "the top level, as before July 2025.",
+          &BeltMachine::setting_names,
+          choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
+                                       {"top_level", model::SettingNames::top_level}}))
+      .check([](const Cursor& at, BeltMachine& own) {
+        report_impossible(at, model::problems_of(own));
+      });
+  return machine;
 }
 
 const Record<MeasuredBelts>& belts_record() {

@@ -14,18 +14,17 @@ inline constexpr Range kBeltLengthMm{"mm", 1.0, 20000.0};
 inline constexpr Range kBeltDistanceMm{"mm", 1.0, 20000.0};
 
 /// Includes the checks of model::problems_of.
-[[nodiscard]] const Record<model::BeltMachine>& belt_machine_record();
+[[nodiscard]] Record<model::BeltMachine> belt_machine_record();
 
 [[nodiscard]] const Record<MeasuredBelts>& belts_record();
 
 template <class V>
-const Record<model::PerBelt<V>>& per_belt_record(const Value<V>& value) {
-  static const auto record = Record<model::PerBelt<V>>("a value for each belt")
-                                 .required("tl", "Top left.", &model::PerBelt<V>::tl, value)
-                                 .required("tr", "Top right.", &model::PerBelt<V>::tr, value)
-                                 .required("bl", "Bottom left.", &model::PerBelt<V>::bl, value)
-                                 .required("br", "Bottom right.", &model::PerBelt<V>::br, value);
-  return record;
+[[nodiscard]] Record<model::PerBelt<V>> per_belt_record(const Value<V>& value) {
+  return Record<model::PerBelt<V>>("a value for each belt")
+      .required("tl", "Top left.", &model::PerBelt<V>::tl, value)
+      .required("tr", "Top right.", &model::PerBelt<V>::tr, value)
+      .required("bl", "Bottom left.", &model::PerBelt<V>::bl, value)
+      .required("br", "Bottom right.", &model::PerBelt<V>::br, value);
 }
 
 /// tl, tr, bl, br.
@@ -34,8 +33,8 @@ const Record<model::PerBelt<V>>& per_belt_record(const Value<V>& value) {
   return by_name({Belt::tl, Belt::tr, Belt::bl, Belt::br});
 }
 
-[[nodiscard]] const Record<BeltPrediction>& prediction_record();
-[[nodiscard]] const Record<BeltScale>& scale_record();
-[[nodiscard]] const Record<FirmwareFit>& firmware_fit_record();
+[[nodiscard]] Record<BeltPrediction> prediction_record();
+[[nodiscard]] Record<BeltScale> scale_record();
+[[nodiscard]] Record<FirmwareFit> firmware_fit_record();
 
 }  // namespace chaintrue::grid::files

@@ -106,12 +106,8 @@ std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& bef
 std::string in_words(const std::vector<SettingChange>& changes) {
   std::string words;
   for (const SettingChange& change : changes) {
-    fmt::format_to(std::back_inserter(words),
-                   "{}{} {} -> {}",
-                   words.empty() ? "" : ", ",
-                   change.name,
-                   change.before,
-                   change.now);
+    words += fmt::format(
+        "{}{} {} -> {}", words.empty() ? "" : ", ", change.name, change.before, change.now);
   }
   return words;
 }

@@ -6,8 +6,6 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/files/csv_numbers.hpp"
-#include "grid/files/length_text.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -235,13 +233,12 @@ CsvTable read_csv(std::string_view text,
   if (index.empty()) return table;
   const std::size_t width = rows[0].size();
   if (looks_split_by_decimal_commas(rows, width)) {
-    problems.explain(
-        rows[1].front().place(),
-        ProblemKind::decimal_comma,
-        fmt::format("these commas look like decimal commas: write decimals with a point ({} cells "
-                    "are under a header of {}).",
-                    rows[1].size(),
-                    width));
+    problems.explain(rows[1].front().place(),
+                     ProblemKind::decimal_comma,
+                     fmt::format("these commas look like decimal commas: write decimals with a "
+                                 "point ({} cells are under a header of {}).",
+                                 rows[1].size(),
+                                 width));
     return table;
   }
   for (std::size_t r = 1; r < rows.size(); ++r) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "grid/files/belts_record.hpp"
-#include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/provenance_record.hpp"
@@ -74,10 +73,8 @@ Record<StatedTape> stated_tape_record() {
                 "Error of a hole's position, 1 sigma on each axis.",
                 &StatedTape::hole_sigma_mm,
                 kNotNegative)
-      .required("dof",
-                "Degrees of freedom with which these are known.",
-                &StatedTape::dof,
-                kNotNegative);
+      .required(
+          "dof", "Degrees of freedom with which these are known.", &StatedTape::dof, kNotNegative);
 }
 
 /// The displacement that explains a bad point; or the residual of a bad distance or belt.
@@ -90,37 +87,33 @@ struct Shift {
   std::optional<model::Belt> or_belt{};
 };
 
-const Record<Shift>& shift_record() {
-  static const auto record =
-      Record<Shift>("a bad point's shift")
-          .optional("x_mm",
-                    "x that its tool must have had, minus the recorded x.",
-                    &Shift::x_mm,
-                    kMillimetres)
-          .optional("y_mm",
-                    "y that its tool must have had, minus the recorded y.",
-                    &Shift::y_mm,
-                    kMillimetres)
-          .optional("off_mm",
-                    "For a distance: excess of the reading.",
-                    &Shift::residual_mm,
-                    kMillimetres)
-          .required("sigmas", "The same in sigmas.", &Shift::sigmas, kNotNegative)
-          .optional("belt",
-                    "For belts: the belt that is off; absent: the whole place.",
-                    &Shift::belt,
-                    belt_word())
-          .optional("or_belt",
-                    "The belt that may be off instead: on the line between the two other anchors "
-                    "the lengths cannot distinguish them.",
-                    &Shift::or_belt,
-                    belt_word())
-          .check([](const Cursor& at, Shift& shift) {
-            const bool of_point = shift.x_mm && shift.y_mm;
-            if (at.clean() && of_point == shift.residual_mm.has_value())
-              at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
-          });
-  return record;
+Record<Shift> shift_record() {
+  return Record<Shift>("a bad point's shift")
+      .optional("x_mm",
+                "x that its tool must have had, minus the recorded x.",
+                &Shift::x_mm,
+                kMillimetres)
+      .optional("y_mm",
+                "y that its tool must have had, minus the recorded y.",
+                &Shift::y_mm,
+                kMillimetres)
+      .optional(
+          "off_mm", "For a distance: excess of the reading.", &Shift::residual_mm, kMillimetres)
+      .required("sigmas", "The same in sigmas.", &Shift::sigmas, kNotNegative)
+      .optional("belt",
+                "For belts: the belt that is off; absent: the whole place.",
+                &Shift::belt,
+                belt_word())
+      .optional("or_belt",
+                "The belt that may be off instead: on the line between the two other anchors "
+                "the lengths cannot distinguish them.",
+                &Shift::or_belt,
+                belt_word())
+      .check([](const Cursor& at, Shift& shift) {
+        const bool of_point = shift.x_mm && shift.y_mm;
+        if (at.clean() && of_point == shift.residual_mm.has_value())
+          at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
+      });
 }
 
 /// The indices of the outliers that are distances next to points, or of all others.

@@ -3,40 +3,51 @@
 /// The parts of a chaintrue_diagnosis file. Private to grid/files.
 #pragma once
 
+#include <string>
+
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/json_reader.hpp"
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] const Record<diagnosis::CauseId>& cause_id_record();
-[[nodiscard]] const Record<diagnosis::Cause>& cause_record();
-[[nodiscard]] const Record<diagnosis::Hypothesis>& hypothesis_record();
-[[nodiscard]] const Record<diagnosis::LeftOver>& left_over_record();
+// Keys shared by several parts of a chaintrue_diagnosis file. Private to grid/files.
+
+/// The side of an effect, as in files.
+[[nodiscard]] inline Value<std::string> side_word() {
+  return one_of({"left", "right", "both", "x", "y", "tl", "tr", "bl", "br", "all"});
+}
+
+[[nodiscard]] Value<diagnosis::Verdict> verdict_word();
+
+[[nodiscard]] Record<diagnosis::CauseId> cause_id_record();
+[[nodiscard]] Record<diagnosis::Cause> cause_record();
+[[nodiscard]] Record<diagnosis::Hypothesis> hypothesis_record();
+[[nodiscard]] Record<diagnosis::LeftOver> left_over_record();
 /// diagnosis_remainder_record.cpp.
-[[nodiscard]] const Record<diagnosis::Unexplained>& unexplained_record();
-[[nodiscard]] const Record<diagnosis::ErrorBudget>& error_budget_record();
-[[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
-[[nodiscard]] const Record<diagnosis::Bound>& bound_record();
-[[nodiscard]] const Record<diagnosis::DeclaredAnswer>& declared_answer_record();
-[[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();
-[[nodiscard]] const Record<diagnosis::HolePicture>& hole_picture_record();
-[[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();
+[[nodiscard]] Record<diagnosis::Unexplained> unexplained_record();
+[[nodiscard]] Record<diagnosis::ErrorBudget> error_budget_record();
+[[nodiscard]] Record<diagnosis::NotTestable> not_testable_record();
+[[nodiscard]] Record<diagnosis::Bound> bound_record();
+[[nodiscard]] Record<diagnosis::DeclaredAnswer> declared_answer_record();
+[[nodiscard]] Record<diagnosis::CalibratedSetting> calibrated_setting_record();
+[[nodiscard]] Record<diagnosis::HolePicture> hole_picture_record();
+[[nodiscard]] Record<diagnosis::DistancePicture> distance_picture_record();
 /// diagnosis_drawing_record.cpp.
-[[nodiscard]] const Record<diagnosis::DrawingFindings>& drawing_findings_record();
+[[nodiscard]] Record<diagnosis::DrawingFindings> drawing_findings_record();
 /// Causes that chains have under the same name become those of cords: a diagnosis of a drawing names
 /// no others.
 void take_causes_of_cords(diagnosis::Diagnosis& diagnosis);
 /// diagnosis_belts_record.cpp.
-[[nodiscard]] const Record<diagnosis::BeltsFindings>& belts_findings_record();
+[[nodiscard]] Record<diagnosis::BeltsFindings> belts_findings_record();
 /// diagnosis_stability_record.cpp.
-[[nodiscard]] const Record<diagnosis::Stability>& stability_record();
-[[nodiscard]] const Record<diagnosis::PartFinding>& bed_part_record();
-[[nodiscard]] const Record<diagnosis::PartFinding>& session_record();
+[[nodiscard]] Record<diagnosis::Stability> stability_record();
+[[nodiscard]] Record<diagnosis::PartFinding> bed_part_record();
+[[nodiscard]] Record<diagnosis::PartFinding> session_record();
 /// Positions on the bed; diagnosis_point_record.cpp.
-[[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
-[[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();
+[[nodiscard]] Record<diagnosis::NextMeasurement> next_measurement_record();
+[[nodiscard]] Record<diagnosis::PointPicture> point_picture_record();
 /// Both contain held-out errors row by row; diagnosis_improvement_record.cpp.
-[[nodiscard]] const Record<diagnosis::HeldOutImprovement>& improvement_record();
-[[nodiscard]] const Record<diagnosis::Transfer>& transfer_record();
+[[nodiscard]] Record<diagnosis::HeldOutImprovement> improvement_record();
+[[nodiscard]] Record<diagnosis::Transfer> transfer_record();
 
 }  // namespace chaintrue::grid::files

@@ -233,56 +233,50 @@ Record<CauseGivenLaw> cause_given_law_record() {
 
 }  // namespace
 
-const Record<Unexplained>& unexplained_record() {
-  static const auto record = [] {
-    Record<Unexplained> left("what remains besides the causes");
-    left.required("probability", "Probability that it exists.", &Unexplained::probability, kShare)
-        .required("delta", "Signal-to-noise ratio.", &Unexplained::signal_to_noise, kNotNegative)
-        .required("rms_mm", "Rms size.", &Unexplained::rms_mm, kNotNegative)
-        .required("share", "Share of the whole.", &Unexplained::share, kShare);
-    left.nullable(
-        "follows",
-        "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.",
-        &Unexplained::follows);
-    left.required(
-            "length_mm", "Correlation length over the bed.", &Unexplained::length_mm, kNotNegative)
-        .required("enters",
-                  "Where it enters.",
-                  &Unexplained::enters,
-                  by_name({Enters::left,
-                           Enters::right,
-                           Enters::equal,
-                           Enters::opposite,
-                           Enters::x,
-                           Enters::y,
-                           Enters::mixed}))
-        .sparse("laws",
-                "Functions that it may be, most probable first; absent if no law is more likely "
-                "than none.",
-                &Unexplained::laws,
-                list(law_record()))
-        .sparse("causes_given_law",
-                "Causes that are named only after a claimed law is removed from the readings, and "
-                "causes that are no longer named then.",
-                &Unexplained::causes_given_law,
-                list(cause_given_law_record()));
-    return left;
-  }();
-  return record;
+Record<Unexplained> unexplained_record() {
+  Record<Unexplained> left("what remains besides the causes");
+  left.required("probability", "Probability that it exists.", &Unexplained::probability, kShare)
+      .required("delta", "Signal-to-noise ratio.", &Unexplained::signal_to_noise, kNotNegative)
+      .required("rms_mm", "Rms size.", &Unexplained::rms_mm, kNotNegative)
+      .required("share", "Share of the whole.", &Unexplained::share, kShare);
+  left.nullable(
+      "follows",
+      "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.",
+      &Unexplained::follows);
+  left.required(
+          "length_mm", "Correlation length over the bed.", &Unexplained::length_mm, kNotNegative)
+      .required("enters",
+                "Where it enters.",
+                &Unexplained::enters,
+                by_name({Enters::left,
+                         Enters::right,
+                         Enters::equal,
+                         Enters::opposite,
+                         Enters::x,
+                         Enters::y,
+                         Enters::mixed}))
+      .sparse("laws",
+              "Functions that it may be, most probable first; absent if no law is more likely "
+              "than none.",
+              &Unexplained::laws,
+              list(law_record()))
+      .sparse("causes_given_law",
+              "Causes that are named only after a claimed law is removed from the readings, and "
+              "causes that are no longer named then.",
+              &Unexplained::causes_given_law,
+              list(cause_given_law_record()));
+  return left;
 }
 
-const Record<ErrorBudget>& error_budget_record() {
-  static const auto record = Record<ErrorBudget>("what the error is made of")
-                                 .required("as_delivered_mm",
-                                           "Rms error of the tool as delivered, at the measured "
-                                           "points; tool_today is over the measured part.",
-                                           &ErrorBudget::uncalibrated_mm,
-                                           kNotNegative)
-                                 .required("parts",
-                                           "Parts of the mean square.",
-                                           &ErrorBudget::lines,
-                                           list(budget_line_record()));
-  return record;
+Record<ErrorBudget> error_budget_record() {
+  return Record<ErrorBudget>("what the error is made of")
+      .required("as_delivered_mm",
+                "Rms error of the tool as delivered, at the measured "
+                "points; tool_today is over the measured part.",
+                &ErrorBudget::uncalibrated_mm,
+                kNotNegative)
+      .required(
+          "parts", "Parts of the mean square.", &ErrorBudget::lines, list(budget_line_record()));
 }
 
 }  // namespace chaintrue::grid::files

@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "grid/containers.hpp"
-#include "grid/files/read_log.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

@@ -27,4 +27,11 @@ struct FileIdentity {
 /// files. Thread safe.
 [[nodiscard]] std::vector<FileIdentity> files_read();
 
+// The list behind files_read(). Private to grid/files.
+
+/// Adds the regular file of an open descriptor to files_read().
+void note_as_read(int descriptor);
+/// The number of a file that was deleted may be that of the next one written.
+void forget_files_read();
+
 }  // namespace chaintrue::grid::files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/files/fluidnc_file.hpp"
+#include "grid/files/groundcontrol_file.hpp"
 
 #include <fmt/format.h>
 

@@ -25,26 +25,26 @@ struct Described {
 };
 
 constexpr std::array kDescribed = {
-    Described{&kMachineFormat,
-              machine_schema,
-              "A machine",
-              "A machine. `chaintrue start` and `chaintrue import` write one from the controller's "
-              "settings; `chaintrue start` without a file writes one to fill in. Ranges include "
-              "every real hanging router. The motors must hang above the bed, the left one on the "
-              "left."},
-    Described{&kGridFormat,
-              grid_schema,
-              "A grid of measured points",
-              "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue "
-              "plan` writes one to fill in, `simulate` and `import optical` write complete ones; "
-              "`fit`, `diagnose` and `check` read them.\n\nAs CSV the first line names the "
-              "columns, in any order: `x_mm`, `y_mm`, and `left_mm`, `right_mm` or "
-              "`commanded_x_mm`, `commanded_y_mm`, and optionally `order`; the rest comes from "
-              "options. Cells are separated by commas, semicolons or tabs; with semicolons numbers "
-              "may have decimal commas. A cell may carry its unit (`12.5 cm`, `43 13/16 in`; a "
-              "fraction is of an inch), a column may be in inches (`x_in`), and unknown columns, "
-              "notes below the last row and lines that begin with # are ignored. A row without "
-              "readings counts as not measured."},
+    Described{
+        &kMachineFormat,
+        machine_schema,
+        "A machine",
+        "A machine. `chaintrue start` and `chaintrue import` write one from the controller's "
+        "settings; `chaintrue start` without a file writes one to fill in. Ranges include every "
+        "real hanging router. The motors must hang above the bed, the left one on the left."},
+    Described{
+        &kGridFormat,
+        grid_schema,
+        "A grid of measured points",
+        "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue plan` "
+        "writes one to fill in, `simulate` and `import optical` write complete ones; `fit`, "
+        "`diagnose` and `check` read them.\n\nAs CSV the first line names the columns, in any "
+        "order: `x_mm`, `y_mm`, and `left_mm`, `right_mm` or `commanded_x_mm`, `commanded_y_mm`, "
+        "and optionally `order`; the rest comes from options. Cells are separated by commas, "
+        "semicolons or tabs; with semicolons numbers may have decimal commas. A cell may carry its "
+        "unit (`12.5 cm`, `43 13/16 in`; a fraction is of an inch), a column may be in inches "
+        "(`x_in`), and unknown columns, notes below the last row and lines that begin with # are "
+        "ignored. A row without readings counts as not measured."},
     Described{&kHolesFormat,
               holes_schema,
               "Holes and distances",
@@ -211,10 +211,9 @@ std::string one_of_words(const Json& names) {
   std::string words;
   for (const Json& name : names) {
     if (name.is_null()) continue;
-    fmt::format_to(std::back_inserter(words),
-                   "{}`{}`",
-                   words.empty() ? "" : ", ",
-                   name.is_string() ? name.get<std::string>() : compact_json(name));
+    words += fmt::format("{}`{}`",
+                         words.empty() ? "" : ", ",
+                         name.is_string() ? name.get<std::string>() : compact_json(name));
   }
   return words;
 }
@@ -259,8 +258,7 @@ std::string values_of(const Json& schema) {
 std::string absent_words(const Json& object, const std::string& key, const Json& schema) {
   if (key == "file_type" || key == "format_version") return "required at the start of a file";
   const Json names = object.value("required", Json::array());
-  if (contains(names, Json(key)))
-    return allows_null(schema) ? "required; may be null" : "required";
+  if (contains(names, Json(key))) return allows_null(schema) ? "required; may be null" : "required";
   if (schema.contains("default")) return fmt::format("`{}`", compact_json(schema["default"]));
   return "optional";
 }
@@ -297,8 +295,7 @@ class Tables {
       fmt::format_to(out,
                      "| `{}` | {} | {} | {} |\n",
                      key,
-                     property.value("description",
-                                    std::string("Optional inside another file.")),
+                     property.value("description", std::string("Optional inside another file.")),
                      values_of(property),
                      absent_words(schema, key, property));
     }

@@ -10,15 +10,16 @@
 #include <utility>
 
 #include "grid/files/groundcontrol_settings.hpp"
+#include "grid/files/json_text.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/number_text.hpp"
-#include "grid/files/other_unit.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/chain_formulas.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::grid::files {
+
 namespace {
 
 using model::Brackets;
@@ -133,17 +134,18 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
                               kCountsOfATurn));
     return 0.0;
   }
-  problems.warn(place,
-                fmt::format("encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs "
-                            "out than the controller counts; entered as links that are {} by this "
-                            "amount (/effects). An export corrects for it; if you set {:g} at the "
-                            "machine instead, import its settings again",
-                            *counts,
-                            kCountsOfATurn,
-                            100.0 * std::abs(more),
-                            more > 0.0 ? "more" : "less",
-                            more > 0.0 ? "longer" : "shorter",
-                            kCountsOfATurn));
+  problems.warn(
+      place,
+      fmt::format(
+          "encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs out than the "
+          "controller counts; entered as links that are {} by this amount (/effects). An export "
+          "corrects for it; if you set {:g} at the machine instead, import its settings again",
+          *counts,
+          kCountsOfATurn,
+          100.0 * std::abs(more),
+          more > 0.0 ? "more" : "less",
+          more > 0.0 ? "longer" : "shorter",
+          kCountsOfATurn));
   return more;
 }
 
@@ -170,11 +172,11 @@ void state_pitch(const SettingValues& numbers,
   }
   if (links.empty()) return;
   const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
-  problems.warn("",
-                fmt::format("chain tolerance: links {} than new, each value within {:g} % "
-                            "(/effects)",
-                            fmt::join(links, " and "),
-                            100.0 * effect->parameters.front().prior_sigma));
+  problems.warn(
+      "",
+      fmt::format("chain tolerance: links {} than new, each value within {:g} % (/effects)",
+                  fmt::join(links, " and "),
+                  100.0 * effect->parameters.front().prior_sigma));
 }
 
 /// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
@@ -185,8 +187,7 @@ void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
   if (const auto weight_n = numbers.at("sledweight")) {
     machine.sled.mass_kg = *weight_n / kGroundcontrolGravity_m_per_s2;
   } else {
-    assume(
-        fmt::format("the sled's weight; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
+    assume(fmt::format("the sled's weight; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
   }
   if (const auto compliance = numbers.at("chainelongationfactor")) {
     machine.chain.compliance_per_n = *compliance;
@@ -202,12 +203,12 @@ void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
       fmt::format("the frame's lean; assumed {} degrees from the vertical "
                   "(/frame/tilt_from_vertical_deg)",
                   machine.frame.tilt_from_vertical_deg));
-  assume(
-      fmt::format("how accurately the machine was measured; assumed: motor positions within {} mm, chain "
-                  "zeros within {} mm and the ring's radius within {} mm, 1 sigma (/uncertainty)",
-                  machine.uncertainty.motor_position_mm,
-                  machine.uncertainty.chain_zero_mm,
-                  machine.uncertainty.ring_radius_mm));
+  assume(fmt::format(
+      "how accurately the machine was measured; assumed: motor positions within {} mm, chain "
+      "zeros within {} mm and the ring's radius within {} mm, 1 sigma (/uncertainty)",
+      machine.uncertainty.motor_position_mm,
+      machine.uncertainty.chain_zero_mm,
+      machine.uncertainty.ring_radius_mm));
 }
 
 /// The behaviour of releases before a setting existed, and a sentence for it.
@@ -308,8 +309,7 @@ Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_to
   machine.controller.kind = model::ControllerKind::maslow_classic;
   for (const NumberKey& key : kNumberKeys) {
     const auto value = numbers.find(key.key);
-    if (value != numbers.end())
-      machine.controller.settings.*key.setting = value->second;
+    if (value != numbers.end()) machine.controller.settings.*key.setting = value->second;
   }
   machine.controller.settings.chain_over_sprocket_top = over_top;
   return machine;
@@ -321,13 +321,14 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   SettingReader settings(std::move(texts), problems, {"Maslow Settings", "Advanced Settings"});
   if (const auto unit = other_unit_of(settings)) {
     const SettingText* width = settings.look("bedwidth");
-    problems.explain(width->place,
-                     ProblemKind::other_unit,
-                     fmt::format("the lengths of this file look like {} (bedwidth = {}): multiply them "
-                                 "by {:g}.",
-                                 unit->word,
-                                 width->text,
-                                 unit->mm));
+    problems.explain(
+        width->place,
+        ProblemKind::other_unit,
+        fmt::format("the lengths of this file look like {} (bedwidth = {}): multiply them "
+                    "by {:g}.",
+                    unit->word,
+                    width->text,
+                    unit->mm));
     problems.throw_if_any();
   }
   OldReleases old(settings, problems);
@@ -371,6 +372,39 @@ ReadMachine parse_groundcontrol(const std::string& text,
 
 ReadMachine read_groundcontrol(const std::filesystem::path& path, Tolerances tolerances) {
   return parse_groundcontrol(read_whole_file(path), name_in_messages(path), tolerances);
+}
+
+namespace {
+
+/// Most versions write numbers as texts, some as numbers.
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_null() ? std::string() : value.dump();
+}
+
+}  // namespace
+
+bool is_webcontrol(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  return json.is_object() && json.contains("Maslow Settings") && json.contains("Advanced Settings");
+}
+
+ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  problems.throw_if_any();
+  SettingTexts texts;
+  for (const auto& [section, settings] : json.items()) {
+    if (!settings.is_array()) continue;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const Json& setting = settings[i];
+      if (!setting.is_object() || !setting.contains("key") || !setting.contains("value")) continue;
+      texts[in_small_letters(section + "/" + text_of(setting.at("key")))] = {
+          text_of(setting.at("value")), fmt::format("/{}/{}/value", section, i)};
+    }
+  }
+  return machine_of_settings(std::move(texts), Tolerances::are_pitch, problems);
 }
 
 }  // namespace chaintrue::grid::files

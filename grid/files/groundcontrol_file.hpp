@@ -77,10 +77,48 @@ struct GroundcontrolText {
 /// settings gives.
 [[nodiscard]] bool says_more_than_its_settings(const model::Machine& machine);
 
-/// The machine's controller with these settings. `by` is the source of the change:
-/// "the 28 points of map.json".
-[[nodiscard]] GroundcontrolText write_groundcontrol_settings(const model::Machine& machine,
-                                                             const model::ControllerSettings& settings,
-                                                             std::string_view by);
+/// The machine's controller with these settings. `by` is the source of the change: "the 28 points
+/// of map.json".
+[[nodiscard]] GroundcontrolText write_groundcontrol_settings(
+    const model::Machine& machine, const model::ControllerSettings& settings, std::string_view by);
+
+// WebControl's webcontrol.json: GroundControl's settings, each an object with its key and its value
+// in a list for each section:
+//
+//   { "Maslow Settings": [ {"key": "motorSpacingX", "value": "2978.4", ...}, ... ],
+//     "Advanced Settings": [ ... ] }
+//
+// Everything else is as in groundcontrol_file.hpp. Source: WebControlCNC/WebControl,
+// defaultwebcontrol.json.
+
+/// True for JSON with its two sections. \throws InputError for a text that is not JSON.
+[[nodiscard]] bool is_webcontrol(const std::string& text, const std::string& file);
+/// `file` is the name used in messages and, without its folder, the machine's.
+/// \throws InputError with every problem of the file.
+[[nodiscard]] ReadMachine parse_webcontrol(const std::string& text, const std::string& file);
+
+// FluidNC's config.yaml of a wall plotter: its anchors, and the travel of its axes as the bed.
+//
+//   kinematics:
+//     WallPlotter:
+//       left_anchor_x: -1200
+//       left_anchor_y: 900
+//       right_anchor_x: 1200
+//       right_anchor_y: 900
+//   axes:
+//     x:
+//       max_travel_mm: 2000
+//     y:
+//       max_travel_mm: 1200
+//
+// WallPlotter uses straight lines to the anchors, without sprockets, weights and rings: all of
+// these are assumed, with a warning. Its origin is taken as the bed's centre. Only this part of
+// YAML is read: keys by their indentation, and the value after the colon. Source: bdring/FluidNC,
+// src/Kinematics/WallPlotter.cpp.
+
+[[nodiscard]] bool is_fluidnc(const std::string& text);
+/// `file` is the name used in messages and, without its folder, the machine's.
+/// \throws InputError with every problem of the file.
+[[nodiscard]] ReadMachine parse_fluidnc(const std::string& text, const std::string& file);
 
 }  // namespace chaintrue::grid::files

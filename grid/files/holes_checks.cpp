@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/files/holes_checks.hpp"
+#include "grid/files/holes_record.hpp"
 
 #include <fmt/format.h>
 
@@ -137,19 +137,18 @@ void check_triangles(const MeasuredHoles& set,
       for (const input_checks::RowFinding& row : asked) {
         if (contains(sides, row.row)) question += fmt::format(". {}", row.sentence);
       }
-      problems.add(
-          places.distance(sides[0], "distance_mm"),
-          fmt::format("{:g}", set.distances[sides[0]].distance_mm),
-          fmt::format("at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus {} "
-                      "({:g}); one of the three was misread{}",
-                      set.distances[sides[0]].distance_mm - excess,
-                      words_of(set, set.distances[sides[0]]),
-                      words_of(set, set.distances[sides[1]]),
-                      set.distances[sides[1]].distance_mm,
-                      words_of(set, set.distances[sides[2]]),
-                      set.distances[sides[2]].distance_mm,
-                      question),
-          ProblemKind::contradiction);
+      problems.add(places.distance(sides[0], "distance_mm"),
+                   fmt::format("{:g}", set.distances[sides[0]].distance_mm),
+                   fmt::format("at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
+                               "{} ({:g}); one of the three was misread{}",
+                               set.distances[sides[0]].distance_mm - excess,
+                               words_of(set, set.distances[sides[0]]),
+                               words_of(set, set.distances[sides[1]]),
+                               set.distances[sides[1]].distance_mm,
+                               words_of(set, set.distances[sides[2]]),
+                               set.distances[sides[2]].distance_mm,
+                               question),
+                   ProblemKind::contradiction);
     }
   }
 }
@@ -194,8 +193,7 @@ void check_enough(const MeasuredHoles& set,
   const std::size_t lacking = fewest - independent;
   std::string expected = fmt::format("at least {} independent distances between holes", fewest);
   if (fewest == kFewestHoleDistances) {
-    expected +=
-        ", one for each unknown: the motors' spacing and the zero and scale of each chain";
+    expected += ", one for each unknown: the motors' spacing and the zero and scale of each chain";
   }
   const std::string more = missing_pairs(set, lacking);
   const bool holes_suffice =
@@ -233,11 +231,11 @@ void check_tape_zero(const MeasuredHoles& set,
   const std::string state =
       fmt::format("enter {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {
-    problems.warn(places.distances,
-                  fmt::format("{}, whatever their length. Was the hook's offset subtracted twice? "
-                              "If so, {}.",
-                              found,
-                              state));
+    problems.warn(
+        places.distances,
+        fmt::format("{}, whatever their length. Was the hook's offset subtracted twice? If so, {}.",
+                    found,
+                    state));
     return;
   }
   problems.add(places.distances,
@@ -280,8 +278,10 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     if (holes[i].name.empty()) holes[i].name = fmt::format("{}", i);
     const std::string& name = holes[i].name;
     if (edge_of(name)) {
-      problems.add(
-          places.hole(i), name, "a name that is not an edge of the sheet", ProblemKind::repeated_value);
+      problems.add(places.hole(i),
+                   name,
+                   "a name that is not an edge of the sheet",
+                   ProblemKind::repeated_value);
     }
     const auto [other, is_new] = first.emplace(name, i);
     if (!is_new) {

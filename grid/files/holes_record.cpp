@@ -5,7 +5,6 @@
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/machine_record.hpp"
-#include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
 #include "grid/files/schemas.hpp"
 
@@ -14,11 +13,10 @@ namespace {
 
 Record<Tape> tape_record() {
   return Record<Tape>("the tape")
-      .optional(
-          "sigma_mm",
-          "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
-          &Tape::sigma_mm,
-          kTapeSigmaMm)
+      .optional("sigma_mm",
+                "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
+                &Tape::sigma_mm,
+                kTapeSigmaMm)
       .optional("hook_offset_mm",
                 "Amount by which each reading exceeds the distance.",
                 &Tape::tape_zero_offset_mm,
@@ -140,12 +138,11 @@ const Record<StatedHoles>& holes_record() {
                   "Path of the machine file, from this file.",
                   &StatedHoles::machine_file)
           .optional("tape", "Noise and hook offset of the tape.", &StatedHoles::tape, tape_record())
-          .optional(
-              "hole_sigma_mm",
-              "Distance of a hole from the position that follows from its chains, 1 sigma on each "
-              "axis.",
-              &StatedHoles::hole_sigma_mm,
-              kHoleSigmaMm)
+          .optional("hole_sigma_mm",
+                    "Distance of a hole from the position that follows from its chains, 1 sigma on "
+                    "each axis.",
+                    &StatedHoles::hole_sigma_mm,
+                    kHoleSigmaMm)
           .optional("noise_dof",
                     "Degrees of freedom with which these are known.",
                     &StatedHoles::noise_dof,

@@ -55,9 +55,17 @@ class InputError : public std::runtime_error {
   std::vector<InputProblem> problems_;
 };
 
-/// \throws InputError with one problem: the file as a whole.
-[[noreturn]] void refuse_file(std::string file, std::string found, std::string expected,
-                              ProblemKind kind = ProblemKind::unexpected);
+/// \throws InputError with one problem.
+[[noreturn]] void refuse(std::string file,
+                         std::string place,
+                         std::string found,
+                         std::string expected,
+                         ProblemKind kind = ProblemKind::unexpected);
+/// As above, of the file as a whole.
+[[noreturn]] void refuse(std::string file,
+                         std::string found,
+                         std::string expected,
+                         ProblemKind kind = ProblemKind::unexpected);
 
 /// The system's message for an error number, in English in every locale.
 [[nodiscard]] std::string system_words(int error_number);

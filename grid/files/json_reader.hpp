@@ -95,6 +95,7 @@ struct IfEmpty {
 /// A member of T, of a base, or of one of its members.
 template <class T, class V>
 struct MemberPath {
+  using Type = V;
   [[nodiscard]] V& of(T& object) const {
     return *reinterpret_cast<V*>(reinterpret_cast<std::byte*>(&object) + offset);
   }
@@ -109,6 +110,10 @@ template <class T, class B, class V>
                                    reinterpret_cast<const std::byte*>(&object))};
 }
 template <class T, class V>
+[[nodiscard]] MemberPath<T, V> path_in(MemberPath<T, V> member) {
+  return member;
+}
+template <class T, class V>
 [[nodiscard]] MemberPath<T, V> path(V T::*member) {
   return path_in<T>(member);
 }
@@ -116,6 +121,18 @@ template <class T, class M, class V>
 [[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {
   return {path_in<T>(outer).offset + path_in<M>(inner).offset};
 }
+
+/// What a member holds, which may be a std::optional.
+template <class V>
+struct Held {
+  using Type = V;
+  static constexpr bool kIsOptional = false;
+};
+template <class V>
+struct Held<std::optional<V>> {
+  using Type = V;
+  static constexpr bool kIsOptional = true;
+};
 
 /// The part of a record that does not depend on the object's type: its keys and its fields. Objects
 /// are passed by address; Record has their type. A field finds its member by an offset from the
@@ -188,8 +205,10 @@ template <class T>
 class Record : public RecordTable {
   using Text = std::string_view;
   /// Only the member determines the type, so a range or a record may be given for its value.
-  template <class V>
-  using ValueOf = std::type_identity_t<Value<V>>;
+  template <class M>
+  using MemberOf = typename decltype(path_in<T>(std::declval<M>()))::Type;
+  template <class M>
+  using HeldBy = typename Held<MemberOf<M>>::Type;
 
  public:
   /// `noun` with its article, for messages such as "expected a sprocket".
@@ -198,68 +217,40 @@ class Record : public RecordTable {
   /// The format must outlive the record.
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
-  template <class V, class B>
+  template <class M>
   Record& required(Text key,
                    Text meaning,
-                   V B::*member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
-    return required(key, meaning, path_in<T>(member), value);
-  }
-  template <class V>
-  Record& required(Text key,
-                   Text meaning,
-                   MemberPath<T, V> member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
-    add(field(key, meaning, true, member.offset), value.codec);
+                   M member,
+                   const Value<MemberOf<M>>& value = value_of_type<MemberOf<M>>()) {
+    add(field(key, meaning, true, path_in<T>(member).offset), value.codec);
     return *this;
   }
 
-  template <class V, class B>
+  template <class M>
   Record& optional(Text key,
                    Text meaning,
-                   V B::*member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
-    return optional(key, meaning, path_in<T>(member), value);
-  }
-  template <class V>
-  Record& optional(Text key,
-                   Text meaning,
-                   MemberPath<T, V> member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
-    add_defaulted(field(key, meaning, false, member.offset), value.codec, &make);
+                   M member,
+                   const Value<HeldBy<M>>& value = value_of_type<HeldBy<M>>()) {
+    if constexpr (Held<MemberOf<M>>::kIsOptional)
+      return add_if_empty(key, meaning, member, value, IfEmpty::absent);
+    add_defaulted(field(key, meaning, false, path_in<T>(member).offset), value.codec, &make);
     return *this;
   }
 
-  template <class V, class B>
-  Record& optional(Text key,
-                   Text meaning,
-                   std::optional<V> B::*member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
-    return add_optional(key, meaning, member, value, IfEmpty::absent);
-  }
-
-  template <class V, class B>
+  template <class M>
   Record& sparse(Text key,
                  Text meaning,
-                 V B::*member,
-                 const ValueOf<V>& value = value_of_type<V>()) {
+                 M member,
+                 const Value<HeldBy<M>>& value = value_of_type<HeldBy<M>>()) {
     return add_if_empty(key, meaning, member, value, IfEmpty::absent);
   }
 
-  template <class V, class B>
+  template <class M>
   Record& nullable(Text key,
                    Text meaning,
-                   V B::*member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
+                   M member,
+                   const Value<HeldBy<M>>& value = value_of_type<HeldBy<M>>()) {
     return add_if_empty(key, meaning, member, value, IfEmpty::null);
-  }
-
-  template <class V, class B>
-  Record& nullable(Text key,
-                   Text meaning,
-                   std::optional<V> B::*member,
-                   const ValueOf<V>& value = value_of_type<V>()) {
-    return add_optional(key, meaning, member, value, IfEmpty::null);
   }
 
   /// `write` returns nothing if the key is left out.
@@ -360,29 +351,23 @@ class Record : public RecordTable {
   static Field field(Text key, Text meaning, bool is_required, std::size_t offset) {
     return {std::string(key), std::string(meaning), is_required, offset};
   }
-  template <class V, class B>
+  template <class M>
   Record& add_if_empty(
-      Text key, Text meaning, V B::*member, const ValueOf<V>& value, IfEmpty::As written) {
+      Text key, Text meaning, M member, const Value<HeldBy<M>>& value, IfEmpty::As written) {
+    std::shared_ptr<const Codec> codec = value.codec;
+    if constexpr (Held<MemberOf<M>>::kIsOptional)
+      codec = optional_codec(std::move(codec), kOptionalAccess<HeldBy<M>>);
     add(field(key, meaning, false, path_in<T>(member).offset),
-        value.codec,
-        {&is_empty<V>, written});
-    return *this;
-  }
-  template <class V, class B>
-  Record& add_optional(Text key,
-                       Text meaning,
-                       std::optional<V> B::*member,
-                       const Value<V>& value,
-                       IfEmpty::As written) {
-    add(field(key, meaning, false, path_in<T>(member).offset),
-        optional_codec(value.codec, kOptionalAccess<V>),
-        {[](const void* own) { return !static_cast<const std::optional<V>*>(own)->has_value(); },
-         written});
+        std::move(codec),
+        {&is_empty<MemberOf<M>>, written});
     return *this;
   }
   template <class V>
   static bool is_empty(const void* member) {
-    return static_cast<const V*>(member)->empty();
+    if constexpr (Held<V>::kIsOptional)
+      return !static_cast<const V*>(member)->has_value();
+    else
+      return static_cast<const V*>(member)->empty();
   }
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };

@@ -194,7 +194,7 @@ struct NamedBytes {
 
 /// A value by its name, such as an enum.
 template <class E>
-[[nodiscard]] Value<E> choice(const std::vector<std::pair<std::string, E>>& names) {
+[[nodiscard]] Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
   static_assert(std::is_trivially_copyable_v<E> && sizeof(E) <= sizeof(NamedBytes::value));
   std::vector<NamedBytes> all;
   for (const auto& [name, value] : names)
@@ -202,12 +202,18 @@ template <class E>
   return Value<E>(choice_codec(std::move(all), sizeof(E)));
 }
 
+/// As above, of a list or a table of grid/files/names.hpp.
+template <class E, std::size_t n>
+[[nodiscard]] Value<E> choice(const std::pair<std::string_view, E> (&names)[n]) {
+  return choice_of<E>({std::begin(names), std::end(names)});
+}
+
 /// The same, with names from `name(value)`.
 template <class E>
 [[nodiscard]] Value<E> by_name(std::initializer_list<E> values) {
   std::vector<std::pair<std::string, E>> names;
   for (const E value : values) names.emplace_back(name(value), value);
-  return choice<E>(names);
+  return choice_of<E>(names);
 }
 
 /// Access to a std::vector whose element type the codec does not know.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace chaintrue::grid::files {
@@ -14,8 +13,9 @@ namespace {
 /// Keys, eq. 4.
 double between(const std::array<double, 4>& p, double t) {
   return p[1] + 0.5 * t *
-                    (p[2] - p[0] + t * (2.0 * p[0] - 5.0 * p[1] + 4.0 * p[2] - p[3] +
-                                        t * (3.0 * (p[1] - p[2]) + p[3] - p[0])));
+                    (p[2] - p[0] +
+                     t * (2.0 * p[0] - 5.0 * p[1] + 4.0 * p[2] - p[3] +
+                          t * (3.0 * (p[1] - p[2]) + p[3] - p[0])));
 }
 
 double interpolated(const LengthTable& table, double column, double row, std::size_t side) {
@@ -78,9 +78,8 @@ double LengthTable::node(int row, int column, std::size_t side) const {
   const auto beyond = [](double a, double b, double c) { return 3.0 * a - 3.0 * b + c; };
   if (column < 0) return beyond(node(row, 0, side), node(row, 1, side), node(row, 2, side));
   if (column >= columns) {
-    return beyond(node(row, columns - 1, side),
-                  node(row, columns - 2, side),
-                  node(row, columns - 3, side));
+    return beyond(
+        node(row, columns - 1, side), node(row, columns - 2, side), node(row, columns - 3, side));
   }
   if (row < 0) return beyond(node(0, column, side), node(1, column, side), node(2, column, side));
   if (row >= rows) {
@@ -97,7 +96,9 @@ std::string LengthTable::nodes_as_text(std::string_view open, std::string_view c
     text += fmt::format("    {}", open);
     for (int column = 0; column < columns; ++column) {
       text += fmt::format("{}{}{:.5f}, {:.5f}{}",
-                          column == 0 ? "" : column % 4 == 0 ? ",\n     " : ", ",
+                          column == 0       ? ""
+                          : column % 4 == 0 ? ",\n     "
+                                            : ", ",
                           open,
                           node(row, column, 0),
                           node(row, column, 1),

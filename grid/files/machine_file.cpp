@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "grid/files/effect_record.hpp"
+#include "grid/files/machine_checks.hpp"
 #include "grid/files/machine_record.hpp"
-#include "grid/files/other_unit.hpp"
+#include "grid/files/names.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
@@ -74,35 +75,31 @@ Record<Sprocket> sprocket_record() {
                 kMillimetres);
 }
 
-const Record<Ring>& ring_record() {
-  static const auto record =
-      Record<Ring>("a ring")
-          .constant("kind", "A ring or a linkage: both chains point at the bit.", "ring")
-          .required("radius_mm",
-                    "From the bit to a chain's end; 0 if the chains end at the bit, otherwise at "
-                    "least 20 mm.",
-                    &Ring::radius_mm,
-                    kMillimetres);
-  return record;
+Record<Ring> ring_record() {
+  return Record<Ring>("a ring")
+      .constant("kind", "A ring or a linkage: both chains point at the bit.", "ring")
+      .required("radius_mm",
+                "From the bit to a chain's end; 0 if the chains end at the bit, otherwise at "
+                "least 20 mm.",
+                &Ring::radius_mm,
+                kMillimetres);
 }
 
-const Record<Brackets>& brackets_record() {
-  static const auto record =
-      Record<Brackets>("a pair of brackets")
-          .constant("kind", "The chains end at two brackets of the sled.", "brackets")
-          .required("spacing_mm",
-                    "Distance between the ends of the two chains.",
-                    &Brackets::spacing_mm,
-                    kMillimetres)
-          .required("height_mm",
-                    "Height of the chains' ends above the bit.",
-                    &Brackets::height_mm,
-                    kMillimetres)
-          .required("cg_below_bit_mm",
-                    "Distance of the sled's centre of gravity below the bit.",
-                    &Brackets::cg_below_bit_mm,
-                    kMillimetres);
-  return record;
+Record<Brackets> brackets_record() {
+  return Record<Brackets>("a pair of brackets")
+      .constant("kind", "The chains end at two brackets of the sled.", "brackets")
+      .required("spacing_mm",
+                "Distance between the ends of the two chains.",
+                &Brackets::spacing_mm,
+                kMillimetres)
+      .required("height_mm",
+                "Height of the chains' ends above the bit.",
+                &Brackets::height_mm,
+                kMillimetres)
+      .required("cg_below_bit_mm",
+                "Distance of the sled's centre of gravity below the bit.",
+                &Brackets::cg_below_bit_mm,
+                kMillimetres);
 }
 
 void read_attachment(const Cursor& at, Machine& machine) {
@@ -173,29 +170,22 @@ Record<Uncertainty> uncertainty_record() {
       .check([](const Cursor& at, Uncertainty&) {
         for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
           const Cursor value = at.child(key);
-          if (!at.has(key) || value.json().is_null())
-            value.warn("missing; its default is assumed");
+          if (!at.has(key) || value.json().is_null()) value.warn("missing; its default is assumed");
         }
       });
 }
 
-const Record<Controller>& controller_record() {
-  static const auto record =
-      Record<Controller>("a controller")
-          .required("kind",
-                    "The firmware, whose kinematics converts commands into chain lengths. ideal "
-                    "uses the machine file as it is.",
-                    &Controller::kind,
-                    choice<ControllerKind>(
-                        {{"ideal", ControllerKind::ideal},
-                         {"maslow_classic", ControllerKind::maslow_classic},
-                         {"holey", ControllerKind::holey},
-                         {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter}}))
-          .optional("settings",
-                    "The firmware's settings, by GroundControl's names.",
-                    &Controller::settings,
-                    controller_settings_record());
-  return record;
+Record<Controller> controller_record() {
+  return Record<Controller>("a controller")
+      .required("kind",
+                "The firmware, whose kinematics converts commands into chain lengths. ideal "
+                "uses the machine file as it is.",
+                &Controller::kind,
+                choice(kControllerKinds))
+      .optional("settings",
+                "The firmware's settings, by GroundControl's names.",
+                &Controller::settings,
+                controller_settings_record());
 }
 
 /// The default controller, ideal and without settings, is not written.
@@ -227,12 +217,11 @@ void check_machine(const Cursor& at, Machine& machine) {
   if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
-        .warn(fmt::format(
-            "missing; assumed: motor positions within {} mm, chain zeros within {} mm and the "
-            "ring's radius within {} mm (1 sigma)",
-            assumed.motor_position_mm,
-            assumed.chain_zero_mm,
-            assumed.ring_radius_mm));
+        .warn(fmt::format("missing; assumed: motor positions within {} mm, chain zeros within {} "
+                          "mm and the ring's radius within {} mm (1 sigma)",
+                          assumed.motor_position_mm,
+                          assumed.chain_zero_mm,
+                          assumed.ring_radius_mm));
   }
   if (is_in_other_unit(machine)) {
     const OtherUnit unit = other_unit(machine.bed.width_mm);
@@ -242,12 +231,12 @@ void check_machine(const Cursor& at, Machine& machine) {
     at.problems().explain(
         at.pointer(),
         ProblemKind::other_unit,
-        fmt::format(
-            "these look like {}: multiply all lengths by {:g}. The bed is then {} mm; it is {} now.",
-            unit.word,
-            unit.mm,
-            size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm),
-            size(machine.bed.width_mm, machine.bed.height_mm)));
+        fmt::format("these look like {}: multiply all lengths by {:g}. The bed is then {} mm; it "
+                    "is {} now.",
+                    unit.word,
+                    unit.mm,
+                    size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm),
+                    size(machine.bed.width_mm, machine.bed.height_mm)));
     return;
   }
   report_impossible(at, model::problems_of(machine));
@@ -282,88 +271,79 @@ ReadMachine parse_with(const std::string& text, const std::string& file) {
 
 }  // namespace
 
-const Record<ControllerSettings>& controller_settings_record() {
+Record<ControllerSettings> controller_settings_record() {
   using Settings = ControllerSettings;
-  static const auto record =
-      Record<Settings>("the controller's settings, named as GroundControl names them,")
-          .optional("bedwidth", "GroundControl's bedwidth.", &Settings::bed_width_mm, kMillimetres)
-          .optional(
-              "bedheight", "GroundControl's bedheight.", &Settings::bed_height_mm, kMillimetres)
-          .optional("motorspacingx",
-                    "Distance between the motors' axes.",
-                    &Settings::motor_spacing_mm,
-                    kMillimetres)
-          .optional("motoroffsety",
-                    "Height of the motors above the bed's upper edge.",
-                    &Settings::motor_offset_y_mm,
-                    kMillimetres)
-          .optional("rotationradius",
-                    "Distance from the bit to a chain's end.",
-                    &Settings::rotation_radius_mm,
-                    kMillimetres)
-          .optional("sledwidth",
-                    "For a sled on brackets: distance between the brackets.",
-                    &Settings::sled_width_mm,
-                    kMillimetres)
-          .optional("sledheight",
-                    "For a sled on brackets: height of the brackets above the bit.",
-                    &Settings::sled_height_mm,
-                    kMillimetres)
-          .optional("sledcg",
-                    "For a sled on brackets: distance of its centre of gravity below the bit.",
-                    &Settings::sled_cg_mm,
-                    kMillimetres)
-          .optional("chainsagcorrection",
-                    "Factor of the firmware's parabola for the chain's sag.",
-                    &Settings::chain_sag_correction,
-                    number_in("1e-12 / mm^2"))
-          .optional("leftchaintolerance",
-                    "Excess length of the left chain's links.",
-                    &Settings::left_chain_tolerance_percent,
-                    number_in("percent"))
-          .optional("rightchaintolerance",
-                    "Excess length of the right chain's links.",
-                    &Settings::right_chain_tolerance_percent,
-                    number_in("percent"))
-          .optional("topbeamtilt",
-                    "Tilt of the beam.",
-                    &Settings::top_beam_tilt_deg,
-                    number_in("degrees"))
-          .optional("chainpitch", "Length of a link.", &Settings::chain_pitch_mm, kMillimetres)
-          .optional("gearteeth",
-                    "Number of teeth of a sprocket.",
-                    &Settings::gear_teeth,
-                    number_in("teeth"))
-          .optional("chainoversprocket",
-                    "Side of the sprocket over which the chain leaves.",
-                    &Settings::chain_over_sprocket_top,
-                    choice<bool>({{"Top", true}, {"Bottom", false}}))
-          .optional("sledweight", "Weight of the sled.", &Settings::sled_weight_n, number_in("N"))
-          .optional("chainelongationfactor",
-                    "Stretch of the chain per newton.",
-                    &Settings::chain_elongation_per_n,
-                    number_in("1/N"));
-  return record;
+  return Record<Settings>("the controller's settings, named as GroundControl names them,")
+      .optional("bedwidth", "GroundControl's bedwidth.", &Settings::bed_width_mm, kMillimetres)
+      .optional("bedheight", "GroundControl's bedheight.", &Settings::bed_height_mm, kMillimetres)
+      .optional("motorspacingx",
+                "Distance between the motors' axes.",
+                &Settings::motor_spacing_mm,
+                kMillimetres)
+      .optional("motoroffsety",
+                "Height of the motors above the bed's upper edge.",
+                &Settings::motor_offset_y_mm,
+                kMillimetres)
+      .optional("rotationradius",
+                "Distance from the bit to a chain's end.",
+                &Settings::rotation_radius_mm,
+                kMillimetres)
+      .optional("sledwidth",
+                "For a sled on brackets: distance between the brackets.",
+                &Settings::sled_width_mm,
+                kMillimetres)
+      .optional("sledheight",
+                "For a sled on brackets: height of the brackets above the bit.",
+                &Settings::sled_height_mm,
+                kMillimetres)
+      .optional("sledcg",
+                "For a sled on brackets: distance of its centre of gravity below the bit.",
+                &Settings::sled_cg_mm,
+                kMillimetres)
+      .optional("chainsagcorrection",
+                "Factor of the firmware's parabola for the chain's sag.",
+                &Settings::chain_sag_correction,
+                number_in("1e-12 / mm^2"))
+      .optional("leftchaintolerance",
+                "Excess length of the left chain's links.",
+                &Settings::left_chain_tolerance_percent,
+                number_in("percent"))
+      .optional("rightchaintolerance",
+                "Excess length of the right chain's links.",
+                &Settings::right_chain_tolerance_percent,
+                number_in("percent"))
+      .optional(
+          "topbeamtilt", "Tilt of the beam.", &Settings::top_beam_tilt_deg, number_in("degrees"))
+      .optional("chainpitch", "Length of a link.", &Settings::chain_pitch_mm, kMillimetres)
+      .optional(
+          "gearteeth", "Number of teeth of a sprocket.", &Settings::gear_teeth, number_in("teeth"))
+      .optional("chainoversprocket",
+                "Side of the sprocket over which the chain leaves.",
+                &Settings::chain_over_sprocket_top,
+                choice<bool>({{"Top", true}, {"Bottom", false}}))
+      .optional("sledweight", "Weight of the sled.", &Settings::sled_weight_n, number_in("N"))
+      .optional("chainelongationfactor",
+                "Stretch of the chain per newton.",
+                &Settings::chain_elongation_per_n,
+                number_in("1/N"));
 }
 
-const Record<model::AppliedEffect>& effect_record() {
+Record<model::AppliedEffect> effect_record() {
   using model::AppliedEffect;
-  static const auto record =
-      Record<AppliedEffect>("an effect")
-          .required("effect", "Its name, as chaintrue effects lists them.", &AppliedEffect::effect)
-          .sparse("side",
-                  "Where it acts; none for effects without a side.",
-                  &AppliedEffect::side,
-                  one_of({"left", "right", "both", "x", "y"}))
-          .required("parameters",
-                    "Its size and other parameters, by name.",
-                    &AppliedEffect::parameters,
-                    dictionary(number_in("")))
-          .optional("probability",
-                    "Its probability, if a diagnosis added it; otherwise absent.",
-                    &AppliedEffect::probability,
-                    kShare);
-  return record;
+  return Record<AppliedEffect>("an effect")
+      .required("effect", "Its name, as chaintrue effects lists them.", &AppliedEffect::effect)
+      .sparse("side",
+              "Where it acts; none for effects without a side.",
+              &AppliedEffect::side,
+              one_of({"left", "right", "both", "x", "y"}))
+      .required("parameters",
+                "Its size and other parameters, by name.",
+                &AppliedEffect::parameters,
+                dictionary(number_in("")))
+      .optional("probability",
+                "Its probability, if a diagnosis added it; otherwise absent.",
+                &AppliedEffect::probability,
+                kShare);
 }
 
 const Record<Machine>& machine_record() {
@@ -376,7 +356,7 @@ const Record<Machine>& machine_record() {
           .required("feed",
                     "Side of the sprocket over which the chain leaves.",
                     &Machine::feed,
-                    choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
+                    choice(kFeeds))
           .custom("attachment",
                   "How the chains are attached to the sled.",
                   true,

@@ -11,8 +11,8 @@ namespace chaintrue::grid::files {
 /// Includes the checks of model::problems_of; warns of uncertainties that are assumed.
 [[nodiscard]] const Record<model::Machine>& machine_record();
 /// An effect with its side and parameters; whether it exists is checked by the catalogue.
-[[nodiscard]] const Record<model::AppliedEffect>& effect_record();
+[[nodiscard]] Record<model::AppliedEffect> effect_record();
 /// By GroundControl's own names.
-[[nodiscard]] const Record<model::ControllerSettings>& controller_settings_record();
+[[nodiscard]] Record<model::ControllerSettings> controller_settings_record();
 
 }  // namespace chaintrue::grid::files

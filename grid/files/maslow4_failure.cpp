@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/files/maslow4_failure.hpp"
+#include "grid/files/maslow4_scan.hpp"
 
 #include <fmt/format.h>
 
@@ -218,7 +218,8 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   text += found.empty() ? std::string(by_kind(stopped.kind)) : found;
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {
-    text += fmt::format(" {} places were read before that; chaintrue diagnose can use them.", count);
+    text +=
+        fmt::format(" {} places were read before that; chaintrue diagnose can use them.", count);
   } else {
     text += fmt::format(" {} were read before that; a fit needs {}.",
                         count == 0   ? "No places"

@@ -1,15 +1,249 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/maslow4_scan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/belts_record.hpp"
-#include "grid/files/maslow4_text.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/parse_double.hpp"
+#include "grid/files/problems.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
+namespace {
+
+// The lines of a pasted log as the machine printed them: without colours and control characters, and
+// with messages that a terminal broke in two put together again. Private to grid/files.
+
+struct LogLine {
+  std::string text;
+  std::size_t number = 0;  ///< in the file, from 1; of a message over two lines the first
+};
+
+/// The length of a colour code at `at` ("\x1b[0;32m", or "[0;32m" where a clipboard lost the first
+/// character); 0 if there is none.
+std::size_t colour_code(std::string_view text, std::size_t at) {
+  const bool has_escape = text[at] == '\x1b';
+  std::size_t next = at + (has_escape ? 1 : 0);
+  if (next >= text.size() || text[next] != '[') return has_escape ? 1 : 0;
+  const std::size_t first = ++next;
+  while (next < text.size() && (is_digit(text[next]) || text[next] == ';')) ++next;
+  if (next >= text.size()) return has_escape ? next - at : 0;
+  const bool is_code = has_escape ? std::isalpha(static_cast<unsigned char>(text[next])) != 0
+                                  : text[next] == 'm' && next > first;
+  return is_code ? next + 1 - at : has_escape ? 1 : 0;
+}
+
+/// Without blanks and quotation marks at either end.
+std::string_view unquoted(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n\"'";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string cleaned(std::string_view line) {
+  std::string text;
+  for (std::size_t at = 0; at < line.size();) {
+    if (line[at] == '\x1b' || line[at] == '[') {
+      if (const std::size_t length = colour_code(line, at)) {
+        at += length;
+        continue;
+      }
+    }
+    const char c = line[at++];
+    if (c == '\t') text += ' ';
+    if (static_cast<unsigned char>(c) >= 0x20U && c != '\x7f') text += c;
+  }
+  return text;
+}
+
+/// A message without readings that its line does not end. The list of waypoints is the longest.
+bool is_message_without_end(std::string_view line) {
+  constexpr std::size_t kLongestMessage = 8000;
+  return line.starts_with("[MSG") && line.find('{') == std::string_view::npos &&
+         line.find("CLBM") == std::string_view::npos && line.size() < kLongestMessage &&
+         std::count(line.begin(), line.end(), '[') > std::count(line.begin(), line.end(), ']');
+}
+
+/// True for a line that the machine or a terminal prints between others: a message, a status report,
+/// an answer to a command.
+bool is_other_output(std::string_view line) {
+  const std::string_view text = unquoted(line);
+  if (text.empty()) return true;
+  if (text.front() == '<' || text.front() == '$' || text == "ok" || text.starts_with("error:") ||
+      text.starts_with("ALARM"))
+    return true;
+  // "[MSG:INFO: ...]", "[G92:0,0]", "[ESP400]", but not "[{bl:.."
+  return text.size() > 1 && text.front() == '[' &&
+         std::isupper(static_cast<unsigned char>(text[1])) != 0 &&
+         text.find('{') == std::string_view::npos;
+}
+
+/// "Run 2:", "// run three", but not "More runs:" or a sentence that runs on.
+bool is_heading(std::string_view line) {
+  std::string word;
+  std::size_t at = line.find_first_not_of("/# \t");
+  for (; at < line.size() && std::isalpha(static_cast<unsigned char>(line[at])) != 0; ++at) {
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(line[at])));
+  }
+  if (word != "run" || at >= line.size() || line[at] != ' ') return false;
+  const std::string_view rest = unquoted(line.substr(at));
+  constexpr std::size_t kLongestName = 12;
+  return !rest.empty() && rest.find(' ') == std::string_view::npos && rest.size() <= kLongestName;
+}
+
+std::vector<LogLine> log_lines(const std::string& text) {
+  std::vector<LogLine> lines;
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = cleaned(std::string_view(text).substr(begin, end - begin));
+    ++number;
+    begin = end + 1;
+    const bool goes_on = !lines.empty() && !line.empty() && lines.back().number + 1 == number &&
+                         is_message_without_end(lines.back().text) && !is_other_output(line) &&
+                         !is_heading(line) && line.find('{') == std::string::npos &&
+                         line.find("CLBM") == std::string::npos;
+    if (goes_on) {
+      lines.back().text += line;
+    } else {
+      lines.push_back({std::move(line), number});
+    }
+  }
+  return lines;
+}
+
+/// The number that follows a word, blanks skipped; empty if there is none.
+std::optional<double> number_after(std::string_view line, std::string_view word) {
+  const std::size_t at = line.find(word);
+  if (at == std::string_view::npos) return std::nullopt;
+  std::size_t from = at + word.size();
+  while (from < line.size() && line[from] == ' ') ++from;
+  const std::size_t end = line.find_first_not_of("+-.0123456789eE", from);
+  return number_of(line.substr(from, end == std::string_view::npos ? end : end - from));
+}
+
+/// The number of a waypoint; empty if a line that looks like a message contains none.
+std::optional<int> waypoint_of(std::optional<double> number) {
+  constexpr double kMost = 1e6;  // the firmware's are a few hundred
+  if (!number || !(*number >= 0.0) || !(*number <= kMost) || *number != std::floor(*number))
+    return std::nullopt;
+  return static_cast<int>(*number);
+}
+
+/// A reading has some 60 characters; a terminal breaks it over two lines, seldom three.
+constexpr std::size_t kLongestReading = 200;
+constexpr std::size_t kMostLines = 3;
+
+}  // namespace
+
+using model::Belt;
+using model::kBelts;
+
+void ReadingReader::begin(std::size_t number, std::size_t column) {
+  open_ = true;
+  text_.clear();
+  outside_.clear();
+  line_ = number;
+  column_ = column;
+  lines_ = 1;
+}
+
+ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t number) {
+  Found found;
+  const auto add = [&found](std::optional<ScannedReading> reading) {
+    if (reading) found.readings.push_back(*std::move(reading));
+  };
+  outside_.clear();
+  if (open_) ++lines_;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (open_ && (c == '}' || c == '{' || c == ']')) {
+      open_ = false;
+      // A number that another sign ends is whole, though the bracket is lost.
+      add(read(text_, End::closed));
+      found.list_ends = found.list_ends || c == ']';
+      if (c == '{') begin(number, at + 1);
+    } else if (open_) {
+      text_ += c;
+    } else if (c == '{') {
+      begin(number, at + 1);
+    } else if (c == '}') {
+      line_ = number;
+      column_ = 1;
+      add(read(outside_, End::closed));
+      outside_.clear();
+    } else if (c == ']') {
+      found.list_ends = true;
+    } else {
+      outside_ += c;
+    }
+  }
+  if (open_ && (text_.size() > kLongestReading || lines_ > kMostLines)) add(give_up());
+  return found;
+}
+
+std::optional<ScannedReading> ReadingReader::give_up() {
+  if (!open_) return std::nullopt;
+  open_ = false;
+  return read(text_, End::lost);
+}
+
+std::optional<ScannedReading> ReadingReader::read(const std::string& text, End end) const {
+  Problems problems(file_);
+  const std::string place = line_and_column(line_, column_);
+  model::PerBelt<double> lengths_mm;
+  model::PerBelt<bool> known;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string_view part = std::string_view(text).substr(begin, comma - begin);
+    begin = comma + 1;
+    const std::size_t colon = part.find(':');
+    if (colon == std::string_view::npos) continue;
+    const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
+    if (!belt) continue;
+    if (known[*belt]) {
+      problems.add(place,
+                   std::string(unquoted(part)),
+                   "each belt once in a reading",
+                   ProblemKind::repeated_value);
+      continue;
+    }
+    known[*belt] = true;
+    const auto value = checked_number(
+        unquoted(part.substr(colon + 1)), place, name(*belt), kBeltLengthMm, problems);
+    if (value) lengths_mm[*belt] = *value;
+  }
+  // Objects of other programs.
+  if (none_of(kBelts, [&](Belt belt) { return known[belt]; })) return std::nullopt;
+  const std::string whole = fmt::format("{{{}{}", unquoted(text), end == End::lost ? "" : "}");
+  for (const Belt belt : kBelts) {
+    if (!known[belt]) {
+      problems.add(place,
+                   whole,
+                   fmt::format("a length of {} too; a reading has tl, tr, bl and br", name(belt)),
+                   ProblemKind::missing);
+    }
+  }
+  if (end == End::lost && !problems.any())
+    problems.add(place,
+                 whole,
+                 "a complete reading; the log ends in the middle of this one",
+                 ProblemKind::missing);
+  ScannedReading reading;
+  reading.line = line_;
+  reading.problems = problems.list();
+  if (!problems.any()) reading.lengths_mm = lengths_mm;
+  return reading;
+}
+
 namespace {
 
 using model::Belt;

@@ -8,10 +8,12 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/files/length_text.hpp"
+#include "grid/files/blanks.hpp"
 #include "grid/files/parse_double.hpp"
+#include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
+
 namespace {
 
 /// parse_double accepts no plus sign.
@@ -123,6 +125,127 @@ std::optional<double> checked_number(std::string_view text,
                fmt::format("{} ({}){}", range.expected(), name, hint),
                kind_of_bad_number(text));
   return std::nullopt;
+}
+
+namespace {
+
+using input_checks::kMmPerInch;
+constexpr double kInchesPerFoot = 12.0;
+/// The minus sign of spreadsheets and word processors.
+constexpr std::string_view kLongMinus = "\xE2\x88\x92";
+constexpr std::string_view kDoublePrime = "\xE2\x80\xB3";
+
+struct Unit {
+  std::string_view word;
+  double mm;
+};
+/// Longer words first if one ends in another.
+constexpr Unit kUnits[] = {{"mm", 1.0},
+                           {"cm", 10.0},
+                           {"m", 1000.0},
+                           {"inches", kMmPerInch},
+                           {"inch", kMmPerInch},
+                           {"in", kMmPerInch},
+                           {"\"", kMmPerInch},
+                           {"''", kMmPerInch},
+                           {kDoublePrime, kMmPerInch}};
+
+/// Removes the unit from the text's end.
+std::optional<double> take_unit(std::string_view& text) {
+  for (const Unit& unit : kUnits) {
+    if (!text.ends_with(unit.word)) continue;
+    text = trimmed(text.substr(0, text.size() - unit.word.size()));
+    return unit.mm;
+  }
+  return std::nullopt;
+}
+
+/// Digits alone: no sign, point or exponent.
+std::optional<double> whole(std::string_view text) {
+  const bool is_whole = !text.empty() && all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  return is_whole ? number_of(text) : std::nullopt;
+}
+
+/// `13/16` or `43 13/16`, without a sign.
+std::optional<double> fraction(std::string_view text) {
+  double before = 0.0;
+  if (const std::size_t gap = text.find_first_of(" -"); gap != std::string_view::npos) {
+    const auto inches = whole(text.substr(0, gap));
+    if (!inches) return std::nullopt;
+    before = *inches;
+    text = trimmed(text.substr(gap + 1));
+  }
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto above = whole(text.substr(0, slash));
+  const auto below = whole(text.substr(slash + 1));
+  // 13/8 of an inch, or a date, is not a reading of a rule.
+  if (!above || !below || !(*above < *below)) return std::nullopt;
+  return before + *above / *below;
+}
+
+/// Removes feet from the text's front; the rest is inches.
+std::optional<double> take_feet(std::string_view& text) {
+  for (const std::string_view word : {"'", "\xE2\x80\xB2", "feet", "ft"}) {
+    const std::size_t at = text.find(word);
+    if (at == std::string_view::npos || text.substr(at).starts_with("''")) continue;
+    const auto feet = whole(trimmed(text.substr(0, at)));
+    if (feet) text = trimmed(text.substr(at + word.size()));
+    return feet;
+  }
+  return std::nullopt;
+}
+
+/// The inches after feet; 0 if there are none.
+std::optional<double> inches_behind_feet(std::string_view text) {
+  if (text.starts_with('-')) text = trimmed(text.substr(1));
+  if (text.empty()) return 0.0;
+  const auto unit = take_unit(text);
+  if (unit && *unit != kMmPerInch) return std::nullopt;
+  auto inches = fraction(text);
+  if (!inches && text.find_first_not_of("0123456789.") == std::string_view::npos)
+    inches = number_of(text);
+  return inches && *inches < kInchesPerFoot ? inches : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> fraction_of_date(std::string_view text) {
+  constexpr std::string_view kMonths = "JanFebMarAprMayJunJulAugSepOctNovDec";
+  text = trimmed(text);
+  const std::size_t dash = text.find('-');
+  if (dash == std::string_view::npos) return std::nullopt;
+  const bool month_first = dash == 3;
+  const std::string_view name = month_first ? text.substr(0, dash) : text.substr(dash + 1);
+  const std::string_view below = month_first ? text.substr(dash + 1) : text.substr(0, dash);
+  const std::size_t at = kMonths.find(name);
+  if (name.size() != 3 || at == std::string_view::npos || at % 3 != 0 || below.size() > 2 ||
+      !whole(below))
+    return std::nullopt;
+  return std::to_string(at / 3 + 1) + "/" + std::to_string(static_cast<int>(*whole(below)));
+}
+
+std::optional<double> length_with_unit_mm(std::string_view text) {
+  text = trimmed(text);
+  const bool has_long_minus = text.starts_with(kLongMinus);
+  const bool is_negative = has_long_minus || text.starts_with('-');
+  if (is_negative) text.remove_prefix(has_long_minus ? kLongMinus.size() : 1);
+  const double sign = is_negative ? -1.0 : 1.0;
+  if (const auto feet = take_feet(text)) {
+    const auto inches = inches_behind_feet(text);
+    if (!inches) return std::nullopt;
+    return sign * (*feet * kInchesPerFoot + *inches) * kMmPerInch;
+  }
+  const auto unit = take_unit(text);
+  if (const auto inches = fraction(text)) {
+    if (unit && *unit != kMmPerInch) return std::nullopt;
+    return sign * *inches * kMmPerInch;
+  }
+  if (!unit && !has_long_minus) return std::nullopt;
+  const auto number = number_of(text);
+  if (!number || text.starts_with('-') || text.starts_with('+')) return std::nullopt;
+  const double mm = sign * *number * unit.value_or(1.0);
+  return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
 }
 
 }  // namespace chaintrue::grid::files

@@ -60,10 +60,8 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
   const char separator = separator_of(text);
   std::vector<CsvRow> rows = split_csv(text, separator, problems);
   if (rows.empty())
-    problems.add("",
-                 "an empty file",
-                 "the scan written by an optical calibration",
-                 ProblemKind::empty_file);
+    problems.add(
+        "", "an empty file", "the scan written by an optical calibration", ProblemKind::empty_file);
   problems.throw_if_any();
   check_shape(rows, problems);
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -87,14 +85,11 @@ double as_decimal(double value_mm) { return std::round(value_mm * 1e6) / 1e6; }
 
 /// The number of a square's visit if all squares had been visited; distinct and in the order of the
 /// visits.
-int visit(VisitOrder order, int row, int column) {
-  const bool by_rows = order == VisitOrder::rows || order == VisitOrder::serpentine_rows;
-  const bool serpentine =
-      order == VisitOrder::serpentine_rows || order == VisitOrder::serpentine_columns;
-  const int outer = by_rows ? row : column;
-  const int inner = by_rows ? column : row;
-  const int length = by_rows ? kColumns : kRows;
-  return outer * length + (serpentine && outer % 2 == 1 ? length - 1 - inner : inner);
+int visit(const VisitingOrder& order, int row, int column) {
+  const int outer = order.rows ? row : column;
+  const int inner = order.rows ? column : row;
+  const int length = order.rows ? kColumns : kRows;
+  return outer * length + (order.serpentine && outer % 2 == 1 ? length - 1 - inner : inner);
 }
 
 /// Numbers the visited squares from 0 without gaps.
@@ -113,12 +108,11 @@ void check_options(const OpticalOptions& options, Problems& problems) {
                  ProblemKind::out_of_range);
   }
   if (options.machine.controller.kind == model::ControllerKind::ideal) {
-    problems.add(
-        "the machine's /controller",
-        "",
-        "the controller that executed the commands (\"kind\": \"maslow_classic\", \"holey\" or "
-        "\"fluidnc_wallplotter\") and its settings",
-        ProblemKind::missing);
+    problems.add("the machine's /controller",
+                 "",
+                 "the controller that executed the commands (\"kind\": \"maslow_classic\", "
+                 "\"holey\" or \"fluidnc_wallplotter\") and its settings",
+                 ProblemKind::missing);
   }
 }
 

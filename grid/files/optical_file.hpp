@@ -19,24 +19,16 @@
 #include <string>
 
 #include "grid/files/input_error.hpp"
-#include "grid/observation/measured_grid.hpp"
+#include "grid/observation/visiting_order.hpp"
 
 namespace chaintrue::grid::files {
-
-/// The order in which the squares were visited; the file does not contain it.
-enum class VisitOrder {
-  rows,                ///< each row from left to right, the top row first
-  columns,             ///< each column from top to bottom, the left column first
-  serpentine_rows,     ///< as rows, every second row from right to left
-  serpentine_columns,  ///< as columns, every second column from bottom to top
-};
 
 struct OpticalOptions {
   /// Includes the controller that executed the commands.
   model::Machine machine;
   /// Between two squares; 3 inches on the printed banner.
   double pitch_mm = 76.2;
-  std::optional<VisitOrder> order;
+  std::optional<VisitingOrder> order;
 };
 
 struct ReadOptical {

@@ -5,10 +5,10 @@
 #include <array>
 
 #include "grid/containers.hpp"
-#include "grid/files/content_hash.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/json_text.hpp"
+#include "grid/files/provenance_record.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

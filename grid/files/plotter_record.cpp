@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/plotter_record.hpp"
 
+#include "grid/files/names.hpp"
 #include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
@@ -137,10 +138,8 @@ Record<PlotterMachine> plotter_machine_record() {
                 "Location of the motors with the pulleys or spools that count.",
                 &Plotter::motors,
                 by_name({MotorPlace::wall, MotorPlace::gondola}))
-      .optional("feed",
-                "Side of its pulley over which a cord leaves.",
-                &Plotter::feed,
-                choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
+      .optional(
+          "feed", "Side of its pulley over which a cord leaves.", &Plotter::feed, choice(kFeeds))
       .optional("pulley_radius_mm",
                 "Radius of the cord on its pulley; 0: straight to the pin.",
                 &Plotter::pulley_radius_mm,
@@ -200,54 +199,49 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
 
 }  // namespace
 
-const Record<SetPlotter>& set_plotter_record() {
-  static const auto record =
-      Record<SetPlotter>("a V-plotter with its controller's settings")
-          .required("firmware",
-                    "The firmware, whose kinematics converts a command into cord lengths; a "
-                    "Makelangelo is a marlin.",
-                    &SetPlotter::firmware,
-                    by_name({PlotterFirmware::fluidnc,
-                             PlotterFirmware::marlin,
-                             PlotterFirmware::polargraph,
-                             PlotterFirmware::mural}))
-          .required("machine",
-                    "The machine with the controller's settings.",
-                    &SetPlotter::machine,
-                    plotter_machine_record())
-          .optional("steps_per_mm",
-                    "As set in the controller.",
-                    &SetPlotter::steps_per_mm,
-                    steps_record())
-          .optional("home",
-                    "Position that the controller assumes when it is switched on, from the middle "
-                    "between the pins. For all but a mural.",
-                    &SetPlotter::home,
-                    wall_point_record())
-          .optional("pins_middle",
-                    "The middle between the pins in the controller's own coordinates.",
-                    &SetPlotter::pins_middle,
-                    wall_point_record())
-          .optional("homed_offset_mm",
-                    "Homed step offset of a mural.",
-                    &SetPlotter::homed_offset_mm,
-                    number({"mm", -1000.0, 1000.0}))
-          .optional("pen", "Commands that lift and lower the pen.", &SetPlotter::pen, pen_record())
-          .optional("feed_mm_per_min",
-                    "Feed for the test page.",
-                    &SetPlotter::feed_mm_per_min,
-                    number({"mm/min", 1.0, 1e5}))
-          .optional(
-              "longest_belt_mm",
-              "Longest belt that the controller allows; the test drawing stays within it.",
-              &SetPlotter::longest_belt_mm,
-              number({"mm", 1.0, 40000.0}))
-          .optional("segments_per_second",
-                    "For Marlin: pieces per second into which it divides a move (S of M665).",
-                    &SetPlotter::segments_per_second,
-                    number({"1/s", 0.1, 1e4}))
-          .check(check_set_plotter);
-  return record;
+Record<SetPlotter> set_plotter_record() {
+  return Record<SetPlotter>("a V-plotter with its controller's settings")
+      .required("firmware",
+                "The firmware, whose kinematics converts a command into cord lengths; a "
+                "Makelangelo is a marlin.",
+                &SetPlotter::firmware,
+                by_name({PlotterFirmware::fluidnc,
+                         PlotterFirmware::marlin,
+                         PlotterFirmware::polargraph,
+                         PlotterFirmware::mural}))
+      .required("machine",
+                "The machine with the controller's settings.",
+                &SetPlotter::machine,
+                plotter_machine_record())
+      .optional(
+          "steps_per_mm", "As set in the controller.", &SetPlotter::steps_per_mm, steps_record())
+      .optional("home",
+                "Position that the controller assumes when it is switched on, from the middle "
+                "between the pins. For all but a mural.",
+                &SetPlotter::home,
+                wall_point_record())
+      .optional("pins_middle",
+                "The middle between the pins in the controller's own coordinates.",
+                &SetPlotter::pins_middle,
+                wall_point_record())
+      .optional("homed_offset_mm",
+                "Homed step offset of a mural.",
+                &SetPlotter::homed_offset_mm,
+                number({"mm", -1000.0, 1000.0}))
+      .optional("pen", "Commands that lift and lower the pen.", &SetPlotter::pen, pen_record())
+      .optional("feed_mm_per_min",
+                "Feed for the test page.",
+                &SetPlotter::feed_mm_per_min,
+                number({"mm/min", 1.0, 1e5}))
+      .optional("longest_belt_mm",
+                "Longest belt that the controller allows; the test drawing stays within it.",
+                &SetPlotter::longest_belt_mm,
+                number({"mm", 1.0, 40000.0}))
+      .optional("segments_per_second",
+                "For Marlin: pieces per second into which it divides a move (S of M665).",
+                &SetPlotter::segments_per_second,
+                number({"1/s", 0.1, 1e4}))
+      .check(check_set_plotter);
 }
 
 }  // namespace chaintrue::grid::files

@@ -10,6 +10,6 @@
 namespace chaintrue::grid::files {
 
 /// Includes the checks of model::problems_of, and what the firmware needs of the machine.
-[[nodiscard]] const Record<SetPlotter>& set_plotter_record();
+[[nodiscard]] Record<SetPlotter> set_plotter_record();
 
 }  // namespace chaintrue::grid::files

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "grid/files/fluidnc_file.hpp"
+#include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/marlin_defines.hpp"
 #include "grid/files/setting_reader.hpp"
@@ -61,13 +61,14 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
   const double w = machine.pin_spacing_mm;
   const double bottom = std::max(-0.85 * w, -height_mm.value_or(w));
   machine.area = {-0.3 * w, 0.3 * w, -0.25 * w, bottom};
-  problems.warn("",
-                fmt::format("the settings do not contain the paper's position. Assumed: a drawing "
-                            "area of {:.0f} x {:.0f} mm, its top {:.0f} mm below the pins. Enter "
-                            "yours in /set/machine/area",
-                            0.6 * w,
-                            -0.25 * w - bottom,
-                            0.25 * w));
+  problems.warn(
+      "",
+      fmt::format(
+          "the settings do not contain the paper's position. Assumed: a drawing area of {:.0f} x "
+          "{:.0f} mm, its top {:.0f} mm below the pins. Enter yours in /set/machine/area",
+          0.6 * w,
+          -0.25 * w - bottom,
+          0.25 * w));
 }
 
 void warn_of_gondola(const PlotterMachine& machine, Problems& problems) {
@@ -149,8 +150,8 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
     const auto from = settings.find(axis + "_MIN_POS", kOnTheWall);
     const auto to = settings.find(axis + "_MAX_POS", kOnTheWall);
     const std::string size_name = axis + "_BED_SIZE";
-    const auto size = from && to ? settings.find(size_name, kOnTheWall)
-                                 : settings.need(size_name, kOnTheWall);
+    const auto size =
+        from && to ? settings.find(size_name, kOnTheWall) : settings.need(size_name, kOnTheWall);
     is_assumed = is_assumed || !from || !to;
     least = from.value_or(-0.5 * size.value_or(0.0));
     most = to.value_or(least + size.value_or(0.0));
@@ -160,14 +161,14 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
   area.home_x = settings.find("MANUAL_X_HOME_POS", kOnTheWall);
   area.home_y = settings.find("MANUAL_Y_HOME_POS", kOnTheWall);
   if (is_assumed) {
-    problems.warn("",
-                  fmt::format("the settings lack some of X_MIN_POS, X_MAX_POS, Y_MIN_POS and "
-                              "Y_MAX_POS. Assumed: a bed centred on the middle, {:g} to {:g} and "
-                              "{:g} to {:g}",
-                              area.left,
-                              area.right,
-                              area.bottom,
-                              area.top));
+    problems.warn(
+        "",
+        fmt::format("the settings lack some of X_MIN_POS, X_MAX_POS, Y_MIN_POS and Y_MAX_POS. "
+                    "Assumed: a bed centred on the middle, {:g} to {:g} and {:g} to {:g}",
+                    area.left,
+                    area.right,
+                    area.bottom,
+                    area.top));
   }
   problems.warn("",
                 fmt::format("only these names are read from Configuration.h; the others do not "
@@ -184,7 +185,8 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
   const double half = 0.5 * machine.pin_spacing_mm;
   const double least = (kTop + kLeastHeight) * half;
   const auto reach = [&](double side) {
-    return std::floor(std::sqrt(std::max(0.0, belt_mm * belt_mm - std::pow((1.0 + side) * half, 2))));
+    return std::floor(
+        std::sqrt(std::max(0.0, belt_mm * belt_mm - std::pow((1.0 + side) * half, 2))));
   };
   const auto* const side = std::find_if(std::begin(kSides), std::end(kSides), [&](double own) {
     return std::min(bed_mm, reach(own)) >= least;
@@ -203,14 +205,15 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
   const double bottom = std::min(bed_mm, reach(*side));
   machine.area = {-*side * half, *side * half, -kTop * half, -bottom};
   if (bottom == bed_mm && *side == kSides[0]) return;
-  problems.warn("",
-                fmt::format("the longest belt, {:g} mm, does not reach the whole bed: the page is "
-                            "{:.0f} mm wide and ends {:g} mm below the motors; a belt of {:.0f} mm "
-                            "would reach all of it",
-                            belt_mm,
-                            2.0 * *side * half,
-                            bottom,
-                            std::ceil(std::hypot((1.0 + kSides[0]) * half, bed_mm))));
+  problems.warn(
+      "",
+      fmt::format(
+          "the longest belt, {:g} mm, does not reach the whole bed: the page is {:.0f} mm wide and "
+          "ends {:g} mm below the motors; a belt of {:.0f} mm would reach all of it",
+          belt_mm,
+          2.0 * *side * half,
+          bottom,
+          std::ceil(std::hypot((1.0 + kSides[0]) * half, bed_mm))));
 }
 
 /// The pen's place when the controller is switched on: as stated, else with both belts fully paid
@@ -229,15 +232,16 @@ void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Pro
   if (area.home_y) set.home->y_mm = *area.home_y - area.top;
   const double longest = std::hypot(std::abs(set.home->x_mm) + half, set.home->y_mm);
   if (set.home->y_mm < 0.0 && longest <= belt + 0.5) return;
-  problems.add("the home",
-               fmt::format("({:.1f}, {:.1f}) mm from the middle between the motors, with {:.1f} mm of belt",
-                           set.home->x_mm,
-                           set.home->y_mm,
-                           longest),
-               fmt::format("a home below the motors within reach of a belt of {:g} mm "
-                           "(MANUAL_X_HOME_POS, MANUAL_Y_HOME_POS)",
-                           belt),
-               ProblemKind::out_of_range);
+  problems.add(
+      "the home",
+      fmt::format("({:.1f}, {:.1f}) mm from the middle between the motors, with {:.1f} mm of belt",
+                  set.home->x_mm,
+                  set.home->y_mm,
+                  longest),
+      fmt::format("a home below the motors within reach of a belt of {:g} mm (MANUAL_X_HOME_POS, "
+                  "MANUAL_Y_HOME_POS)",
+                  belt),
+      ProblemKind::out_of_range);
 }
 
 SetPlotter of_marlin(const std::string& text, Problems& problems) {
@@ -254,8 +258,7 @@ SetPlotter of_marlin(const std::string& text, Problems& problems) {
   }
   SettingReader settings(std::move(texts), problems);
   const MarlinArea area = is_log ? logged_area(settings) : defined_area(settings, problems);
-  const double belt =
-      needed(settings, is_log ? "M665/H" : "POLARGRAPH_MAX_BELT_LEN", kOnTheWall);
+  const double belt = needed(settings, is_log ? "M665/H" : "POLARGRAPH_MAX_BELT_LEN", kOnTheWall);
   const auto steps = [&](const char* logged, int place) {
     const std::string key = is_log ? std::string("M92/") + logged
                                    : fmt::format("DEFAULT_AXIS_STEPS_PER_UNIT/{}", place);
@@ -265,7 +268,8 @@ SetPlotter of_marlin(const std::string& text, Problems& problems) {
   set.firmware = PlotterFirmware::marlin;
   set.steps_per_mm = {steps("X", 0), steps("Y", 1)};
   constexpr Range kASecond{"1/s", 0.1, 1e4};
-  if (const auto pieces = settings.find(is_log ? "M665/S" : "DEFAULT_SEGMENTS_PER_SECOND", kASecond))
+  if (const auto pieces =
+          settings.find(is_log ? "M665/S" : "DEFAULT_SEGMENTS_PER_SECOND", kASecond))
     set.segments_per_second = *pieces;
   set.machine.pin_spacing_mm = area.right - area.left;
   set.pins_middle = {0.5 * (area.left + area.right), area.top};
@@ -383,10 +387,11 @@ void take_calibration(SettingReader& settings, PlotterMachine& machine, Problems
   const auto measured = settings.find(kMeasured, kLetOut);
   if (extended && measured) machine.pulley_radius_mm *= *measured / *extended;
   if (extended.has_value() == measured.has_value()) return;
-  problems.add(extended ? kMeasured : kExtended,
-               "",
-               "both distances of the calibration: the extended length, and the same length by tape",
-               ProblemKind::missing);
+  problems.add(
+      extended ? kMeasured : kExtended,
+      "",
+      "both distances of the calibration: the extended length, and the same length by tape",
+      ProblemKind::missing);
 }
 
 SetPlotter of_mural(const std::string& text, Problems& problems) {

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/provenance_record.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 
 namespace chaintrue::grid::files {
+
 namespace {
 
 Record<SourceFile> source_file_record() {
@@ -16,21 +22,19 @@ Record<SourceFile> source_file_record() {
 
 }  // namespace
 
-const Record<Provenance>& provenance_record() {
-  static const auto record =
-      Record<Provenance>("where a result comes from")
-          .required("version", "Version of chaintrue.", &Provenance::version)
-          .required("verb", "Verb of the command, or function, that made it.", &Provenance::verb)
-          .required("options",
-                    "Options as given, with files without their folders and without those that "
-                    "name an output.",
-                    &Provenance::options,
-                    list(text()))
-          .required("inputs",
-                    "The files that were read, in order.",
-                    &Provenance::inputs,
-                    list(source_file_record()));
-  return record;
+Record<Provenance> provenance_record() {
+  return Record<Provenance>("where a result comes from")
+      .required("version", "Version of chaintrue.", &Provenance::version)
+      .required("verb", "Verb of the command, or function, that made it.", &Provenance::verb)
+      .required("options",
+                "Options as given, with files without their folders and without those that "
+                "name an output.",
+                &Provenance::options,
+                list(text()))
+      .required("inputs",
+                "The files that were read, in order.",
+                &Provenance::inputs,
+                list(source_file_record()));
 }
 
 Json with_made_by(Json document, const std::optional<Provenance>& made_by) {
@@ -43,6 +47,55 @@ std::optional<Provenance> made_by_of(const std::string& text, const std::string&
   const Json document = parse_json(text, problems);
   if (!document.is_object() || !document.contains("made_by")) return std::nullopt;
   return provenance_record().read(Cursor(document, problems).child("made_by"));
+}
+
+namespace {
+
+/// A number's text depends on its value alone, however it was written.
+std::string scalar_text(const Json& value) {
+  return value.is_number() ? fmt::format("{}", value.get<double>() + 0.0) : compact_json(value);
+}
+
+void add(const Json& value, bool is_root, Sha256& hash) {
+  if (!value.is_structured()) {
+    hash.add(scalar_text(value));
+    return;
+  }
+  hash.add(value.is_object() ? "{" : "[");
+  for (const auto& [key, element] : value.items()) {
+    if (value.is_object()) {
+      if (key == "comment" || (is_root && key == "content_hash")) continue;
+      hash.add(compact_json(key));
+      hash.add(":");
+    }
+    add(element, false, hash);
+    hash.add(",");
+  }
+  hash.add(value.is_object() ? "}" : "]");
+}
+
+}  // namespace
+
+std::string content_hash(const Json& document) {
+  Sha256 hash;
+  add(document, true, hash);
+  return hash.text();
+}
+
+std::string print_with_hash(Json document) {
+  std::string hash = content_hash(document);
+  document["content_hash"] = std::move(hash);
+  return print_json(document);
+}
+
+void check_content(const Cursor& at) {
+  const Cursor hash = at.child("content_hash");
+  if (hash.json() != content_hash(at.json())) {
+    hash.expect(
+        "the hash of this file's content: the file was changed or damaged after it was written; "
+        "fit the points again",
+        ProblemKind::content_hash);
+  }
 }
 
 }  // namespace chaintrue::grid::files

@@ -27,7 +27,7 @@ const std::vector<ReadingKind>& reading_kinds() {
       {ReadingOf::sled_mass, {"kg", 0.1, 200.0}},
       {ReadingOf::link_pitch, {"mm", 1.0, 50.0}, {"left", "right", "both"}},
       {ReadingOf::chain_mass, {"kg/m", 0.001, 10.0}},
-      {ReadingOf::tape_error, {"mm a metre", -50.0, 50.0}, {"x", "y", "both"}},
+      {ReadingOf::tape_error, {"mm per metre", -50.0, 50.0}, {"x", "y", "both"}},
   };
   return kKinds;
 }
@@ -52,29 +52,27 @@ void check_reading(const Cursor& at, ExtraReading& reading) {
 Value<ReadingOf> reading_name() {
   std::vector<std::pair<std::string, ReadingOf>> names;
   for (const ReadingKind& kind : reading_kinds()) names.emplace_back(name(kind.what), kind.what);
-  return choice<ReadingOf>(std::move(names));
+  return choice_of<ReadingOf>(std::move(names));
 }
 
-const Record<ExtraReading>& reading_record() {
+Record<ExtraReading> reading_record() {
   constexpr double kAny = 1e6;
   constexpr double kSmallestSigma = 1e-9;
-  static const auto record =
-      Record<ExtraReading>("a reading")
-          .required("what", "The quantity that was measured.", &ExtraReading::what, reading_name())
-          .sparse("side",
-                  "For a pitch: left, right or both; for a tape error: x, y or both.",
-                  &ExtraReading::side,
-                  one_of({"left", "right", "both", "x", "y"}))
-          .required("value",
-                    "Its value, in the unit at the end of the quantity's name.",
-                    &ExtraReading::value,
-                    number({"", -kAny, kAny}))
-          .required("sigma",
-                    "1 sigma, in the same unit.",
-                    &ExtraReading::sigma,
-                    number({"", kSmallestSigma, kAny}))
-          .check(check_reading);
-  return record;
+  return Record<ExtraReading>("a reading")
+      .required("what", "The quantity that was measured.", &ExtraReading::what, reading_name())
+      .sparse("side",
+              "For a pitch: left, right or both; for a tape error: x, y or both.",
+              &ExtraReading::side,
+              one_of({"left", "right", "both", "x", "y"}))
+      .required("value",
+                "Its value, in the unit at the end of the quantity's name.",
+                &ExtraReading::value,
+                number({"", -kAny, kAny}))
+      .required("sigma",
+                "1 sigma, in the same unit.",
+                &ExtraReading::sigma,
+                number({"", kSmallestSigma, kAny}))
+      .check(check_reading);
 }
 
 }  // namespace chaintrue::grid::files

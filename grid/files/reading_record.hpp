@@ -8,7 +8,7 @@
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] const Record<ExtraReading>& reading_record();
+[[nodiscard]] Record<ExtraReading> reading_record();
 /// "motor_spacing_mm", ...
 [[nodiscard]] Value<ReadingOf> reading_name();
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <utility>
 
 #include "grid/containers.hpp"
@@ -94,15 +93,13 @@ Value<model::Setting> setting_word() {
   std::vector<std::pair<std::string, model::Setting>> names;
   for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);
   for (auto setting : model::kSheetSettings) names.emplace_back(model::name(setting), setting);
-  return choice<model::Setting>(std::move(names));
+  return choice_of<model::Setting>(std::move(names));
 }
 
-const Record<ErrorSummary>& error_summary_record() {
-  static const auto record =
-      Record<ErrorSummary>("rms and maximum")
-          .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, kNotNegative)
-          .required("maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, kNotNegative);
-  return record;
+Record<ErrorSummary> error_summary_record() {
+  return Record<ErrorSummary>("rms and maximum")
+      .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, kNotNegative)
+      .required("maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, kNotNegative);
 }
 
 }  // namespace chaintrue::grid::files

@@ -78,6 +78,6 @@ void report_impossible(const Cursor& at, const std::vector<model::MachineProblem
 [[nodiscard]] Value<model::Setting> setting_word();
 
 /// An rms and a maximum, mm.
-[[nodiscard]] const Record<ErrorSummary>& error_summary_record();
+[[nodiscard]] Record<ErrorSummary> error_summary_record();
 
 }  // namespace chaintrue::grid::files

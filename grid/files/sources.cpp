@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/files/read_log.hpp"
+#include "grid/files/file_identity.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

@@ -12,6 +12,7 @@
 #include "grid/files/json_reader.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
@@ -78,16 +79,8 @@ Record<StatedMachine> stated_machine_record() {
       .sparse("stated_file",
               "Path of the machine that the owner assumes; default: the true one.",
               &StatedMachine::stated_file)
-      .optional("model",
-                "The physics used to simulate readings.",
-                &StatedMachine::model,
-                choice<Model>({{"straight", Model::straight},
-                               {"wrap", Model::wrap},
-                               {"firmware", Model::firmware},
-                               {"one_shot", Model::one_shot},
-                               {"inextensible", Model::inextensible},
-                               {"elastic", Model::elastic},
-                               {"elastic_3d", Model::elastic_3d}}))
+      .optional(
+          "model", "The physics used to simulate readings.", &StatedMachine::model, choice(kModels))
       .optional("unmodelled_mm",
                 "Size of smooth errors outside every model.",
                 &StatedMachine::unmodelled_mm,

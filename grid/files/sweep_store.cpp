@@ -76,7 +76,7 @@ void take_line(std::string_view line, FinishedCells& cells) {
 [[noreturn]] void refuse(const fs::path& path,
                          const std::string& value,
                          const std::string& expected) {
-  throw InputError({{path.string(), "", value, expected}});
+  refuse(path.string(), value, expected);
 }
 
 /// Appends to one part, cell by cell. Not thread safe.

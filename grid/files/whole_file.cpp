@@ -11,9 +11,9 @@
 #include <set>
 #include <system_error>
 
+#include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"
-#include "grid/files/read_log.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 
@@ -37,19 +37,19 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
   std::size_t count = 0;
   while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) {
     if (text.size() + count > kMostBytes) {
-      refuse_file(name,
-                  "a larger file",
-                  fmt::format("at most {} MB; no file of measurements or settings is larger",
-                              kMostBytes >> 20U),
-                  ProblemKind::file_kind);
+      refuse(name,
+             "a larger file",
+             fmt::format("at most {} MB; no file of measurements or settings is larger",
+                         kMostBytes >> 20U),
+             ProblemKind::file_kind);
     }
     text.append(buffer, count);
   }
   if (std::ferror(file) != 0) {
-    refuse_file(name,
-                fmt::format("a read error ({})", system_words(errno)),
-                "a file that can be read to its end",
-                ProblemKind::unreadable_file);
+    refuse(name,
+           fmt::format("a read error ({})", system_words(errno)),
+           "a file that can be read to its end",
+           ProblemKind::unreadable_file);
   }
   Sha256 hash;
   hash.add(text);
@@ -80,8 +80,7 @@ void check_is_text(const std::string& text, const std::string& name) {
   };
   for (const Kind& kind : kKinds) {
     if (text.starts_with(kind.beginning))
-      refuse_file(
-          name, std::string(kind.found), std::string(kind.expected), ProblemKind::file_kind);
+      refuse(name, std::string(kind.found), std::string(kind.expected), ProblemKind::file_kind);
   }
 }
 
@@ -101,7 +100,8 @@ void put_utf8(std::uint32_t code, std::string& text) {
   put(0x80 | (code & 0x3F));
 }
 
-/// What Excel saves as "Unicode text" begins with a byte order mark of UTF-16; other text is unchanged.
+/// What Excel saves as "Unicode text" begins with a byte order mark of UTF-16; other text is
+/// unchanged.
 std::string utf8_of(std::string text) {
   const bool is_little = text.starts_with("\xFF\xFE");
   if (!is_little && !text.starts_with("\xFE\xFF")) return text;
@@ -143,7 +143,7 @@ std::string read_whole_file(const fs::path& path) {
   if (path == "-") return read_text(stdin, path);
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
-    refuse_file(path.string(), "a directory", "a file", ProblemKind::unreadable_file);
+    refuse(path.string(), "a directory", "a file", ProblemKind::unreadable_file);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) {
     const std::string name = path.string();
@@ -177,10 +177,10 @@ void write_whole_files(const std::vector<OutputFile>& outputs) {
         output.path == "-" ? "-" : fs::weakly_canonical(output.path, error).string();
     const bool is_device = fs::is_character_file(output.path, error);
     if (!is_device && !names.insert(place).second)
-      refuse_file(output.path.string(),
-                  "a name given twice",
-                  "a different file for each output",
-                  ProblemKind::output_repeated);
+      refuse(output.path.string(),
+             "a name given twice",
+             "a different file for each output",
+             ProblemKind::output_repeated);
     files.push_back(pending.emplace_back(std::make_unique<PendingFile>(output.path)).get());
     files.back()->write(output.text);
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
-#include "grid/files/length_text.hpp"
+#include "grid/files/number_text.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -54,35 +54,38 @@ TEST_P(SameTable, ReadsEqually) {
 INSTANTIATE_TEST_SUITE_P(
     Ways,
     SameTable,
-    testing::Values("x_mm,y_mm\n-1112.8375,508\n635,-12.7\n",
-                    "\xEF\xBB\xBFx_mm;y_mm\r\n-1112,8375;508\r\n635;-12,7\r\n;\r\n;;;;\r\n,,\r\n",
-                    "sep=;\nx_mm;y_mm\n-1112.8375;508\n635;-12.7\n",
-                    "Y (mm)\tX [mm]\n508\t-1112.8375\n-12.7\t635\n",
-                    "note,x_mm,y_mm\nfirst,-1112.8375,508\nsecond,635,-12.7\n",
-                    "x_mm,y_mm\n-1112.8375,508\n635,-12.7\n\"read by two people, on Sunday\"\n",
-                    "x_mm,y_mm\n-1112.8375 mm,50.8 cm\n0.635 m,-12.7mm\n",
-                    "x_mm,y_mm\n\"-43 13/16\"\"\",20 in\n25 inches,-1/2\n",
-                    "x_in,y_in\n-43 13/16,20\n25,-1/2\n",
-                    "x_mm,y_mm\n\xE2\x88\x92"
-                    "1112.8375,508\n635,\xE2\x88\x92"
-                    "12.7\n",
-                    // From a spreadsheet with decimal commas, saved with commas between cells.
-                    "x_mm,y_mm\n\"-1112,8375\",508\n635,\"-12,7\"\n",
-                    "x_mm,y_mm\n\"-1,112.8375\",508\n635,-12.7\n",
-                    "x_mm;y_mm\n-1.112,8375;508\n635;-12,7\n",
-                    // A French one: a narrow space between thousands, a long minus, a unit behind a
-                    // space that does not break.
-                    "x_mm;y_mm\n\xE2\x88\x92"
-                    "1\xE2\x80\xAF"
-                    "112,8375;508\xC2\xA0mm\n635;\xE2\x88\x92"
-                    "12,7\n",
-                    "\"My machine, on Sunday\";\n;\nx_mm;y_mm\n-1112,8375;508\n635;-12,7\nMean;\n"));
+    testing::Values(
+        "x_mm,y_mm\n-1112.8375,508\n635,-12.7\n",
+        "\xEF\xBB\xBFx_mm;y_mm\r\n-1112,8375;508\r\n635;-12,7\r\n;\r\n;;;;\r\n,,\r\n",
+        "sep=;\nx_mm;y_mm\n-1112.8375;508\n635;-12.7\n",
+        "Y (mm)\tX [mm]\n508\t-1112.8375\n-12.7\t635\n",
+        "note,x_mm,y_mm\nfirst,-1112.8375,508\nsecond,635,-12.7\n",
+        "x_mm,y_mm\n-1112.8375,508\n635,-12.7\n\"read by two people, on Sunday\"\n",
+        "x_mm,y_mm\n-1112.8375 mm,50.8 cm\n0.635 m,-12.7mm\n",
+        "x_mm,y_mm\n\"-43 13/16\"\"\",20 in\n25 inches,-1/2\n",
+        "x_in,y_in\n-43 13/16,20\n25,-1/2\n",
+        "x_mm,y_mm\n\xE2\x88\x92"
+        "1112.8375,508\n635,\xE2\x88\x92"
+        "12.7\n",
+        // From a spreadsheet with decimal commas, saved with commas between cells.
+        "x_mm,y_mm\n\"-1112,8375\",508\n635,\"-12,7\"\n",
+        "x_mm,y_mm\n\"-1,112.8375\",508\n635,-12.7\n",
+        "x_mm;y_mm\n-1.112,8375;508\n635;-12,7\n",
+        // A French one: a narrow space between thousands, a long minus, a unit behind a
+        // space that does not break.
+        "x_mm;y_mm\n\xE2\x88\x92"
+        "1\xE2\x80\xAF"
+        "112,8375;508\xC2\xA0mm\n635;\xE2\x88\x92"
+        "12,7\n",
+        "\"My machine, on Sunday\";\n;\nx_mm;y_mm\n-1112,8375;508\n635;-12,7\nMean;\n"));
 
 TEST(CsvTable, SkipsNotesAboveTheHeader) {
-  EXPECT_THAT(read("My machine\n\nx_mm,y_mm\n1,2\n3,4\n").warnings,
-              ElementsAre("t.csv: line 1, column 1: a note without a reading: left out (My machine)"));
+  EXPECT_THAT(
+      read("My machine\n\nx_mm,y_mm\n1,2\n3,4\n").warnings,
+      ElementsAre("t.csv: line 1, column 1: a note without a reading: left out (My machine)"));
   // A line of units below the header is a line of the table.
-  EXPECT_THAT(read("x_mm,y_mm\nmm,mm\n1,2\n").refusals, ElementsAre(HasSubstr("found mm"), HasSubstr("found mm")));
+  EXPECT_THAT(read("x_mm,y_mm\nmm,mm\n1,2\n").refusals,
+              ElementsAre(HasSubstr("found mm"), HasSubstr("found mm")));
 }
 
 TEST(CsvTable, TreatsADashAsMissing) {
@@ -170,7 +173,8 @@ TEST(CsvTable, RefusesTooManyRows) {
 TEST(LengthText, KnowsTheFractionThatASpreadsheetMadeADateOf) {
   EXPECT_EQ(fraction_of_date("Jan-32"), "1/32");
   EXPECT_EQ(fraction_of_date("16-Mar"), "3/16");
-  for (const char* none : {"", "-", "12-", "Jan-", "an-32", "nFe-1", "2026-01-32", "Jan-320", "1-Marz", "5-8"})
+  for (const char* none :
+       {"", "-", "12-", "Jan-", "an-32", "nFe-1", "2026-01-32", "Jan-320", "1-Marz", "5-8"})
     EXPECT_FALSE(fraction_of_date(none)) << none;
 }
 

@@ -11,13 +11,11 @@
 #include <sstream>
 
 #include "grid/files/belts_file.hpp"
-#include "grid/files/fluidnc_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/plotter_file.hpp"
 #include "grid/files/plotter_settings.hpp"
-#include "grid/files/webcontrol_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/effects/effect.hpp"
 
@@ -88,8 +86,7 @@ const std::string& good_log() {
   return log;
 }
 
-const Importer kMaslow4Log =
-    importer([](const std::string& text) { return of_maslow4(text, ""); });
+const Importer kMaslow4Log = importer([](const std::string& text) { return of_maslow4(text, ""); });
 const Importer kMaslow4Settings =
     importer([](const std::string& text) { return of_maslow4(good_log(), text); });
 
@@ -150,9 +147,11 @@ std::vector<KnownFile> known_files() {
   add(kFixtures / "good" / "maslow4_log.txt", kMaslow4Log);
   for (const char* name : {"groundcontrol_ring.ini", "groundcontrol_brackets.ini"})
     add(kFixtures / "good" / name, kGroundcontrol);
-  for (const char* name : {"configuration.h", "fluidnc.yaml", "marlin_log.txt", "mural.txt", "polargraph.properties"})
+  for (const char* name :
+       {"configuration.h", "fluidnc.yaml", "marlin_log.txt", "mural.txt", "polargraph.properties"})
     add(kFixtures / "good" / fmt::format("plottersettings_{}", name), kPlotter);
-  for (const char* name : {"11_encodersteps.ini", "12_groundcontrol_2016.ini", "13_quadrilateral.ini"})
+  for (const char* name :
+       {"11_encodersteps.ini", "12_groundcontrol_2016.ini", "13_quadrilateral.ini"})
     add(kReports / name, kGroundcontrol);
   for (const char* name : {"03_marlin_home.h", "07_marlin_reach.h"}) add(kReports / name, kPlotter);
   add(kReports / "16_old_layout.yaml", kMaslow4Settings);
@@ -202,7 +201,8 @@ class Folders {
 /// Redundant lines of a log: which waypoint is next, and where all are.
 bool is_said_again(const std::string& line) {
   return line.find("Measured waypoint") != std::string::npos ||
-         line.find("Waypoints [") != std::string::npos || line.find("perAnchor") != std::string::npos;
+         line.find("Waypoints [") != std::string::npos ||
+         line.find("perAnchor") != std::string::npos;
 }
 
 /// For lines that are no comments; not those within words.
@@ -243,11 +243,13 @@ bool is_named(const std::string& said, const FoundNumber& number) {
   if (said.find("others like it") != std::string::npos && !may_count) return true;
   const std::size_t passed = said.find("ignored, because");
   const std::string names = in_lower_case(passed == std::string::npos ? "" : said.substr(passed));
-  for (std::size_t end = number.folder.find('/'); end != std::string::npos; end = number.folder.find('/', end + 1)) {
+  for (std::size_t end = number.folder.find('/'); end != std::string::npos;
+       end = number.folder.find('/', end + 1)) {
     if (names.find("all of " + number.folder.substr(0, end)) != std::string::npos) return true;
   }
   static const std::regex word(R"([A-Za-z_][\w.]*)");
-  for (std::sregex_iterator it(number.line.begin(), number.line.end(), word), end; it != end; ++it) {
+  for (std::sregex_iterator it(number.line.begin(), number.line.end(), word), end; it != end;
+       ++it) {
     const std::string name = in_lower_case(it->str());
     if (name != "key" && name != "value" && names.find(name) != std::string::npos) return true;
   }
@@ -271,18 +273,21 @@ TEST(Importers, HonourOrNameEveryNumber) {
       // A little larger, and, for numbers that only bound others, far too small and far too large.
       const bool is_whole = digits.find('.') == std::string::npos;
       const bool is_honoured = [&] {
-        for (const std::string& other :
-             {is_whole ? with_another_digit(digits) : digits + "1", std::string("0.01"), "9" + digits}) {
+        for (const std::string& other : {is_whole ? with_another_digit(digits) : digits + "1",
+                                         std::string("0.01"),
+                                         "9" + digits}) {
           std::string text = file.text;
           text.replace(number.at, number.length, other);
           const Answer changed = (*file.importer)(text);
-          if (changed.is_refused || changed.written != plain.written || changed.said != plain.said || is_named(changed.said, number)) return true;
+          if (changed.is_refused || changed.written != plain.written ||
+              changed.said != plain.said || is_named(changed.said, number))
+            return true;
         }
         return false;
       }();
       ++tried;
-      EXPECT_TRUE(is_honoured) << file.name << ": nothing changes with " << digits << " in " << number.line
-                               << ", and nothing says why:\n"
+      EXPECT_TRUE(is_honoured) << file.name << ": nothing changes with " << digits << " in "
+                               << number.line << ", and nothing says why:\n"
                                << plain.said;
     }
   }
@@ -293,18 +298,24 @@ TEST(Importers, HonourOrNameEveryNumber) {
 TEST(Importers, AnswerOrRefuseEveryFile) {
   std::size_t answered = 0, refused = 0;
   static const std::regex no_number(R"(\b(nan|inf)\b)", std::regex::icase);
-  for (const auto& folder : {kFixtures, kReports, kReports.parent_path() / "gcode", kReports.parent_path() / "maslow4",
+  for (const auto& folder : {kFixtures,
+                             kReports,
+                             kReports.parent_path() / "gcode",
+                             kReports.parent_path() / "maslow4",
                              kReports.parent_path() / "repro"}) {
     if (!std::filesystem::exists(folder)) continue;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-      constexpr std::uintmax_t kLargest = 40'000;  // bytes: larger ones are maps, programs and their moves
+      constexpr std::uintmax_t kLargest =
+          40'000;  // bytes: larger ones are maps, programs and their moves
       if (!entry.is_regular_file() || entry.file_size() > kLargest) continue;
       const std::string text = read_whole_file(entry.path());
-      for (const Importer* importer : {&kGroundcontrol, &kWebcontrol, &kFluidnc, &kPlotter, &kMaslow4Log, &kMaslow4Settings}) {
+      for (const Importer* importer :
+           {&kGroundcontrol, &kWebcontrol, &kFluidnc, &kPlotter, &kMaslow4Log, &kMaslow4Settings}) {
         const Answer answer = (*importer)(text);
         (answer.is_refused ? refused : answered) += 1;
         EXPECT_EQ(answer.written.empty(), answer.is_refused) << entry.path();
-        EXPECT_TRUE(!answer.is_refused || answer.said.find("any") != std::string::npos) << entry.path() << ": " << answer.said;
+        EXPECT_TRUE(!answer.is_refused || answer.said.find("any") != std::string::npos)
+            << entry.path() << ": " << answer.said;
         EXPECT_FALSE(std::regex_search(answer.written, no_number)) << entry.path();
       }
     }

@@ -16,7 +16,7 @@ namespace chaintrue::inputs {
 struct Invocation {
   std::string verb;  ///< "fit", "gcode check"
   std::string name;  ///< of the kind of input
-  cli::Facts facts;  ///< what options depend on (tools/cli/facts.hpp)
+  cli::Facts facts;  ///< what options depend on (tools/cli/arguments.hpp)
   std::string line;
 };
 [[nodiscard]] const std::vector<Invocation>& invocations();

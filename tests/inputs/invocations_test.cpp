@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every verb answers each kind of input that it takes, and refuses every option that would do nothing
-// there (tools/cli/facts.hpp). The options are those of --help; that each other one changes the
+// there (tools/cli/arguments.hpp). The options are those of --help; that each other one changes the
 // answer is tried in tests/lab/inputs.
 #include <gmock/gmock.h>
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Four belts: anchors, their check and causes against the number of positions.
-#include <benchmark/benchmark.h>
-
 #include <cmath>
 #include <cstdint>
 
@@ -9,6 +7,7 @@
 #include "grid/belts/belts_fit.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
+#include "tools/bench/work.hpp"
 
 namespace {
 
@@ -32,32 +31,21 @@ grid::MeasuredBelts belts(std::int64_t count) {
   return belts(static_cast<int>(count) / rows, rows);
 }
 
-void fit_belts(benchmark::State& state) {
-  const grid::MeasuredBelts measured = belts(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::fit_belts(measured));
-}
-BENCHMARK(fit_belts)
-    ->Name("size/fit/belts")
-    ->ArgsProduct({{100, 1000, 5000, 20000}})
-    ->Unit(benchmark::kMillisecond);
+const auto fit_of_belts = [](const benchmark::State& state) {
+  return [measured = belts(state.range(0))] { return grid::fit_belts(measured); };
+};
+const auto check_of_belts = [](const benchmark::State& state) {
+  return [fit = grid::fit_belts(belts(100)).value(), measured = belts(state.range(0))] {
+    return grid::check_anchors(fit, measured);
+  };
+};
+const auto diagnosis_of_belts = [](const benchmark::State& state) {
+  return [measured = belts(state.range(0))] { return grid::diagnosis::diagnose(measured); };
+};
 
-void check_belts(benchmark::State& state) {
-  const grid::BeltsFit fit = grid::fit_belts(belts(100)).value();
-  const grid::MeasuredBelts measured = belts(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::check_anchors(fit, measured));
-}
-BENCHMARK(check_belts)
-    ->Name("size/check/belts")
-    ->ArgsProduct({{100, 1000, 5000, 20000}})
-    ->Unit(benchmark::kMillisecond);
-
-void diagnose_belts(benchmark::State& state) {
-  const grid::MeasuredBelts measured = belts(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::diagnosis::diagnose(measured));
-}
-BENCHMARK(diagnose_belts)
-    ->Name("size/diagnose/belts")
-    ->ArgsProduct({{100, 300, 1000, 2000}})
-    ->Unit(benchmark::kMillisecond);
+const benchmark::internal::Benchmark* const of_belts[] = {
+    bench::add("size/fit/belts", fit_of_belts)->ArgsProduct({{100, 1000, 5000, 20000}}),
+    bench::add("size/check/belts", check_of_belts)->ArgsProduct({{100, 1000, 5000, 20000}}),
+    bench::add("size/diagnose/belts", diagnosis_of_belts)->ArgsProduct({{100, 300, 1000, 2000}})};
 
 }  // namespace

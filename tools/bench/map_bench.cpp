@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole fit and the map's queries. 28 points are a usual grid, 91 a large one.
-#include <benchmark/benchmark.h>
-
-#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "grid/map/fit.hpp"
 #include "grid/map/query_points.hpp"
 #include "grid/synthetic/generator.hpp"
+#include "tools/bench/work.hpp"
 
 namespace {
 
@@ -24,66 +23,59 @@ grid::MeasuredGrid grid_of(int columns, int rows) {
   return grid::synthetic::generate(model::Machine{}, spec).value().grid;
 }
 
-void fit_points(benchmark::State& state, int columns, int rows) {
-  const grid::MeasuredGrid grid = grid_of(columns, rows);
-  for (auto _ : state) benchmark::DoNotOptimize(grid::fit(grid));
+/// One place after the other, along a line.
+template <class Ask>
+auto place_by_place(Ask ask) {
+  return [ask](const benchmark::State&) {
+    return [ask, map = grid::fit(grid_of(7, 4)).value(), x = -1000.0]() mutable {
+      const model::MarkPoint place{x, 0.25 * x};
+      x = x < 1000.0 ? x + 1.0 : -1000.0;
+      return ask(map, place);
+    };
+  };
 }
-BENCHMARK_CAPTURE(fit_points, 28_points, 7, 4)
-    ->Name("map/fit/28_points")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(fit_points, 91_points, 13, 7)
-    ->Name("map/fit/91_points")
-    ->Unit(benchmark::kMillisecond);
-
-void query_lengths(benchmark::State& state) {
-  const auto map = grid::fit(grid_of(7, 4)).value();
-  double x = -1000.0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(map.lengths({x, 0.25 * x}));
-    x = x < 1000.0 ? x + 1.0 : -1000.0;
-  }
-}
-BENCHMARK(query_lengths)->Name("map/lengths");
-
-void query_with_sigma(benchmark::State& state) {
-  const auto map = grid::fit(grid_of(7, 4)).value();
-  double x = -1000.0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(map.query({x, 0.25 * x}));
-    x = x < 1000.0 ? x + 1.0 : -1000.0;
-  }
-}
-BENCHMARK(query_with_sigma)->Name("map/query");
 
 /// A thousand places at once, as in compensating or drawing a program.
-std::vector<model::MarkPoint> thousand_places() {
-  std::vector<model::MarkPoint> places;
-  for (int i = 0; i < 1000; ++i) places.push_back({2.0 * i - 1000.0, 0.5 * i - 250.0});
-  return places;
+template <class Answer>
+auto thousand_places(void (*ask)(const grid::CompensationMap&,
+                                 std::span<const model::MarkPoint>,
+                                 std::span<Answer>)) {
+  return [ask](const benchmark::State&) {
+    std::vector<model::MarkPoint> places;
+    for (int i = 0; i < 1000; ++i) places.push_back({2.0 * i - 1000.0, 0.5 * i - 250.0});
+    return [ask,
+            places,
+            map = grid::fit(grid_of(7, 4)).value(),
+            answers = std::vector<Answer>(places.size())]() mutable {
+      ask(map, places, answers);
+      return answers.data();
+    };
+  };
 }
 
-void query_many(benchmark::State& state) {
-  const auto map = grid::fit(grid_of(7, 4)).value();
-  const auto places = thousand_places();
-  std::vector<grid::MapAnswerOrFailure> answers(places.size());
-  for (auto _ : state) {
-    grid::query(map, places, answers);
-    benchmark::DoNotOptimize(answers.data());
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+auto fit_of(int columns, int rows) {
+  return [=](const benchmark::State&) {
+    return [grid = grid_of(columns, rows)] { return grid::fit(grid); };
+  };
 }
-BENCHMARK(query_many)->Name("map/query/1000_places")->Unit(benchmark::kMillisecond);
 
-void lengths_of_many(benchmark::State& state) {
-  const auto map = grid::fit(grid_of(7, 4)).value();
-  const auto places = thousand_places();
-  std::vector<grid::MapLengthsOrFailure> answers(places.size());
-  for (auto _ : state) {
-    grid::lengths(map, places, answers);
-    benchmark::DoNotOptimize(answers.data());
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
-}
-BENCHMARK(lengths_of_many)->Name("map/lengths/1000_places")->Unit(benchmark::kMillisecond);
+const benchmark::internal::Benchmark* const of_maps[] = {
+    bench::add("map/fit/28_points", fit_of(7, 4)),
+    bench::add("map/fit/91_points", fit_of(13, 7)),
+    bench::add(
+        "map/lengths",
+        place_by_place([](const auto& map, const auto& place) { return map.lengths(place); }),
+        benchmark::kNanosecond),
+    bench::add("map/query",
+               place_by_place([](const auto& map, const auto& place) { return map.query(place); }),
+               benchmark::kNanosecond),
+    bench::add("map/query/1000_places",
+               thousand_places<grid::MapAnswerOrFailure>(grid::query),
+               benchmark::kMillisecond,
+               1000),
+    bench::add("map/lengths/1000_places",
+               thousand_places<grid::MapLengthsOrFailure>(grid::lengths),
+               benchmark::kMillisecond,
+               1000)};
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cost against size: measures the tables of docs/reliability.md. Random points on the bed with
 // usual noise; distances between random holes, each once.
-#include <benchmark/benchmark.h>
-
 #include <cmath>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "grid/map/map_check.hpp"
 #include "grid/random.hpp"
 #include "grid/synthetic/generator.hpp"
+#include "tools/bench/work.hpp"
 
 namespace {
 
@@ -59,71 +58,51 @@ grid::MeasuredHoles distances(std::int64_t count, std::int64_t holes) {
   return set;
 }
 
-void fit_points(benchmark::State& state) {
-  const auto grid = points(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::fit(grid));
-}
-BENCHMARK(fit_points)
-    ->Name("size/fit/points")
-    ->ArgsProduct({{100, 300, 1000, 3000, 5000}})
-    ->Unit(benchmark::kMillisecond);
-
-void fit_points_of_unknown_noise(benchmark::State& state) {
+const auto fit_of_points = [](const benchmark::State& state) {
+  return [grid = points(state.range(0))] { return grid::fit(grid); };
+};
+const auto fit_of_unknown_noise = [](const benchmark::State& state) {
   auto grid = points(state.range(0));
   grid.noise.reset();
-  for (auto _ : state) benchmark::DoNotOptimize(grid::fit(grid));
-}
-BENCHMARK(fit_points_of_unknown_noise)
-    ->Name("size/fit/points_of_unknown_noise")
-    ->ArgsProduct({{100, 1000, 5000}})
-    ->Unit(benchmark::kMillisecond);
+  return [grid] { return grid::fit(grid); };
+};
+const auto fit_of_distances = [](const benchmark::State& state) {
+  return [set = distances(state.range(0), state.range(1))] { return grid::joint_fit(set); };
+};
+const auto check_of_points = [](const benchmark::State& state) {
+  return [map = grid::fit(points(100)).value(), grid = points(state.range(0))] {
+    return grid::check_map(map, grid);
+  };
+};
+const auto check_of_distances = [](const benchmark::State& state) {
+  return [map = grid::fit(points(100)).value(), set = distances(state.range(0), state.range(1))] {
+    return grid::check_map(map, set);
+  };
+};
+const auto diagnosis_of_points = [](const benchmark::State& state) {
+  return [grid = points(state.range(0))] { return grid::diagnosis::diagnose(grid); };
+};
 
-void fit_distances(benchmark::State& state) {
-  const auto set = distances(state.range(0), state.range(1));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::joint_fit(set));
-}
-BENCHMARK(fit_distances)
-    ->Name("size/fit/distances_holes")
-    ->Args({100, 20})
-    ->Args({300, 30})
-    ->Args({1000, 50})
-    ->Args({2000, 80})
-    ->Args({5000, 110})
-    ->Args({5000, 150})
-    ->Unit(benchmark::kMillisecond);
-
-void check_points(benchmark::State& state) {
-  const auto map = grid::fit(points(100)).value();
-  const auto grid = points(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::check_map(map, grid));
-}
-BENCHMARK(check_points)
-    ->Name("size/check/points")
-    ->ArgsProduct({{5, 100, 1000, 5000, 20000}})
-    ->Unit(benchmark::kMillisecond);
-
-void check_distances(benchmark::State& state) {
-  const auto map = grid::fit(points(100)).value();
-  const auto set = distances(state.range(0), state.range(1));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::check_map(map, set));
-}
-BENCHMARK(check_distances)
-    ->Name("size/check/distances_holes")
-    ->Args({100, 20})
-    ->Args({1000, 50})
-    ->Args({5000, 110})
-    ->Args({5000, 500})
-    ->Args({20000, 500})
-    ->Unit(benchmark::kMillisecond);
-
-void diagnose_points(benchmark::State& state) {
-  const auto grid = points(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::diagnosis::diagnose(grid));
-}
-BENCHMARK(diagnose_points)
-    ->Name("size/diagnose/points")
-    ->ArgsProduct({{100, 300, 600}})
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+const benchmark::internal::Benchmark* const of_sizes[] = {
+    bench::add("size/fit/points", fit_of_points)->ArgsProduct({{100, 300, 1000, 3000, 5000}}),
+    bench::add("size/fit/points_of_unknown_noise", fit_of_unknown_noise)
+        ->ArgsProduct({{100, 1000, 5000}}),
+    bench::add("size/fit/distances_holes", fit_of_distances)
+        ->Args({100, 20})
+        ->Args({300, 30})
+        ->Args({1000, 50})
+        ->Args({2000, 80})
+        ->Args({5000, 110})
+        ->Args({5000, 150}),
+    bench::add("size/check/points", check_of_points)->ArgsProduct({{5, 100, 1000, 5000, 20000}}),
+    bench::add("size/check/distances_holes", check_of_distances)
+        ->Args({100, 20})
+        ->Args({1000, 50})
+        ->Args({5000, 110})
+        ->Args({5000, 500})
+        ->Args({20000, 500}),
+    bench::add("size/diagnose/points", diagnosis_of_points)
+        ->ArgsProduct({{100, 300, 600}})
+        ->Iterations(1)};
 
 }  // namespace

@@ -4,14 +4,18 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <libalglib/interpolation.h>
 
 #include "interp/bspline_basis.hpp"
 #include "interp/reml.hpp"
 #include "interp/spline_pair.hpp"
 #include "interp/tensor_spline.hpp"
+#include "tools/bench/work.hpp"
 
 namespace {
 
@@ -92,12 +96,10 @@ std::vector<PlanePoint> path_points(std::size_t count) {
   return points;
 }
 
-enum class Order { random, path };
-
-void value_gradient(benchmark::State& state, int nx, int ny, Order order) {
-  const SplinePair surfaces = table(sample(nx, ny));
-  const auto points =
-      order == Order::random ? random_points(64 * kBlock) : path_points(64 * kBlock);
+void value_gradient(benchmark::State& state,
+                    const Samples& samples,
+                    const std::vector<PlanePoint>& points) {
+  const SplinePair surfaces = table(samples);
   std::vector<PairGradient> results(kBlock);
   for (auto _ : state) {
     for (std::size_t first = 0; first < points.size(); first += kBlock) {
@@ -127,8 +129,8 @@ AlglibPair alglib_pair(const Samples& s) {
   return pair;
 }
 
-void alglib_value_gradient(benchmark::State& state, int nx, int ny) {
-  const AlglibPair pair = alglib_pair(sample(nx, ny));
+void alglib_value_gradient(benchmark::State& state, const Samples& samples) {
+  const AlglibPair pair = alglib_pair(samples);
   const auto points = random_points(4 * kBlock);
   for (auto _ : state) {
     for (const PlanePoint& p : points) {
@@ -140,20 +142,6 @@ void alglib_value_gradient(benchmark::State& state, int nx, int ny) {
     }
   }
   per_point(state, points.size());
-}
-
-void build(benchmark::State& state, int nx, int ny) {
-  const Samples s = sample(nx, ny);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(table(s));
-  }
-}
-
-void alglib_build(benchmark::State& state, int nx, int ny) {
-  const Samples s = sample(nx, ny);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(alglib_pair(s));
-  }
 }
 
 double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
@@ -177,7 +165,8 @@ void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
         rows(k, 2 * m + j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / kSigma;
       }
     }
-    problem.add_rows(rows, Eigen::VectorXd::Constant(2, (smooth(p.x, p.y) + noise(random)) / kSigma));
+    problem.add_rows(rows,
+                     Eigen::VectorXd::Constant(2, (smooth(p.x, p.y) + noise(random)) / kSigma));
   }
   problem.ridge = {0, 2 * m};
   problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
@@ -189,26 +178,27 @@ void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
 }
 
 const bool registered = [] {
-  struct Size {
-    const char* name;
-    int nx, ny;
-  };
-  for (const Size& size :
-       {Size{"7x4", 7, 4}, {"7x5", 7, 5}, {"25x13", 25, 13}, {"100x50", 100, 50}}) {
-    const std::string name = size.name;
-    const int nx = size.nx;
-    const int ny = size.ny;
-    const auto add = [](const std::string& full, auto function) {
-      benchmark::RegisterBenchmark(full.c_str(), function);
+  for (const auto& [nx, ny] :
+       std::vector<std::pair<int, int>>{{7, 4}, {7, 5}, {25, 13}, {100, 50}}) {
+    const Samples samples = sample(nx, ny);
+    const std::string size = fmt::format("/{}x{}", nx, ny);
+    const auto add = [](const std::string& name, auto function) {
+      benchmark::RegisterBenchmark(name.c_str(), function);
     };
-    add("surface/value_gradient/" + name,
-        [=](benchmark::State& s) { value_gradient(s, nx, ny, Order::random); });
-    add("surface/value_gradient_path/" + name,
-        [=](benchmark::State& s) { value_gradient(s, nx, ny, Order::path); });
-    add("surface/alglib/value_gradient/" + name,
-        [=](benchmark::State& s) { alglib_value_gradient(s, nx, ny); });
-    add("surface/build/" + name, [=](benchmark::State& s) { build(s, nx, ny); });
-    add("surface/alglib/build/" + name, [=](benchmark::State& s) { alglib_build(s, nx, ny); });
+    add("surface/value_gradient" + size,
+        [samples](benchmark::State& s) { value_gradient(s, samples, random_points(64 * kBlock)); });
+    add("surface/value_gradient_path" + size,
+        [samples](benchmark::State& s) { value_gradient(s, samples, path_points(64 * kBlock)); });
+    add("surface/alglib/value_gradient" + size,
+        [samples](benchmark::State& s) { alglib_value_gradient(s, samples); });
+    const auto measure = [samples](auto build) {
+      return [samples, build](const benchmark::State&) {
+        return [samples, build] { return build(samples); };
+      };
+    };
+    chaintrue::bench::add("surface/build" + size, measure(table), benchmark::kNanosecond);
+    chaintrue::bench::add(
+        "surface/alglib/build" + size, measure(alglib_pair), benchmark::kNanosecond);
   }
   for (const bool corrected : {false, true}) {
     const std::string name =

@@ -3,7 +3,6 @@
 /// chaintrue check: checks by a few new points whether a map, or anchors, are still valid.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,21 +13,74 @@
 #include "grid/files/check_file.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/check.hpp"
 #include "grid/map/map_check.hpp"
-#include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
-#include "tools/cli/typed_settings.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 namespace {
+
+using report::number_column;
+using report::text_column;
+
+// The result of a check of a map or of anchors, as a document.
+
+/// `what` is the table's heading.
+Table table_of(std::string what, bool has_sign) {
+  return {.columns = {text_column(std::move(what), 30),
+                      {.heading = "mm", .is_number = true, .has_sign = has_sign, .width = 10},
+                      number_column("sigma", 10)},
+          .is_headed = true};
+}
+
+Document document_of(const grid::Check& check, Table table) {
+  Document document;
+  document.title = "Check";
+  document.verdict = {check.sentence};
+  document.remarks = {"What the readings do not show", {Paragraph{check.not_separable}}};
+  document.sections = {
+      {"How sure",
+       {Paragraph{fmt::format(
+           "Still valid {:.1f} %, valid after re-zeroing {:.1f} %, no longer valid {:.1f} %.",
+           100.0 * check.probability[0],
+           100.0 * check.probability[1],
+           100.0 * check.probability[2])}},
+       false,
+       Detail::always,
+       /*is_titled=*/false},
+      {"What was measured", {std::move(table)}}};
+  return document;
+}
+
+/// Each residual.
+Document map_check_document(const grid::Check& check) {
+  Table table = table_of("Measured less map", true);
+  for (const grid::CheckResidual& one : check.residuals)
+    table.rows.push_back({{one.name, one.residual_mm, one.sigma_mm}});
+  Document document = document_of(check, std::move(table));
+  for (const std::string& note : check.notes) document.remarks.blocks.emplace_back(Paragraph{note});
+  return document;
+}
+
+/// Each place with the rms residual of its belts.
+Document anchors_check_document(const grid::Check& check) {
+  Table table = table_of("Error of one belt", false);
+  for (const grid::CheckUnit& place : check.units) {
+    table.rows.push_back(
+        {{place.name, place.rms_mm(check.residuals), place.sigma_mm(check.residuals)}});
+  }
+  return document_of(check, std::move(table));
+}
 
 struct CheckCommand {
   std::string map;
@@ -78,11 +130,10 @@ void say_other_settings(const CompensationMap& map, const grid::Measured& measur
     const auto changes = files::changed_settings(files::settings_in_force(*map.machine()),
                                                  files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
-    fmt::print(stderr,
-               "The machine's settings in {} differ from the map's ({}); those in the file are "
-               "used. Give the controller's settings with --settings.\n",
-               file.name.empty() ? "the new points" : file.name,
-               files::in_words(changes));
+    say("In {} the machine's settings differ from the map's ({}): these are used. State the "
+        "controller's settings with --settings.",
+        file.name.empty() ? "the new points" : file.name,
+        files::in_words(changes));
   }
 }
 
@@ -182,8 +233,8 @@ void add_check(Verb app) {
             "--with",
             command->with,
             "More new points, or holes and distances, to compare with the map")
-      .acts_on(facts::map, "to be left out, because anchors are checked against a single file of "
-                           "new places");
+      .acts_on(facts::map,
+               "to be left out, because anchors are checked against a single file of new places");
   add_input(verb,
             "--settings",
             command->settings,

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -77,13 +76,12 @@ std::vector<std::string> verb_names(const Command& command) {
 std::string branches(const std::vector<Command>& commands, const char* verbs, const char* options) {
   std::string text;
   for (const Command& command : commands) {
-    fmt::format_to(std::back_inserter(text),
-                   "    \"{}\") {}=\"{}\" {}=\"{}\" ;;\n",
-                   fmt::join(command.words, " "),
-                   verbs,
-                   fmt::join(verb_names(command), " "),
-                   options,
-                   fmt::join(long_names(command), " "));
+    text += fmt::format("    \"{}\") {}=\"{}\" {}=\"{}\" ;;\n",
+                        fmt::join(command.words, " "),
+                        verbs,
+                        fmt::join(verb_names(command), " "),
+                        options,
+                        fmt::join(long_names(command), " "));
   }
   return text;
 }
@@ -161,20 +159,18 @@ std::string fish(const std::vector<Command>& commands) {
         command.words.empty() ? "__fish_use_subcommand"
                               : fmt::format("__fish_seen_subcommand_from {}", command.words.back());
     for (const CLI::App* verb : command.verbs) {
-      fmt::format_to(std::back_inserter(text),
-                     "complete -c chaintrue -f -n '{}' -a {} -d '{}'\n",
-                     when,
-                     verb->get_name(),
-                     fish_quoted(verb->get_description()));
+      text += fmt::format("complete -c chaintrue -f -n '{}' -a {} -d '{}'\n",
+                          when,
+                          verb->get_name(),
+                          fish_quoted(verb->get_description()));
     }
     for (const CLI::Option* option : command.options) {
       for (const std::string& name : option->get_lnames()) {
-        fmt::format_to(std::back_inserter(text),
-                       "complete -c chaintrue -n '{}' -l {}{} -d '{}'\n",
-                       when,
-                       name,
-                       option->get_items_expected_max() > 0 ? " -r" : "",
-                       fish_quoted(option->get_description()));
+        text += fmt::format("complete -c chaintrue -n '{}' -l {}{} -d '{}'\n",
+                            when,
+                            name,
+                            option->get_items_expected_max() > 0 ? " -r" : "",
+                            fish_quoted(option->get_description()));
       }
     }
   }
@@ -245,7 +241,7 @@ int print_manual(const CLI::App& app, const std::vector<std::string>& words) {
     fmt::print("{}", manual_of(command));
     return kDone;
   }
-  fmt::print(stderr, "chaintrue man: there is no verb {}\n", fmt::join(words, " "));
+  say("chaintrue man: there is no verb {}", fmt::join(words, " "));
   return kUsage;
 }
 

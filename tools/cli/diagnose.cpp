@@ -3,33 +3,271 @@
 /// chaintrue diagnose: what the simulation gets wrong at these points, why, the gain from naming
 /// the cause, and what to measure next.
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "grid/belts/belts_error.hpp"
 #include "grid/containers.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/order_search.hpp"
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/drawing_file.hpp"
+#include "grid/files/effect_file.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/input_error.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/names.hpp"
+#include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/diagnosed.hpp"
+#include "grid/map/corrected_data.hpp"
+#include "grid/observation/measured_grid.hpp"
+#include "grid/threads/use_threads.hpp"
 #include "tools/cli/diagnosis_document.hpp"
-#include "tools/cli/diagnosis_files.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
+
+// Makes a diagnosis from the options of `chaintrue diagnose` and its input.
+
+struct DiagnoseCommand {
+  GridInput input;
+  files::TapeOptions tape;
+  std::vector<std::string> with;
+  std::string output;
+  std::string report;
+  std::string extended_machine;
+  std::string corrected_grid;
+  std::string law;
+  std::string held_out;
+  std::string assume_order;
+  bool accept_class = false;
+  bool without_gain = false;
+  std::string without;  ///< points of belts, from 1
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+// Each throws Failed if there is no diagnosis.
+
+void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
+  if (command.assume_order.empty()) return;
+  OptionProblems problems;
+  if (grid::any_of(measured.points, [](const auto& point) { return point.order.has_value(); })) {
+    problems.add("--assume-order",
+                 command.assume_order,
+                 "to be left out, because these points have the order of their visits",
+                 ProblemKind::contradiction);
+    problems.throw_if_any();
+  }
+  const auto numbers = grid::visit_numbers(
+      measured.points, *files::named(files::kVisitingOrders, command.assume_order));
+  if (!numbers) {
+    problems.add("--assume-order", command.assume_order, numbers.error(), ProblemKind::bad_syntax);
+    problems.throw_if_any();
+  }
+  for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
+}
+
+template <class T>
+T value_of(tl::expected<T, diagnosis::DiagnosisFailure> result, const std::string& path) {
+  if (result) return *std::move(result);
+  throw Failed(files::name_in_messages(path), result.error());
+}
+
+/// "28 points and 20 distances"
+std::string counted(const grid::Measured& measured) {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  for (const auto* own : measured.grids()) points += own->points.size();
+  for (const auto* set : measured.holes()) distances += set->distances.size();
+  if (distances == 0) return fmt::format("{} points", points);
+  if (points == 0) return fmt::format("{} distances", distances);
+  return fmt::format("{} points and {} distances", points, distances);
+}
+
+/// The cost grows with the square of the number and more (docs/reliability.md): these take half a
+/// minute, and more would change no name.
+constexpr std::size_t kMostDiagnosed = 1200;
+
+void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::string& path) {
+  std::size_t units = 0;
+  for (const auto* own : measured.grids()) units += own->points.size();
+  for (const auto* set : measured.holes()) units += set->distances.size();
+  if (units <= kMostDiagnosed) return;
+  throw Failed(files::name_in_messages(path),
+               "too_many",
+               fmt::format("{} are more than a diagnosis accepts ({}): leave some out, evenly over "
+                           "the bed, and keep those measured twice; chaintrue fit accepts them all",
+                           counted(measured),
+                           kMostDiagnosed));
+}
+
+/// Readings more accurate than the simulation over a bed.
+void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
+  constexpr double kFinestMm = 0.01;
+  for (const auto* own : measured.grids()) {
+    if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
+    found.notes.push_back(
+        fmt::format("The reading error that you entered, {} mm, is below the numerical accuracy; "
+                    "{} mm was used instead.",
+                    own->noise->length_mm,
+                    kFinestMm));
+  }
+}
+
+diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
+  diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.order_assumed = !command.assume_order.empty();
+  options.accept_class = command.accept_class;
+  options.improvement = !command.without_gain;
+  options.progress = shown_progress();
+  return options;
+}
+
+/// With the file's name where the readings have none.
+Diagnosis named(tl::expected<Diagnosis, diagnosis::DiagnosisFailure> result,
+                const DiagnoseCommand& command) {
+  Diagnosis found = value_of(std::move(result), command.input.grid);
+  if (found.grid_name.empty()) found.grid_name = files::name_without_folders(command.input.grid);
+  return found;
+}
+
+/// The accuracy with which the result predicts the grid of --held-out.
+diagnosis::Transfer held_out(const DiagnoseCommand& command,
+                             const MeasuredGrid& measured,
+                             const Diagnosis& found) {
+  GridInput other = command.input;
+  other.grid = command.held_out;
+  const MeasuredGrid to = read_grid_input(other);
+  auto transferred = value_of(diagnosis::transfer(measured, found, to), command.held_out);
+  if (transferred.to.empty())
+    transferred.to = to.name.empty() ? files::name_without_folders(command.held_out) : to.name;
+  return transferred;
+}
+
+/// The number in the first line of a fit of the same belts.
+std::optional<grid::ErrorSummary> tool_today(const MeasuredBelts& belts) {
+  const auto fit = diagnosis::fit_with_causes(belts);
+  const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
+  return error ? error->today : std::nullopt;
+}
+
+/// Grids and holes; an order that was assumed is put into `measured`.
+Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
+  if (MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
+  refuse_too_many_to_diagnose(measured, command.input.grid);
+  grid::keep_freed_memory();
+  Diagnosis found = named(diagnosis::diagnose(measured, diagnosis_options(command)), command);
+  note_fine_readings(measured, found);
+  if (!command.assume_order.empty()) {
+    found.notes.insert(
+        found.notes.begin(),
+        fmt::format("The order of visits was not recorded. Assumed: {}, lines from the top left.",
+                    command.assume_order));
+  }
+  if (!command.held_out.empty())
+    found.transferred = held_out(command, *measured.first_grid(), found);
+  return found;
+}
+
+/// Belts are diagnosed by themselves, on the machine in their own file.
+Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
+  const std::vector<std::size_t> without = points_left_out(command.without);
+  const files::ReadBelts read = load_belts(file, "a diagnosis", without);
+  // Twice as many take four times as long (docs/maslow4.md).
+  constexpr std::size_t kMostPlaces = 2000;
+  if (read.belts.points.size() > kMostPlaces) {
+    throw Failed(file.name,
+                 "too_many",
+                 fmt::format("{} places are more than a diagnosis accepts ({}): leave some out, "
+                             "evenly over the sheet; chaintrue fit accepts them all",
+                             read.belts.points.size(),
+                             kMostPlaces));
+  }
+  Diagnosis found =
+      named(diagnosis::diagnose(read.belts,
+                                diagnosis_options(command),
+                                files::indices_without(read.belts.points.size(), without)),
+            command);
+  found.tool_today = tool_today(read.belts);
+  return found;
+}
+
+/// A test drawing is diagnosed alone, with the plotter in its file.
+Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
+  return named(
+      diagnosis::diagnose(files::parse_drawing(file.text, file.name), diagnosis_options(command)),
+      command);
+}
+
+// The additional files of a diagnosis.
+
+/// The grid for a fit on the extended machine: true positions of marks, readings without effects of
+/// the visit. An assumed order is not written.
+std::string corrected_grid_text(const Diagnosis& found, MeasuredGrid measured, bool order_assumed) {
+  measured.machine = found.extended_machine;
+  grid::append_all(measured.machine->effects, found.data_corrections);
+  auto corrected = grid::corrected_data(measured);
+  if (!corrected) throw InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});
+  for (auto& point : corrected->grid.points) {
+    if (order_assumed) point.order.reset();
+  }
+  return files::write_grid(corrected->grid);
+}
+
+/// The calibrated machine with the named causes.
+std::string extended_machine_text(const Diagnosis& found, const std::string& source) {
+  std::vector<std::string> in_here;
+  for (const auto& effect : found.extended_machine.effects) {
+    if (effect.probability) in_here.push_back(cause_title(effect));
+  }
+  std::vector<std::string> comments = {
+      fmt::format("Made by chaintrue diagnose from {}: calibrated settings, with the causes {}.",
+                  source,
+                  in_here.empty() ? "none" : fmt::format("{}", fmt::join(in_here, "; ")))};
+  for (const auto& cause : causes_left_out(found))
+    comments.push_back(fmt::format("Named but not included here: {}.", cause_title(cause.cause)));
+  for (const auto& correction : found.data_corrections) {
+    comments.push_back(fmt::format("Not included here, because it belongs to the data: {}.",
+                                   cause_title(correction)));
+  }
+  return files::write_machine(found.extended_machine, comments);
+}
+
+/// The likeliest law as a file of a declared effect, or a sentence that explains why there is none.
+tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
+  const std::vector<diagnosis::Law> none;
+  const auto declaration = diagnosis::declaration_of(
+      found.unexplained ? found.unexplained->laws : none, found.extended_machine.bed);
+  if (!declaration) return tl::unexpected(declaration.error());
+  return files::write_effect(*declaration);
+}
 
 /// The page if there is none; what to measure next if that helps; else a map.
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
@@ -41,21 +279,17 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   });
   if (found.belts && (command.output.empty() || !parts_causes || !command.without.empty())) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
-    if (!command.without.empty()) words.insert(words.end(), {"--without", command.without});
+    add_option_words(words, "--without", command.without);
   } else if (found.drawing) {
     words = {"fit", command.input.grid, "-o", "found.json"};
   } else if (!command.output.empty() && !found.next_measurements.empty()) {
     words = {"plan", command.input.grid, "--after", command.output};
   } else {
     words = {"fit", command.input.grid, "-o", "map.json"};
-    if (!command.input.machine.empty())
-      words.insert(words.end(), {"--machine", command.input.machine});
+    add_option_words(words, "--machine", command.input.machine);
   }
-  for (const std::string& other : command.with) words.insert(words.end(), {"--with", other});
-  if (words.front() == "fit") {
-    for (const std::string& own : command.input.effects)
-      words.insert(words.end(), {"--effects", own});
-  }
+  add_option_words(words, "--with", command.with);
+  if (words.front() == "fit") add_option_words(words, "--effects", command.input.effects);
   say_next(words);
 }
 
@@ -87,7 +321,7 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   const Diagnosis found = of_belts     ? diagnosed_belts(command, file)
                           : of_drawing ? diagnosed_drawing(command, file)
                                        : diagnosed(command, input);
-  const std::string source = file_name(command.input.grid);
+  const std::string source = files::name_without_folders(command.input.grid);
   const grid::Provenance origin = made_by(verb);
   const std::string written = files::write_diagnosis(found, origin);
   std::vector<files::OutputFile> outputs;
@@ -120,9 +354,9 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
     fmt::print(is_stdout_taken ? stderr : stdout, "{}", report::render_text(document));
   }
   if (!command.report.empty() && command.report != "-")
-    fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);
+    say("The report is {}: open it in any browser.", command.report);
   if (!law) {
-    fmt::print(stderr, "{}: {}\n", files::name_in_messages(command.input.grid), law.error());
+    say("{}: {}", files::name_in_messages(command.input.grid), law.error());
     return kNotSupportedOrOutside;
   }
   say_next_of(command, found);
@@ -184,26 +418,25 @@ void add_diagnose(Verb app) {
             command->held_out,
             "Another grid of the same machine, to test how well the result predicts it")
       .acts_on(facts::one_grid, "to be left out, because it compares two grids");
-  verb.add_option(
-          "--assume-order",
-          command->assume_order,
-          "Order of visits to assume if the points have none, in lines from the top left. Drift, "
-          "skips and hysteresis need an order; the report notes the assumption")
-      .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"})
+  verb.add_option("--assume-order",
+                  command->assume_order,
+                  "Order of visits to assume if the points have none, in lines from the top left. "
+                  "Drift, skips and hysteresis need an order; the report notes the assumption")
+      .one_of(files::words_of(files::kVisitingOrders))
       .acts_on(facts::grid, "to be left out, because it applies to the points of a grid only");
   add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot distinguish long links from a long tape, assume the links, "
                 "without measuring them")
-      .acts_on(facts::chains, "to be left out, because it applies to chains and the tape for marks "
-                              "only");
+      .acts_on(facts::chains,
+               "to be left out, because it applies to chains and the tape for marks only");
   verb.add_flag("--no-gain",
                 command->without_gain,
                 "Do not compute how much naming the causes improves the map, which takes most of "
                 "the time")
-      .acts_on(facts::chains, "to be left out for belts and drawings, because the gain applies to "
-                              "a map");
+      .acts_on(facts::chains,
+               "to be left out for belts and drawings, because the gain applies to a map");
   add_number(verb,
              "--seed",
              command->seed,

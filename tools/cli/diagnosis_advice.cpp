@@ -8,9 +8,8 @@
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/distance_charts.hpp"
 #include "tools/cli/follow_up.hpp"
-#include "tools/cli/settings_table.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/diagnosis_belts.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "grid/diagnosis/workshop_units.hpp"
 #include "tools/cli/belts_frame_chart.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
 
 using diagnosis::BeltPlacePicture;
 using diagnosis::BeltsFindings;
+using report::number_column;
+using report::text_column;
 
 Section frame_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
@@ -30,11 +34,11 @@ Section frame_section(const Diagnosis& found) {
 }
 
 Section anchors_section(const Diagnosis& found) {
-  Table table{.columns = {{.heading = "Anchor", .width = 6},
-                          {.heading = "alone", .is_number = true, .width = 12},
-                          {.heading = "with the causes", .is_number = true, .width = 17},
-                          {.heading = "sigma", .is_number = true, .width = 8},
-                          {.heading = "in force", .is_number = true, .digits = 1, .width = 10}},
+  Table table{.columns = {text_column("Anchor", 6),
+                          number_column("alone", 12),
+                          number_column("with the causes", 17),
+                          number_column("sigma", 8),
+                          number_column("in force", 10, 1)},
               .caption = kAnchorsCaption,
               .is_headed = true};
   for (const auto& c : found.belts->coordinates) {
@@ -46,9 +50,9 @@ Section anchors_section(const Diagnosis& found) {
 
 Section belts_improvement_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
-  Table table{.columns = {{.heading = "mm", .width = 39},
-                          {.heading = "anchors alone", .is_number = true, .width = 13},
-                          {.heading = "with the causes", .is_number = true, .width = 18}},
+  Table table{.columns = {text_column("mm", 39),
+                          number_column("anchors alone", 13),
+                          number_column("with the causes", 18)},
               .is_headed = true};
   const auto row = [&table](const char* what, double before, double after) {
     table.rows.push_back({{what, before, after}});
@@ -82,6 +86,46 @@ std::vector<Figure> figures_of_belts(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
   return {{fmt::format("{:.2f} mm", belts.spread_before_mm), "error of one belt, anchors alone"},
           {fmt::format("{:.2f} mm", belts.residual_sigma_mm), "with what is named"}};
+}
+
+using diagnosis::DrawnSetting;
+using diagnosis::DrawnValue;
+
+Section drawn_settings_section(const Diagnosis& found) {
+  Table table{.columns = {text_column("setting", 24),
+                          number_column("as set", 10),
+                          number_column("found", 10),
+                          number_column("+-", 8),
+                          {.gap = 2}}};
+  for (const DrawnSetting& own : found.drawing->settings) {
+    const auto words = diagnosis::parameter_words(own.name);
+    Row row{{fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma},
+            own.off};
+    if (own.off) row.cells.emplace_back("off");
+    table.rows.push_back(std::move(row));
+  }
+  return {.title = "Settings of the plotter", .blocks = {std::move(table)}};
+}
+
+Section drawn_measures_section(const Diagnosis& found) {
+  Table table{.columns = {text_column("measure, mm", 24),
+                          number_column("measured", 10),
+                          number_column("explained", 11),
+                          {.gap = 2}}};
+  for (const DrawnValue& own : found.drawing->measures) {
+    Row row{{own.name, own.measured_mm, own.explained_mm}, own.rejected};
+    if (own.rejected) row.cells.emplace_back("left out");
+    table.rows.push_back(std::move(row));
+  }
+  return {.title = "What was measured", .blocks = {std::move(table)}};
+}
+
+Light drawn_settings_light(const Diagnosis& found) {
+  const auto& settings = found.drawing->settings;
+  const auto off = std::count_if(
+      settings.begin(), settings.end(), [](const DrawnSetting& own) { return own.off; });
+  if (off == 0) return {Tone::good, "Settings right?", "yes"};
+  return {Tone::caution, "Settings right?", fmt::format("{} off: type them in", off)};
 }
 
 }  // namespace chaintrue::cli

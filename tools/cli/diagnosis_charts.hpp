@@ -7,11 +7,14 @@
 /// diagnosis_bar_charts.cpp; the sections of pictures are assembled in diagnosis_pictures.cpp.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "tools/cli/names.hpp"
 #include "tools/report/bed_chart.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
@@ -53,5 +56,53 @@ namespace chaintrue::cli {
 [[nodiscard]] Chart improvement_chart(const Diagnosis& found);
 /// The follow-up's places on the bed.
 [[nodiscard]] Chart next_points_chart(const Diagnosis& found);
+
+// A picture of each named cause: the shift of the tool at the measured places by this cause alone,
+// at its fitted size (synthetic::signature of the machine without it). First order, as signature()
+// is; settings are not refitted.
+
+/// In the order of the causes; without those that put a measured place out of reach or, in a file,
+/// have impossible numbers. Empty for belts.
+[[nodiscard]] std::vector<Chart> cause_charts(const Diagnosis& found);
+
+// The pictures of a diagnosis whose readings are distances between holes: one line for each
+// distance, vermilion if read longer than predicted, blue if shorter, with a width proportional to
+// the residual.
+
+/// The calibrated machine next to the machine with the named causes.
+[[nodiscard]] Chart distance_chart(const Diagnosis& found);
+/// Measured, best cause, rival, remainder. Precondition: a cause is named.
+[[nodiscard]] Chart distance_strip_chart(const Diagnosis& found);
+/// Residuals against the distance's length, and against the way it was measured.
+[[nodiscard]] ChartRow distance_scatter_charts(const Diagnosis& found);
+/// What was measured, in grey, and what to measure next.
+[[nodiscard]] Chart next_distances_chart(const Diagnosis& found);
+
+// A chart of residuals against a possible cause: dots of two colours and a curve.
+
+struct ResidualDot {
+  std::string name;
+  double x = 0.0;
+  double y_mm = 0.0;
+  bool is_first = true;  ///< of the first colour
+  bool is_bad = false;
+};
+
+struct ResidualScatter {
+  std::string title{};
+  std::string caption{};
+  std::string x_title{};
+  std::vector<ResidualDot> dots{};
+  std::vector<std::pair<double, double>> curve{};  ///< x and mm
+  std::vector<double> y_also_mm{};  ///< in the window, like good dots, 0 and the curve
+  double least_span_mm = 0.2;       ///< of the window
+  std::string first_label{};
+  std::string second_label{};  ///< empty: one colour
+  const char* first_color = report::kBeforeColor;
+  const char* second_color = report::kAfterColor;
+};
+
+/// Bad dots are drawn at the rim, so that they do not flatten the rest.
+[[nodiscard]] Chart residual_scatter_chart(const ResidualScatter& scatter);
 
 }  // namespace chaintrue::cli

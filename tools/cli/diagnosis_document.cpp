@@ -5,11 +5,7 @@
 
 #include <algorithm>
 
-#include "tools/cli/diagnosis_belts.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_checks.hpp"
-#include "tools/cli/diagnosis_drawing.hpp"
-#include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"

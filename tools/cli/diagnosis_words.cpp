@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/workshop_units.hpp"
 #include "model/effects/effect.hpp"
 
 namespace chaintrue::cli {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/distance_charts.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 #include "grid/containers.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/residual_scatter.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -206,12 +204,12 @@ Chart distance_strip_chart(const Diagnosis& found) {
 }
 
 ChartRow distance_scatter_charts(const Diagnosis& found) {
-  return {{scatter_chart(found,
-                         {"Against the distance's length",
-                          "A slope means a scale error: the tape, or both chains, are too long or "
-                          "short.",
-                          "distance, mm",
-                          [](const DistancePicture& d, const Ends&) { return d.read_mm; }}),
+  return {{scatter_chart(
+               found,
+               {"Against the distance's length",
+                "A slope means a scale error: the tape, or both chains, are too long or short.",
+                "distance, mm",
+                [](const DistancePicture& d, const Ends&) { return d.read_mm; }}),
            scatter_chart(found,
                          {"Against the tape's direction",
                           "",

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <optional>
 
 #include "grid/containers.hpp"
 #include "grid/files/number_text.hpp"

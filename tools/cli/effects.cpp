@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -12,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/catalogue_file.hpp"
+#include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/synthetic/effect_picture.hpp"
@@ -186,11 +185,10 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
                s.named_size ? short_number(*s.named_size) : "never",
                nearest);
   }
-  fmt::print(
-      "  usual size {}; {:.0f} % of its effect remains after calibration with {} points\n",
-      short_number(size.nominal),
-      100.0 * picture.strengths.front().strength.share_left,
-      picture.strengths.front().columns * picture.strengths.front().rows);
+  fmt::print("  usual size {}; {:.0f} % of its effect remains after calibration with {} points\n",
+             short_number(size.nominal),
+             100.0 * picture.strengths.front().strength.share_left,
+             picture.strengths.front().columns * picture.strengths.front().rows);
 }
 
 std::map<std::string, double> parse_values(const EffectsOptions& options,
@@ -293,7 +291,7 @@ int show_picture(const Effect& effect, const EffectsOptions& options, const Mach
   noise.length_mm = options.length_noise_mm;
   noise.position_mm = options.position_noise_mm;
   if (const auto why = unreachable(machine, model::effects::applied(effect, side, values))) {
-    fmt::print(stderr, "{}: {}\n", options.machine, *why);
+    say("{}: {}", options.machine, *why);
     return kNotSupportedOrOutside;
   }
   const synthetic::EffectPicture picture =
@@ -339,12 +337,11 @@ int run_effects(const EffectsOptions& options) {
   const Machine machine = machine_of(options);
   const Effect* effect = model::effects::find_effect(machine, options.id);
   if (effect == nullptr) {
-    OptionProblems problems;
-    problems.add("effect",
-                 options.id,
-                 "an effect that `chaintrue effects` lists, or that --effects declares",
-                 ProblemKind::unknown_word);
-    problems.throw_if_any();
+    refuse("command line",
+           "effect",
+           options.id,
+           "an effect that `chaintrue effects` lists, or that --effects declares",
+           ProblemKind::unknown_word);
   }
   if (!options.machine.empty()) return show_picture(*effect, options, machine);
   describe(*effect);

@@ -22,18 +22,21 @@
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "grid/plotter/settings_to_paste.hpp"
 #include "model/effects/catalogue.hpp"
-#include "tools/cli/anchors_sections.hpp"
+#include "tools/cli/anchors_document.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/settings_file.hpp"
+#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
+
 namespace {
 
 struct ExportCommand {
@@ -247,10 +250,8 @@ bool refuses_weak_causes(const std::vector<AppliedEffect>& effects, const std::s
                                diagnosis::percent(*one.probability)));
   }
   if (weak.empty()) return false;
-  fmt::print(
-      stderr,
-      "{}: this machine depends on {}, and numbers to type in require at least {}. Measure what "
-      "the diagnosis proposes next and diagnose again; --force continues anyway.\n",
+  say("{}: this machine rests on {}; to type numbers in, a cause must be at least {} certain. "
+      "Measure what the diagnosis proposes next and diagnose again; --force continues anyway.",
       name,
       diagnosis::joined(weak, "and"),
       diagnosis::percent(diagnosis::kSureOfCause));
@@ -304,11 +305,11 @@ bool is_untyped_json(const InputFile& file) {
 }
 
 [[noreturn]] void refuse_drawing(const InputFile& file) {
-  throw InputError({{file.name,
-                     "/observations",
-                     "a diagnosis of a test drawing",
-                     "one of another machine; for a V-plotter, export plotter prints the lines "
-                     "from the result of fit"}});
+  refuse(file.name,
+         "/observations",
+         "a diagnosis of a test drawing",
+         "one of another machine; for a V-plotter, export plotter prints the lines from the result "
+         "of fit");
 }
 
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
@@ -326,10 +327,10 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
     const Diagnosis found = load_diagnosis(file);
     if (found.drawing) refuse_drawing(file);
     if (found.belts) {
-      throw InputError({{file.name,
-                         "/observations",
-                         "a diagnosis of four belts",
-                         "one of a machine on chains; for belts use export maslow4"}});
+      refuse(file.name,
+             "/observations",
+             "a diagnosis of four belts",
+             "one of a machine on chains; for belts use export maslow4");
     }
     std::vector<AppliedEffect> taken = found.extended_machine.effects;
     grid::append_all(taken, found.data_corrections);
@@ -349,11 +350,10 @@ Facts facts_of(const InputFile& file) {
 std::string written_map_after(Verb verb, const Exported& exported, const ExportCommand& command) {
   if (command.map_after.empty()) return "";
   if (exported.map_after) return files::write_map(*exported.map_after, made_by(verb));
-  throw InputError({{command.input,
-                     "",
-                     "a map for a controller without GroundControl's settings",
-                     "--map-after to be left out: put the machine's anchors into FluidNC's "
-                     "config.yaml, and compensate with this map and --settings config.yaml"}});
+  refuse(command.input,
+         "a map for a controller without GroundControl's settings",
+         "--map-after to be left out: put the machine's anchors into FluidNC's "
+         "config.yaml, and compensate with this map and --settings config.yaml");
 }
 
 int export_groundcontrol(Verb verb, const ExportCommand& command) {
@@ -363,9 +363,8 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
   if (exported.is_refused) return kCheckFailed;
   write_outputs({{command.map_after, written_map_after(verb, exported, command)},
                  {command.output, exported.settings.text}});
-  for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);
-  if (exported.settings.remarks.empty() && exported.words.empty())
-    fmt::print(stderr, "No number changes.\n");
+  for (const std::string& remark : exported.settings.remarks) say("{}", remark);
+  if (exported.settings.remarks.empty() && exported.words.empty()) say("No number changes.");
   fmt::print(stderr, "{}", exported.words);
   say_next(exported.next);
   return kDone;
@@ -379,16 +378,16 @@ std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file,
     const std::string why = not_to_paste(
         found.fit, grid::error_of_belts(found.fit, found.holes ? &*found.holes : nullptr));
     if (forced || why.empty()) return files::write_maslow4_settings(found.fit);
-    fmt::print(stderr, "{} --force continues anyway.\n", why);
+    say("{} --force continues anyway.", why);
     return std::nullopt;
   }
   const Diagnosis found = load_diagnosis(file);
   if (found.drawing) refuse_drawing(file);
   if (!found.belts) {
-    throw InputError({{file.name,
-                       "/observations",
-                       "a diagnosis of a machine on chains",
-                       "one of four belts; for chains use export groundcontrol"}});
+    refuse(file.name,
+           "/observations",
+           "a diagnosis of a machine on chains",
+           "one of four belts; for chains use export groundcontrol");
   }
   return files::write_maslow4_settings(found);
 }
@@ -397,20 +396,17 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   const auto settings = maslow4_settings_of(open_input(command.input), verb.is_given("--force"));
   if (!settings) return kCheckFailed;
   write_output(command.output, settings->text);
-  for (const std::string& remark : settings->remarks) fmt::print(stderr, "{}\n", remark);
-  fmt::print(stderr,
-             "These lines are lost when the machine is switched off, unless $CD=/maslow.yaml saves "
-             "them.\n");
+  for (const std::string& remark : settings->remarks) say("{}", remark);
+  say("The machine forgets these lines when it is switched off, until $CD=/maslow.yaml has "
+      "saved them.");
   return kDone;
 }
 
 void add_maslow4(Verb verb) {
   auto command = std::make_shared<ExportCommand>();
   Verb maslow4 = verb.add_verb("maslow4", "Print the lines to paste into a Maslow 4's terminal");
-  add_input(maslow4,
-            "file",
-            command->input,
-            "A chaintrue_anchors file from fit, or a diagnosis of belts")
+  add_input(
+      maslow4, "file", command->input, "A chaintrue_anchors file from fit, or a diagnosis of belts")
       .required();
   add_output(
       maslow4, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
@@ -467,6 +463,51 @@ void add_export(Verb app) {
   add_maslow4(verb);
   add_export_plotter(verb);
   add_export_map(verb);
+}
+
+namespace {
+
+struct ExportPlotterCommand {
+  std::string input;
+  std::string output = "-";
+};
+
+int export_plotter(const ExportPlotterCommand& command) {
+  const InputFile file = open_input(command.input);
+  require_kind(file, {FileKind::plotter});
+  const grid::KnownPlotter plotter = load_plotter(file).plotter;
+  if (!plotter.found) {
+    refuse(file.name,
+           "/found",
+           "",
+           "results of a test drawing; chaintrue fit drawing.json -o found.json writes a plotter "
+           "with them");
+  }
+  std::string text;
+  for (const std::string& line :
+       grid::settings_to_paste(plotter.set, grid::machine_found(plotter.set, *plotter.found)))
+    text += line + "\n";
+  write_output(command.output, text);
+  say_next({"start", file.path, "second-drawing"});
+  return kDone;
+}
+
+}  // namespace
+
+void add_export_plotter(Verb export_verb) {
+  auto command = std::make_shared<ExportPlotterCommand>();
+  Verb verb = export_verb.add_verb(
+      "plotter", "Print the numbers to type into a V-plotter's controller after a test drawing");
+  add_input(verb, "file", command->input, "A chaintrue_plotter file that fit wrote from a drawing")
+      .required();
+  add_output(
+      verb, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
+      .shows_default();
+  verb.footer(
+      "Example:\n"
+      "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json\n"
+      "  build/chaintrue export plotter found.json");
+  verb.runs(command, export_plotter);
 }
 
 }  // namespace chaintrue::cli

@@ -18,6 +18,7 @@
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -148,16 +149,16 @@ template <grid::Anchors kAnchors, auto kLines>
 WrittenOrWhy straight_lines(const NamedMap& named, const std::string&) {
   const auto nearest = grid::straight_settings(named.map, kAnchors);
   if (!nearest) return tl::unexpected(nearest.error().sentence());
-  return Written{kLines(*nearest),
-                 fmt::format("With these numbers the tool is still off by {:.2f} mm rms over the "
-                             "measured part, {:.2f} mm at worst, because this controller's "
-                             "straight lines do not sag. {}",
-                             nearest->left_over.rms_mm,
-                             nearest->left_over.maximum_mm,
-                             kAnchors == grid::Anchors::free
-                                 ? "Switch it on with the tool at 0, 0 of the sheet."
-                                 : "Its Y points down: mirror the program, and shift it by the "
-                                   "offset in the last line.")};
+  return Written{
+      kLines(*nearest),
+      fmt::format(
+          "With these numbers the tool is still off by {:.2f} mm rms over the measured part, "
+          "{:.2f} mm at worst, because this controller's straight lines do not sag. {}",
+          nearest->left_over.rms_mm,
+          nearest->left_over.maximum_mm,
+          kAnchors == grid::Anchors::free ? "Switch it on with the tool at 0, 0 of the sheet."
+                                          : "Its Y points down: mirror the program, and shift it "
+                                            "by the offset in the last line.")};
 }
 
 struct Controller {
@@ -204,11 +205,11 @@ int export_map(Verb verb, const MapCommand& command, const Controller& controlle
   const auto written =
       controller.write({map, std::filesystem::path(file.name).filename().string()}, command.output);
   if (!written) {
-    fmt::print(stderr, "{}: {}\n", file.name, written.error());
+    say("{}: {}", file.name, written.error());
     return kNotSupportedOrOutside;
   }
   write_output(command.output, written->text);
-  fmt::print(stderr, "{}\n", written->remark);
+  say("{}", written->remark);
   return kDone;
 }
 
@@ -227,8 +228,9 @@ void add_export_map(Verb export_verb) {
         "  build/chaintrue fit fixtures/start/marks.csv --machine "
         "fixtures/machines/groundcontrol.json -o map.json\n"
         "  build/chaintrue export {} map.json{}{}",
-        is_module ? "" : "To correct the remaining error, compensate each program (gcode "
-                         "compensate).\n\n",
+        is_module
+            ? ""
+            : "To correct the remaining error, compensate each program (gcode compensate).\n\n",
         controller.name,
         is_module ? " -o " : "",
         is_module ? controller.output : ""));

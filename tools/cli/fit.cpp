@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,22 +12,20 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
-#include "grid/files/fit_file.hpp"
+#include "grid/files/check_file.hpp"
 #include "grid/files/map_file.hpp"
+#include "grid/files/names.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/failed.hpp"
-#include "tools/cli/fit_the_belts.hpp"
-#include "tools/cli/fit_the_drawing.hpp"
-#include "tools/cli/grid_input.hpp"
+#include "tools/cli/fit.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -37,32 +34,8 @@
 namespace chaintrue::cli {
 namespace {
 
-struct FitCommand {
-  GridInput input;
-  files::TapeOptions tape;
-  /// Further files of the same machine.
-  std::vector<std::string> with;
-  std::string output;
-  std::string surface = "residual";
-  std::string ends = "not_a_knot";
-  OutsideOption outside;
-  /// On the machine as stated, without a search for causes.
-  bool plain = false;
-  bool accept_class = false;
-  /// The error of the tool that the owner wishes for.
-  std::optional<double> wish_mm;
-  std::string without;  ///< points of belts, from 1
-  bool verbose = false;
-  bool json = false;
-};
-
-const std::map<std::string, interp::EndCondition>& end_conditions() {
-  static const std::map<std::string, interp::EndCondition> kByName = {
-      {"not_a_knot", interp::EndCondition::not_a_knot},
-      {"natural", interp::EndCondition::natural},
-      {"parabolic", interp::EndCondition::parabolic},
-      {"clamped", interp::EndCondition::clamped}};
-  return kByName;
+bool is_of_four_belts(const InputFile& file) {
+  return file.kind == FileKind::belts || file.kind == FileKind::belt_holes;
 }
 
 /// A fit of these takes some ten seconds (docs/reliability.md).
@@ -70,8 +43,7 @@ constexpr std::size_t kMostPoints = 10000;
 constexpr std::size_t kMostDistances = 5000;
 constexpr std::size_t kMostHoles = 150;
 
-constexpr const char* kNoMachine =
-    "to be left out for a direct surface, which has no machine";
+constexpr const char* kNoMachine = "to be left out for a direct surface, which has no machine";
 
 constexpr files::Range kWishMm{"mm", 0.001, 50.0};
 
@@ -116,23 +88,20 @@ void check_as_read(const std::string& text, const std::string& measured) {
   }
 }
 
-/// The map is written to its file, the text to standard error.
 int finish(Verb verb,
            const FitCommand& command,
            const CompensationMap& map,
-           std::vector<Section> more) {
-  std::string text = files::write_map(map, made_by(verb));
+           const std::vector<Section>& more) {
+  const std::string text = files::write_map(map, made_by(verb));
   check_as_read(text, files::name_in_messages(command.input.grid));
-  std::vector<files::OutputFile> outputs = {{command.output, std::move(text)}};
-  if (command.json)
-    outputs.push_back({"-", files::write_fit(map, fit_sentence(map), command.wish_mm)});
-  write_outputs(outputs);
-  const Detail detail = command.verbose ? Detail::verbose : Detail::always;
-  Document document = map_document(map, command.output, detail, command.wish_mm);
-  std::move(more.begin(), more.end(), std::back_inserter(document.sections));
-  fmt::print(stderr, "{}", report::render_text(document, detail));
+  Document document = map_document(map, command.output, command.detail(), command.wish_mm);
+  grid::append_all(document.sections, more);
+  write_fitted(command,
+               text,
+               command.json ? files::write_fit(map, fit_sentence(map), command.wish_mm) : "",
+               document);
   if (const std::string why = not_to_cut_with(map); !why.empty()) {
-    fmt::print(stderr, "{}\n", why);
+    say("{}", why);
     say_next({"diagnose", command.input.grid});
     return kCheckFailed;
   }
@@ -185,7 +154,7 @@ int fit_jointly(Verb verb, const FitCommand& command, const grid::Measured& meas
 int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile& file) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
-  const interp::EndCondition end = end_conditions().at(command.ends);
+  const interp::EndCondition end = *files::named(files::kEndConditions, command.ends);
   options.ends = {{end, end}, {end, end}};
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
@@ -210,26 +179,17 @@ Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
 }
 
 int run_fit(Verb verb, const FitCommand& command) {
-  std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
+  const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
   if (opened.front().kind == FileKind::drawing) {
     verb.refuse_idle_options(facts::drawing);
-    return fit_the_drawing(
-        {verb, std::move(opened.front()), command.output, command.verbose, command.json});
+    return fit_the_drawing(verb, command, opened.front());
   }
   for (const InputFile& file : opened)
     require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belt_holes, FileKind::belts});
   const Facts facts = facts_of(command, opened);
   verb.refuse_idle_options(facts);
-  if ((facts & (facts::belts | facts::belt_holes)) != 0) {
-    return fit_the_belts({verb,
-                          std::move(opened),
-                          command.tape,
-                          command.output,
-                          command.verbose,
-                          command.json,
-                          points_left_out(command.without),
-                          command.wish_mm});
-  }
+  if ((facts & (facts::belts | facts::belt_holes)) != 0)
+    return fit_the_belts(verb, command, opened);
   grid::Measured all;
   for (const InputFile& file : opened)
     all.add(load_measured(file, command.input, command.tape, MeasuredUse::fit));
@@ -239,6 +199,16 @@ int run_fit(Verb verb, const FitCommand& command) {
 }
 
 }  // namespace
+
+void write_fitted(const FitCommand& command,
+                  const std::string& text,
+                  const std::string& json,
+                  const Document& document) {
+  std::vector<files::OutputFile> outputs = {{command.output, text}};
+  if (command.json) outputs.push_back({"-", json});
+  write_outputs(outputs);
+  fmt::print(stderr, "{}", report::render_text(document, command.detail()));
+}
 
 void add_fit(Verb app) {
   auto command = std::make_shared<FitCommand>();
@@ -277,23 +247,20 @@ void add_fit(Verb app) {
                   "through the lengths, without a machine")
       .one_of({"residual", "direct"})
       .shows_default()
-      .acts_on(facts::chains,
-               "to be left out, because belts and drawings have no surface",
-               "residual")
       .acts_on(
-          facts::one_grid,
-          "\"residual\", because a direct surface needs chain lengths at known places, from a "
-          "single grid",
-          "residual");
+          facts::chains, "to be left out, because belts and drawings have no surface", "residual")
+      .acts_on(facts::one_grid,
+               "\"residual\", because a direct surface needs chain lengths at known places, from a "
+               "single grid",
+               "residual");
   verb.add_option("--ends", command->ends, "End condition of direct splines")
-      .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
+      .one_of(files::words_of(files::kEndConditions))
       .shows_default()
       .acts_on(facts::direct, "to be left out without --surface direct");
   add_outside_options(verb, command->outside, "continued by default");
   verb.option("--outside")
       .acts_on(facts::chains, "to be left out, because belts and drawings have no surface")
-      .acts_on(facts::residual,
-               "to be left out for a direct surface, which ends at its points");
+      .acts_on(facts::residual, "to be left out for a direct surface, which ends at its points");
   verb.add_flag("--plain",
                 command->plain,
                 "Do not look for causes. By default, fit looks for causes as diagnose does and "
@@ -305,8 +272,8 @@ void add_fit(Verb app) {
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot distinguish long links from a long tape, assume the links")
-      .acts_on(facts::chains, "to be left out, because it applies to chains and the tape for marks "
-                              "only")
+      .acts_on(facts::chains,
+               "to be left out, because it applies to chains and the tape for marks only")
       .acts_on(facts::residual, kNoMachine)
       .acts_on(facts::causes, "to be left out with --plain, which looks for no causes");
   add_number(verb,
@@ -316,8 +283,7 @@ void add_fit(Verb app) {
              "The accuracy you want: fit reports whether the map reaches it, and how to reach it")
       .acts_on(facts::no_drawing,
                "to be left out for a test drawing, whose file describes the plotter")
-      .acts_on(facts::residual,
-               "to be left out for a direct surface, whose tool error is unknown");
+      .acts_on(facts::residual, "to be left out for a direct surface, whose tool error is unknown");
   verb.add_flag("-v,--verbose",
                 command->verbose,
                 "Also print the tables: settings, errors at left-out points, each distance, left "

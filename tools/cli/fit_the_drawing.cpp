@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/fit_the_drawing.hpp"
+#include "tools/cli/fit.hpp"
 
 #include <fmt/format.h>
 
@@ -24,6 +24,8 @@ using grid::DrawingFit;
 using grid::FittedMeasure;
 using grid::PlotterSetting;
 using grid::TestDrawing;
+using report::number_column;
+using report::text_column;
 
 struct PlotterSettingWords {
   std::string_view noun;
@@ -72,11 +74,11 @@ std::string sentence_of_settings(const DrawingFit& fit) {
 }
 
 Table table_of_settings(const DrawingFit& fit) {
-  Table table{.columns = {{.heading = "setting", .width = 46},
-                          {.heading = "as set", .is_number = true, .width = 10},
-                          {.heading = "found", .is_number = true, .width = 10},
-                          {.heading = "+-", .is_number = true, .width = 8},
-                          {.heading = "", .gap = 2}}};
+  Table table{.columns = {text_column("setting", 46),
+                          number_column("as set", 10),
+                          number_column("found", 10),
+                          number_column("+-", 8),
+                          {.gap = 2}}};
   for (std::size_t k = 0; k < fit.settings.size(); ++k) {
     const PlotterSetting& own = fit.settings[k];
     const PlotterSettingWords words = plotter_setting_words(k);
@@ -89,11 +91,11 @@ Table table_of_settings(const DrawingFit& fit) {
 }
 
 Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
-  Table table{.columns = {{.heading = "measure, mm", .width = 22},
-                          {.heading = "measured", .is_number = true, .width = 10},
-                          {.heading = "fitted", .is_number = true, .width = 10},
-                          {.heading = "next page", .is_number = true, .width = 11},
-                          {.heading = "", .gap = 2}}};
+  Table table{.columns = {text_column("measure, mm", 22),
+                          number_column("measured", 10),
+                          number_column("fitted", 10),
+                          number_column("next page", 11),
+                          {.gap = 2}}};
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     const FittedMeasure& own = fit.measures[i];
     Row row{{grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
@@ -115,15 +117,14 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
   document.remarks.blocks.emplace_back(Paragraph{sentence_of_settings(fit)});
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     if (!fit.measures[i].rejected) continue;
-    document.remarks.blocks.emplace_back(Paragraph{
-        fmt::format(
-            "{} was left out: {:.1f} mm was read, but the others predict {:.1f} mm. Measure it "
-            "again.",
-            grid::words_of(drawing, i),
-            fit.measures[i].measured_mm,
-            fit.measures[i].found_mm),
-        Detail::always,
-        true});
+    document.remarks.blocks.emplace_back(
+        Paragraph{fmt::format("{} was left out: {:.1f} mm was read, but the others predict {:.1f} "
+                              "mm. Measure it again.",
+                              grid::words_of(drawing, i),
+                              fit.measures[i].measured_mm,
+                              fit.measures[i].found_mm),
+                  Detail::always,
+                  true});
   }
   document.sections.push_back({"Settings", {table_of_settings(fit)}});
   Section measures{"Measures", {table_of_measures(drawing, fit)}};
@@ -134,22 +135,17 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
 
 }  // namespace
 
-int fit_the_drawing(const DrawingFitCommand& command) {
-  const TestDrawing drawing = files::parse_drawing(command.file.text, command.file.name);
+int fit_the_drawing(Verb verb, const FitCommand& command, const InputFile& file) {
+  const TestDrawing drawing = files::parse_drawing(file.text, file.name);
   const auto fit = grid::fit_drawing(drawing);
   if (!fit) {
-    fmt::print(stderr, "{}: {}\n", command.file.name, fit.error().sentence());
+    say("{}: {}", file.name, fit.error().sentence());
     if (fit.error().reason == grid::DrawingReason::no_settings_fit)
-      say_next({"diagnose", command.file.path});
+      say_next({"diagnose", file.path});
     return kBadInput;
   }
-  const std::string text =
-      files::write_plotter({drawing, grid::found_by(*fit)}, {}, made_by(command.verb));
-  std::vector<files::OutputFile> outputs = {{command.output, text}};
-  if (command.json) outputs.push_back({"-", text});
-  write_outputs(outputs);
-  const Detail detail = command.verbose ? Detail::verbose : Detail::always;
-  fmt::print(stderr, "{}", report::render_text(drawing_document(drawing, *fit), detail));
+  const std::string text = files::write_plotter({drawing, grid::found_by(*fit)}, {}, made_by(verb));
+  write_fitted(command, text, text, drawing_document(drawing, *fit));
   say_next({"export", "plotter", command.output});
   return kDone;
 }

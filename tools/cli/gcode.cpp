@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
@@ -29,12 +29,11 @@ Facts facts_of_map(FileKind kind) {
 void require_gcode(const InputFile& file) {
   const model::PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
   if (gcode::firmware(plotter).reads_gcode) return;
-  throw InputError(
-      {{file.name,
-        "/set/firmware",
-        std::string(model::name(plotter)),
-        "a plotter that accepts G-code, \"fluidnc\" or \"marlin\"; this one draws pictures, "
-        "accurately once the lines from chaintrue export plotter are typed in"}});
+  refuse(file.name,
+         "/set/firmware",
+         std::string(model::name(plotter)),
+         "a plotter that accepts G-code, \"fluidnc\" or \"marlin\"; this one draws pictures, "
+         "accurately once the lines from chaintrue export plotter are typed in");
 }
 
 void open_map(Verb verb, GcodeOptions& options) {
@@ -137,8 +136,7 @@ void add_limits(Verb verb, GcodeOptions& options) {
              {"mm per mm", 1e-6, 10.0},
              "Refuse corrections that change faster than this [mm/mm]")
       .acts_on(facts::target, kNothingIsWritten);
-  verb.add_flag(
-          "--keep-rapids-whole", options.keep_rapids_whole, "Correct only the ends of rapids")
+  verb.add_flag("--keep-rapids-whole", options.keep_rapids_whole, "Correct only the ends of rapids")
       .acts_on(facts::target, kNothingIsWritten);
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
@@ -233,9 +231,7 @@ void add_gcode(Verb app) {
       "verify",
       "Run a program on a simulated controller and machine; exit code 1 if the tool strays too far",
       run_gcode_verify);
-  add_input(
-      verify, "original", options->program, "The program with the intended path")
-      .required();
+  add_input(verify, "original", options->program, "The program with the intended path").required();
   add_input(verify, "run", options->other, "The program that the controller runs").required();
   add_machine_options(verify, *options, true);
   add_limits(verify, *options);
@@ -255,9 +251,7 @@ void add_gcode(Verb app) {
   explain.add_option("place", options->program, "FILE:LINE").required();
   add_machine_options(explain, *options, false);
   for (const char* name : {"--machine", "--controller"})
-    explain.option(name).acts_on(
-        facts::target,
-        "to be left out without --map");
+    explain.option(name).acts_on(facts::target, "to be left out without --map");
   explain.footer(
       "Example:\n"
       "  build/chaintrue gcode explain fixtures/gcode/bracket.nc:12");

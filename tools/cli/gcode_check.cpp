@@ -4,14 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
-#include "tools/cli/gcode_expected.hpp"
-#include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -81,15 +78,14 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
   if (rows <= kMostRows) return rows;
-  throw InputError(
-      {{"command line",
-        "--every-mm",
-        fmt::format("{}", options.every_mm),
-        fmt::format("at least {:.2g} mm: {:.1f} m of path would give {:.1e} rows, about {:.0f} GB",
-                    survey->path_mm / kMostRows,
-                    survey->path_mm / 1000.0,
-                    rows,
-                    rows * 1e-7)}});
+  refuse("command line",
+         "--every-mm",
+         fmt::format("{}", options.every_mm),
+         fmt::format("at least {:.2g} mm: {:.1f} m of path would give {:.1e} rows, about {:.0f} GB",
+                     survey->path_mm / kMostRows,
+                     survey->path_mm / 1000.0,
+                     rows,
+                     rows * 1e-7));
 }
 
 /// The program next to the compensated one, or its first line in words.
@@ -99,7 +95,7 @@ void say_next_of_program(const GcodeOptions& options) {
     return;
   }
   std::vector<std::string> next = with_map_words(options, {"gcode", "compensate", options.program});
-  next.insert(next.end(), {"-o", options.program == "-" ? "-" : compensated_name(options.program)});
+  add_option_words(next, "-o", options.program == "-" ? "-" : compensated_name(options.program));
   say_next(next);
 }
 
@@ -170,48 +166,29 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
     output.write(
         "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,feed_mm_per_min\n");
   }
-  std::string row;
+  const std::string_view row =
+      options.json ? "{{\"line\": {}, \"kind\": \"{}\", \"x_mm\": {:.6f}, \"y_mm\": {:.6f}, "
+                     "\"z_mm\": {:.6f}, \"left_mm\": {:.6f}, \"right_mm\": {:.6f}, "
+                     "\"left_sigma_mm\": {:.4f}, \"right_sigma_mm\": {:.4f}, "
+                     "\"feed_mm_per_min\": {}}}\n"
+                   : "{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{}\n";
+  const std::string_view no_feed = options.json ? "null" : "";
   double written = 0.0;
   const auto write = [&](const gcode::PathLengths& place) {
     progress_is(std::min(++written, rows), rows);
-    row.clear();
-    const double left = place.answer.lengths_mm[0];
-    const double right = place.answer.lengths_mm[1];
-    const auto& [left_sigma, right_sigma] = place.answer.sigma;
-    if (options.json) {
-      fmt::format_to(
-          std::back_inserter(row),
-          "{{\"line\": {}, \"kind\": \"{}\", \"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"z_mm\": {:.6f}, "
-          "\"left_mm\": {:.6f}, \"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, "
-          "\"right_sigma_mm\": {:.4f}, \"feed_mm_per_min\": {}}}\n",
-          place.line,
-          gcode::name(place.kind),
-          place.place.x_mm,
-          place.place.y_mm,
-          place.place.z_mm,
-          left,
-          right,
-          left_sigma,
-          right_sigma,
-          place.kind == gcode::MoveKind::rapid ? std::string("null")
-                                               : fmt::format("{:.3f}", place.feed_mm_per_min));
-    } else {
-      fmt::format_to(std::back_inserter(row),
-                     "{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{}\n",
-                     place.line,
-                     gcode::name(place.kind),
-                     place.place.x_mm,
-                     place.place.y_mm,
-                     place.place.z_mm,
-                     left,
-                     right,
-                     left_sigma,
-                     right_sigma,
-                     place.kind == gcode::MoveKind::rapid
-                         ? std::string()
-                         : fmt::format("{:.3f}", place.feed_mm_per_min));
-    }
-    output.write(row);
+    output.write(fmt::format(fmt::runtime(row),
+                             place.line,
+                             gcode::name(place.kind),
+                             place.place.x_mm,
+                             place.place.y_mm,
+                             place.place.z_mm,
+                             place.answer.lengths_mm[0],
+                             place.answer.lengths_mm[1],
+                             place.answer.sigma.left_mm,
+                             place.answer.sigma.right_mm,
+                             place.kind == gcode::MoveKind::rapid
+                                 ? std::string(no_feed)
+                                 : fmt::format("{:.3f}", place.feed_mm_per_min)));
   };
   Findings findings;
   const auto outcome = gcode::path_lengths(
@@ -219,7 +196,7 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
   if (!outcome) return report(options.program, outcome.error());
   const int code = report(options.program, findings);
   if (code != kDone) {
-    fmt::print(stderr, "nothing is written\n");
+    say("nothing is written");
     return code;
   }
   take_place(output, options.output, {});

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "grid/files/sources.hpp"
-#include "tools/cli/gcode_expected.hpp"
-#include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
-#include "tools/cli/typed_settings.hpp"
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
@@ -101,11 +99,10 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   if (machine.map() == nullptr) return;
   if (options.settings.empty() && options.machine.empty()) {
     if (const std::string after = map_after(options.map); !after.empty()) {
-      fmt::print(stderr,
-                 "Have you typed in the numbers for {0}? {1} is for the controller without them; "
-                 "with them, compensate with {0}.\n",
-                 after,
-                 options.map);
+      say("Have you typed in the numbers that {0} is for? {1} is for the controller as it "
+          "was before: with the numbers in it, compensate with {0}.",
+          after,
+          options.map);
     }
   }
   const gcode::Firmware* firmware = &machine.corrector().firmware();
@@ -114,15 +111,12 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   if (!adds_home || options.home_is_zero) return;
   const BedPoint home = options.home_mm();
   if (home.x_mm == 0.0 && home.y_mm == 0.0) {
-    fmt::print(stderr,
-               "It assumes home at 0, 0. If you have moved home (Define Home), give its position "
-               "with --home X,Y.\n");
+    say("It is for home at 0, 0. If you have moved home (Define Home), give its place with "
+        "--home X,Y.");
   } else {
-    fmt::print(stderr,
-               "Its coordinates include home at {:g}, {:g}: move home back to 0, 0 before you run "
-               "it.\n",
-               home.x_mm,
-               home.y_mm);
+    say("Home at {:g}, {:g} is in its numbers: move home back to 0, 0 before you run it.",
+        home.x_mm,
+        home.y_mm);
   }
 }
 
@@ -192,7 +186,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
     throw GcodeRefused({summary.error()});
   }
   if (!findings.problems.empty()) {
-    fmt::print(stderr, "nothing is written\n");
+    say("nothing is written");
     throw GcodeRefused(findings.problems);
   }
   Proof proof;
@@ -237,9 +231,9 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
       picture.figures.insert(
           picture.figures.begin(),
           {fmt::format("{:.2f} mm", *expected),
-           promised.is_without_scale ? "expected error of the tool without that of the scale, one "
-                                       "sigma"
-                                     : "expected error of the tool, one sigma"});
+           promised.is_without_scale
+               ? "expected error of the tool without that of the scale, one sigma"
+               : "expected error of the tool, one sigma"});
     }
     Document document = report::page_of(picture);
     add_made_by(settings.made_by, document.sections);
@@ -259,13 +253,11 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   } else if (!options.report.empty()) {
     write_output(options.report, page);
   }
-  fmt::print(stderr, "{}\n", words);
+  say("{}", words);
   if (!holds) {
-    fmt::print(
-        stderr,
-        "{}: run on a simulated {} controller, the compensated program is not within {} mm: "
-        "{}\nthe program is not written; try another --tolerance-mm, or --no-verify to inspect "
-        "that line\n",
+    say("{}: run on a simulated {} controller, the compensated program is not within {} mm: {}\n"
+        "the program is not written; try another --tolerance-mm, or --no-verify for a look at that "
+        "line",
         files::name_in_messages(options.program),
         machine.corrector().firmware().name,
         options.tolerance_mm,
@@ -273,12 +265,11 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
     throw Failed("", "not_held", proof.fault, kCheckFailed);
   }
   if (!options.no_verify) {
-    fmt::print(stderr,
-               "run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
-               "tolerance {} mm\n",
-               machine.corrector().firmware().name,
-               proof.largest_mm,
-               options.tolerance_mm);
+    say("run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
+        "tolerance {} mm",
+        machine.corrector().firmware().name,
+        proof.largest_mm,
+        options.tolerance_mm);
   }
   fmt::print(stderr, "{}", in_words(promised));
   describe_use(machine, options);

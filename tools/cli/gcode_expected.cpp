@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/gcode_expected.hpp"
+#include "tools/cli/gcode_job.hpp"
 
 #include <fmt/format.h>
 

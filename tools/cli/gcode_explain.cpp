@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
-#include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -69,7 +69,7 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   const char* begin = options.program.data() + (colon == std::string::npos ? 0 : colon + 1);
   const char* end = options.program.data() + options.program.size();
   if (colon == std::string::npos || std::from_chars(begin, end, line).ptr != end || line == 0) {
-    throw InputError({{"explain", "", options.program, "a file and a line, such as part.nc:12"}});
+    refuse("explain", options.program, "a file and a line, such as part.nc:12");
   }
   const std::string file = options.program.substr(0, colon);
   const GcodeText text(file);

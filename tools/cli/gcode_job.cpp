@@ -20,6 +20,7 @@
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 
@@ -41,13 +42,12 @@ std::string sentence_of(const std::vector<gcode::Problem>& problems) {
 void check_limits(const GcodeOptions& options, OptionProblems& problems) {
   const double least_mm = gcode::least_tolerance_mm(options.decimals);
   if (options.tolerance_mm > least_mm) return;
-  problems.add(
-      "--tolerance-mm",
-      fmt::format("{}", options.tolerance_mm),
-      fmt::format("more than {:.2g} mm, the rounding to {} decimals; or more --decimals",
-                  least_mm,
-                  options.decimals),
-      ProblemKind::out_of_range);
+  problems.add("--tolerance-mm",
+               fmt::format("{}", options.tolerance_mm),
+               fmt::format("more than {:.2g} mm, the rounding to {} decimals; or more --decimals",
+                           least_mm,
+                           options.decimals),
+               ProblemKind::out_of_range);
 }
 
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,
@@ -84,7 +84,7 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
 gcode::LineSource GcodeText::open() const {
   if (text_) return gcode::LineSource::from_text(*text_);
   auto source = gcode::LineSource::from_file(path_);
-  if (!source) throw InputError({{path_, "", "", "a file that can be read"}});
+  if (!source) refuse(path_, "", "a file that can be read");
   return std::move(*source);
 }
 
@@ -119,8 +119,8 @@ grid::SourceFile GcodeText::source() const {
 
 std::vector<std::string> with_map_words(const GcodeOptions& options,
                                         std::vector<std::string> words) {
-  words.insert(words.end(), {"--map", options.map});
-  if (!options.settings.empty()) words.insert(words.end(), {"--settings", options.settings});
+  add_option_words(words, "--map", options.map);
+  add_option_words(words, "--settings", options.settings);
   return words;
 }
 
@@ -146,18 +146,17 @@ std::string in_quotes(std::string_view text) {
 
 int report(const std::string& file, const gcode::Problem& problem) {
   end_progress();
-  fmt::print(stderr, "{}: {}\n", files::name_in_messages(file), problem.message());
+  say("{}: {}", files::name_in_messages(file), problem.message());
   return exit_code(problem.name);
 }
 
 int report(const std::string& file, const gcode::Findings& findings) {
   end_progress();
   for (const gcode::Note& note : findings.notes) {
-    fmt::print(
-        stderr, "{}: line {}: note: {}\n", files::name_in_messages(file), note.line, note.sentence);
+    say("{}: line {}: note: {}", files::name_in_messages(file), note.line, note.sentence);
   }
   if (findings.note_count > findings.notes.size()) {
-    fmt::print(stderr, "... and {} more notes\n", findings.note_count - findings.notes.size());
+    say("... and {} more notes", findings.note_count - findings.notes.size());
   }
   int code = kDone;
   for (const gcode::Problem& problem : findings.problems) {
@@ -165,8 +164,7 @@ int report(const std::string& file, const gcode::Findings& findings) {
     if (code == kDone) code = own;
   }
   if (findings.problem_count > findings.problems.size()) {
-    fmt::print(
-        stderr, "... and {} more lines\n", findings.problem_count - findings.problems.size());
+    say("... and {} more lines", findings.problem_count - findings.problems.size());
   }
   return code;
 }
@@ -175,7 +173,7 @@ gcode::LineSource written_so_far(files::PendingFile& file) {
   const std::string place = file.flushed();
   if (place.empty()) return gcode::LineSource::from_text(file.held());
   auto source = gcode::LineSource::from_file(place);
-  if (!source) throw InputError({{place, "", "", "room for the whole file"}});
+  if (!source) refuse(place, "", "room for the whole file");
   return std::move(*source);
 }
 

@@ -3,21 +3,125 @@
 /// Shared by the verbs of `chaintrue gcode`: inputs of compensating and verifying, the program's
 /// text, messages.
 #pragma once
-
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "grid/files/controller_settings.hpp"
 #include "grid/files/pending_file.hpp"
+#include "grid/map/compensation_map.hpp"
+#include "grid/plotter/found_plotter.hpp"
 #include "grid/progress.hpp"
 #include "grid/provenance.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
-#include "tools/cli/gcode_machine.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/gcode/compensator.hpp"
+#include "tools/gcode/expected_error.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::cli {
+
+// The options of `chaintrue gcode`, and which map, machine and controller they name.
+
+struct GcodeOptions {
+  Verb verb;
+  std::string program;
+  std::string other;  ///< verify: the file that is run
+  std::string map;
+  /// For --map; opened before any verb begins.
+  std::optional<InputFile> map_file;
+  std::string machine;
+  /// The word for the option of `machine` and its alternatives in messages.
+  std::string machine_option = "--machine or --settings";
+  /// The controller's present settings.
+  std::string settings;
+  std::string controller;
+  std::string frame = "marks";
+  std::string home = "0,0";
+  std::string output = "-";
+  std::string report;  ///< compensate: a page with a picture
+  double tolerance_mm = 0.05;
+  double every_mm = 10.0;
+  double largest_correction_mm = 30.0;
+  double steepest_correction = 0.05;
+  int decimals = 3;
+  std::uint64_t step_budget = gcode::Dialect{}.step_budget;
+  bool keep_rapids_whole = false;
+  bool home_is_zero = false;
+  bool skip_deletable = false;
+  bool tools_have_no_diameter = false;
+  bool no_verify = false;  ///< compensate: write without having run the output
+  bool forced = false;     ///< compensate: even with a map that is unfit for cutting
+  bool json = false;
+
+  [[nodiscard]] gcode::Dialect dialect() const;
+  /// For --home. \throws InputError if it is not a pair of numbers.
+  [[nodiscard]] BedPoint home_mm() const;
+};
+
+/// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
+[[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
+
+/// What a program aims at: a map, the fit of four belts, or the plotter that a drawing found.
+struct GcodeTarget {
+  std::unique_ptr<const CompensationMap> map = {};  ///< null for four belts and for a V-plotter
+  std::optional<grid::KnownPlotter> plotter = {};
+  /// For four belts: the machine in force when they were measured.
+  std::optional<BeltMachine> belts_in_force = {};
+  std::unique_ptr<const grid::LengthMap> lengths = {};
+  /// For four belts whose scale was not taped: the map whose error excludes the scale; otherwise
+  /// null.
+  std::unique_ptr<const grid::LengthMap> in_belts_mm = {};
+};
+/// Of --map. \throws InputError for a bad file.
+[[nodiscard]] GcodeTarget open_target(const GcodeOptions& options);
+
+/// How the machine's controller executes a program.
+struct GcodeController {
+  std::unique_ptr<const model::ControllerKinematics> kinematics;
+  const gcode::Firmware* firmware;
+  /// Empty if it does not clamp.
+  std::optional<gcode::ClampBox> clamp_box;
+  /// The area for programs: the bed, the frame of the anchors of four belts, a plotter's drawing
+  /// area.
+  interp::Rectangle sheet;
+  /// From the map's machine; none for belts and plotters.
+  model::ChainLengths half_play_mm;
+  /// Its settings, for the header of compensated programs.
+  std::vector<files::NamedSetting> settings;
+  /// A firmware with its own settings; then `firmware` points to this.
+  std::shared_ptr<const gcode::Firmware> with_settings = nullptr;
+};
+
+/// Map, machine and controller, which belong together.
+class GcodeMachine {
+ public:
+  /// \throws InputError for bad files, or if neither map nor --machine states the controller's
+  /// settings.
+  explicit GcodeMachine(const GcodeOptions& options);
+  [[nodiscard]] const grid::LengthMap& target() const { return *target_.lengths; }
+  /// See GcodeTarget::in_belts_mm.
+  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm.get(); }
+  /// Null for four belts and for a V-plotter.
+  [[nodiscard]] const CompensationMap* map() const { return target_.map.get(); }
+  [[nodiscard]] const grid::KnownPlotter* plotter() const {
+    return target_.plotter ? &*target_.plotter : nullptr;
+  }
+  [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
+  [[nodiscard]] const GcodeController& controller() const { return controller_; }
+
+ private:
+  GcodeTarget target_;
+  GcodeController controller_;
+  gcode::Corrector corrector_;
+};
+
+/// The area for programs with --machine; without it the usual bed. \throws InputError.
+[[nodiscard]] interp::Rectangle sheet_of(const GcodeOptions& options);
 
 /// Checks that the tolerance exceeds the rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);
@@ -69,5 +173,43 @@ int report(const std::string& file, const gcode::Findings& findings);
 
 /// The content of a pending file, as a program. \throws InputError if it could not be written.
 [[nodiscard]] gcode::LineSource written_so_far(files::PendingFile& file);
+
+// The verbs of `chaintrue gcode`; each returns the exit code. \throws files::InputError.
+
+/// A program's extent and, with a map, all problems that compensating would report.
+[[nodiscard]] int run_gcode_check(const GcodeOptions& options);
+/// Chain lengths along the path, as a CSV.
+[[nodiscard]] int run_gcode_lengths(const GcodeOptions& options);
+[[nodiscard]] int run_gcode_compensate(const GcodeOptions& options);
+/// Runs a program on a simulated controller and compares the track with another program's path.
+[[nodiscard]] int run_gcode_verify(const GcodeOptions& options);
+/// One line: the state before, what it does, the state after.
+[[nodiscard]] int run_gcode_explain(const GcodeOptions& options);
+
+// The expected error of the tool for a compensated program: the map's uncertainty along the cuts,
+// and the path's deviation.
+
+/// `map` is empty if the map's error is unknown, `path_mm` is the largest deviation of the
+/// simulated tool. Adds the two: their directions are unrelated.
+struct PromisedError {
+  std::optional<gcode::ExpectedError> map;
+  double path_mm = 0.0;
+  /// Without the scale of four belts, if it was not taped.
+  bool is_without_scale = false;
+
+  /// For cuts on the measured part; empty if there are none.
+  [[nodiscard]] std::optional<double> measured_mm() const;
+  /// For cuts outside.
+  [[nodiscard]] std::optional<double> outside_mm() const;
+};
+
+/// The uncertainty of the machine's map or anchors for cuts at these places.
+[[nodiscard]] PromisedError promised_along(const gcode::CutPlaces& cuts,
+                                           const GcodeMachine& machine,
+                                           double path_mm);
+/// Sentences, one per line; empty if nothing is cut or known.
+[[nodiscard]] std::string in_words(const PromisedError& error);
+/// For --json, as members of an object: `"expected_mm": 0.28, ...`; null if unknown.
+[[nodiscard]] std::string as_members(const PromisedError& error);
 
 }  // namespace chaintrue::cli

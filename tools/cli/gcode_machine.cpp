@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/gcode_machine.hpp"
+#include "tools/cli/gcode_job.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/input_error.hpp"
+#include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/map/map_in_frame.hpp"
 #include "model/belts/belt_controller.hpp"
@@ -16,24 +16,17 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/start_plotter.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-struct KindName {
-  std::string_view name;
-  ControllerKind kind;
-};
-
-constexpr KindName kKinds[] = {
-    {"maslow_classic", ControllerKind::maslow_classic},
-    {"holey", ControllerKind::holey},
-    {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter},
-    {"ideal", ControllerKind::ideal},
-};
-
 constexpr std::string_view kFourBeltsName = "maslow4";
 constexpr std::string_view kMarlinName = "marlin";
+
+std::optional<ControllerKind> controller_kind(std::string_view name) {
+  return files::named(files::kControllerKinds, name);
+}
 
 }  // namespace
 
@@ -65,8 +58,7 @@ BedPoint GcodeOptions::home_mm() const {
   const auto y =
       comma == std::string_view::npos ? std::nullopt : files::number_of(text.substr(comma + 1));
   if (x && y) return {*x, *y};
-  throw InputError(
-      {{"--home", "", home, "two numbers in mm with a comma between, such as 120,-40"}});
+  refuse("--home", home, "two numbers in mm with a comma between, such as 120,-40");
 }
 
 const gcode::Firmware* stated_firmware(std::string_view name) {
@@ -74,13 +66,6 @@ const gcode::Firmware* stated_firmware(std::string_view name) {
   if (name == kMarlinName) return &gcode::firmware(model::PlotterFirmware::marlin);
   const auto kind = controller_kind(name);
   return kind ? &gcode::firmware(*kind) : nullptr;
-}
-
-std::optional<ControllerKind> controller_kind(std::string_view name) {
-  for (const KindName& kind : kKinds) {
-    if (kind.name == name) return kind.kind;
-  }
-  return std::nullopt;
 }
 
 namespace {
@@ -115,11 +100,9 @@ std::vector<files::NamedSetting> settings_of(const BeltMachine& machine) {
 
 GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarget& target) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       "\"maslow4\", or to be left out, because anchors of four belts belong to a "
-                       "Maslow 4"}});
+    refuse("--controller",
+           options.controller,
+           "\"maslow4\", or to be left out, because anchors of four belts belong to a Maslow 4");
   }
   const BeltMachine believed =
       options.machine.empty() ? *target.belts_in_force : read_belt_machine_input(options.machine);
@@ -157,22 +140,18 @@ GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTa
                                    ? target.plotter->set
                                    : load_plotter(open_input(options.machine)).plotter.set;
   if (set.firmware != target.plotter->set.firmware) {
-    throw InputError(
-        {{options.machine,
-          "/set/firmware",
-          std::string(model::name(set.firmware)),
-          fmt::format(
-              "\"{}\", as in {}", model::name(target.plotter->set.firmware), options.map)}});
+    refuse(options.machine,
+           "/set/firmware",
+           std::string(model::name(set.firmware)),
+           fmt::format("\"{}\", as in {}", model::name(target.plotter->set.firmware), options.map));
   }
   const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
   if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
   if (!options.controller.empty() && options.controller != firmware->name) {
-    throw InputError(
-        {{"--controller",
-          "",
-          options.controller,
-          fmt::format("\"{}\", or to be left out, because the plotter's file names its controller",
-                      firmware->name)}});
+    refuse("--controller",
+           options.controller,
+           fmt::format("\"{}\", or to be left out, because the plotter's file names its controller",
+                       firmware->name));
   }
   return {
       std::make_unique<const model::PlotterController>(set.firmware, set.machine, set.pins_middle),
@@ -193,33 +172,29 @@ Machine believed_machine(const GcodeOptions& options, const CompensationMap& map
     return stated ? with_settings(*stated, now, in_place ? &*in_place : nullptr) : now.read.machine;
   }
   if (stated) return *stated;
-  throw InputError(
-      {{options.map,
-        "",
-        "",
-        fmt::format(
-            "a map with a machine; this one has none, so give the controller's settings with {}",
-            options.machine_option)}});
+  refuse(options.map,
+         "",
+         fmt::format(
+             "a map with a machine; this one has none, so give the controller's settings with {}",
+             options.machine_option));
 }
 
 /// If --controller names another than the map was measured with.
 void say_other_controller(const CompensationMap& map, ControllerKind kind) {
   if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
-  fmt::print(stderr,
-             "The map was measured with the controller {}; --controller {} replaces it.\n",
-             name_of(map.machine()->controller.kind),
-             name_of(kind));
+  say("The map was measured with the controller {}; --controller {} replaces it.",
+      name_of(map.machine()->controller.kind),
+      name_of(kind));
 }
 
 GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
   if (target.plotter) return controller_of_plotter(options, target);
   if (target.map == nullptr) return controller_of_belts(options, target);
   if (options.controller == kMarlinName) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       "a router's controller; Marlin is for V-plotters, which use the fit of a "
-                       "drawing instead of a map"}});
+    refuse("--controller",
+           options.controller,
+           "a router's controller; Marlin is for V-plotters, which use the fit of a drawing "
+           "instead of a map");
   }
   Machine machine = believed_machine(options, *target.map);
   if (const auto kind = controller_kind(options.controller)) {
@@ -244,13 +219,12 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
   const files::FittedAnchors found = load_anchors(*options.map_file);
   const grid::HolesWithBelts* holes = found.holes ? &*found.holes : nullptr;
   if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
-    OptionProblems problems;
-    problems.add("--map",
-                 options.map,
-                 "anchors fitted to a file with the anchors in force, which define the origin of "
-                 "commands (import maslow4 --settings maslow.yaml)",
-                 ProblemKind::missing);
-    problems.throw_if_any();
+    refuse("command line",
+           "--map",
+           options.map,
+           "anchors fitted to a file with the anchors in force, which define the origin of "
+           "commands (import maslow4 --settings maslow.yaml)",
+           ProblemKind::missing);
   }
   auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
   GcodeTarget target{.belts_in_force = map->in_force()};
@@ -258,10 +232,8 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
     BeltsFit taken_as_true = found.fit;
     taken_as_true.scale = grid::BeltScale{};
     target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
-    fmt::print(
-        stderr,
-        "The scale is unknown. An encoder turn is assumed to be {:g} mm of belt, and parts can be "
-        "no more accurate than that. One long taped distance, or holes, determine the scale.\n",
+    say("The scale is not known: a turn of the encoder is assumed to be {:g} mm of belt, so parts "
+        "can be no more accurate than that. One long taped distance, or holes, determines it.",
         found.fit.machine.belt_turn_mm);
   }
   target.lengths = std::move(map);
@@ -270,11 +242,11 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
 
 GcodeTarget target_of_map(const GcodeOptions& options) {
   if (options.controller == kFourBeltsName) {
-    throw InputError({{options.map,
-                       "/file_type",
-                       "",
-                       "\"chaintrue_anchors\", which chaintrue fit writes for belts; a Maslow 4 "
-                       "uses these instead of a map"}});
+    refuse(options.map,
+           "/file_type",
+           "",
+           "\"chaintrue_anchors\", which chaintrue fit writes for belts; a Maslow 4 uses these "
+           "instead of a map");
   }
   GcodeTarget target{std::make_unique<const CompensationMap>(load_map(*options.map_file))};
   target.lengths = std::make_unique<const grid::MapInFrame>(

@@ -3,15 +3,13 @@
 /// chaintrue gcode verify.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
-#include "tools/cli/gcode_expected.hpp"
-#include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/gcode/emitter.hpp"
 #include "tools/gcode/firmware.hpp"
@@ -74,9 +72,8 @@ void print_words(const gcode::VerifySummary& summary,
              controller);
   if (control) fmt::print("without compensation: {}\n", in_words(*control));
   if (summary.tick_overshoot_mm > 0.0) {
-    fmt::print(
-        "Moves overshoot by up to {:.2f} mm and return, as always on this controller.\n",
-        summary.tick_overshoot_mm);
+    fmt::print("Moves overshoot by up to {:.2f} mm and return, as always on this controller.\n",
+               summary.tick_overshoot_mm);
   }
   if (!summary.words_differ.empty())
     fmt::print("the words that pass through differ: {}\n", summary.words_differ);
@@ -137,10 +134,9 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources,
   for (const grid::SourceFile& file : sources) {
     const std::string beginning = file.sha256.substr(0, gcode::kHashDigits);
     if (grid::contains(hashes, beginning)) continue;
-    fmt::print(stderr,
-               "{} was made from another version of {}: compensate again.\n",
-               files::name_without_folders(name),
-               file.name);
+    say("{} was made from another version of {}: compensate again.",
+        files::name_without_folders(name),
+        file.name);
   }
 }
 

@@ -11,12 +11,13 @@
 #include "grid/files/file_type.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
+#include "grid/files/names.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/warnings.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 
@@ -37,8 +38,7 @@ void add_grid_options(Verb verb, GridInput& input) {
              input.length_noise_mm,
              files::kNoiseMm,
              "Standard deviation (1 sigma) of a measured chain length; replaces the grid's")
-      .acts_on(facts::grid,
-               "to be left out, because it applies to chain lengths in a grid only");
+      .acts_on(facts::grid, "to be left out, because it applies to chain lengths in a grid only");
   add_number(
       verb,
       "--noise-position-mm",
@@ -75,12 +75,11 @@ namespace {
 void declare(const GridInput& input, const std::string& file, std::optional<Machine>& machine) {
   if (input.effects.empty()) return;
   if (machine) return files::declare_effects(input.effects, *machine);
-  OptionProblems problems;
-  problems.add("--effects",
-               input.effects.front(),
-               fmt::format("to be left out, or --machine, because {} has no machine", file),
-               ProblemKind::contradiction);
-  problems.throw_if_any();
+  refuse("command line",
+         "--effects",
+         input.effects.front(),
+         fmt::format("to be left out, or --machine, because {} has no machine", file),
+         ProblemKind::contradiction);
 }
 
 MeasuredGrid grid_of(const InputFile& file,
@@ -224,6 +223,26 @@ void add_without_option(Verb verb, std::string& without) {
 std::vector<std::size_t> points_left_out(const std::string& without) {
   return without.empty() ? std::vector<std::size_t>{}
                          : files::point_numbers_of(without, "--without");
+}
+
+void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual) {
+  verb.add_option("--outside",
+                  option.way,
+                  "Beyond the measured points: continued (smoothly), refuse, fade (to the machine "
+                  "without correction), linear or clamp; " +
+                      usual)
+      .one_of(files::words_of(files::kOutsideWays));
+  add_number(verb,
+             "--fade-mm",
+             option.fade_width_mm,
+             files::kFadeWidthMm,
+             "Distance over which --outside fade ends the correction")
+      .acts_on(facts::fade, "to be left out without --outside fade");
+}
+
+grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {
+  if (option.way.empty()) return usual;
+  return {*files::named(files::kOutsideWays, option.way), option.fade_width_mm};
 }
 
 }  // namespace chaintrue::cli

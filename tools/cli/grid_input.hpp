@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "grid/files/measured_options.hpp"
+#include "grid/map/compensation_map.hpp"
 #include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 
@@ -72,5 +74,18 @@ enum class MeasuredUse { fit, check };
 /// The file, and those of --with.
 [[nodiscard]] std::vector<InputFile> open_inputs(const std::string& path,
                                                  const std::vector<std::string>& with);
+
+// --outside and --fade-mm: a map's continuation beyond its points, shared by several verbs.
+
+struct OutsideOption {
+  std::string way;
+  double fade_width_mm = grid::OutsideRule{}.fade_width_mm;
+};
+
+/// \param usual what happens without the option, in words
+void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual);
+/// The requested rule, or the given one.
+[[nodiscard]] grid::OutsideRule rule_of(const OutsideOption& option,
+                                        const grid::OutsideRule& usual);
 
 }  // namespace chaintrue::cli

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 namespace chaintrue::cli {
 namespace {
+
+using report::number_column;
+using report::signed_column;
+using report::text_column;
 
 std::string effect_words(const grid::DetectableEffect& effect) {
   return effect.side.empty() ? effect.effect : fmt::format("{} ({})", effect.effect, effect.side);
@@ -28,15 +31,13 @@ std::string listed(const std::vector<std::string>& words) {
 Section distances_section(const MeasuredHoles& set,
                           const grid::FittedDistances& fit,
                           std::string_view file) {
-  Table table{
-      .columns =
-          {{.heading = "Distance", .width = 22},
-           {.heading = "measured", .is_number = true, .digits = 1, .width = 10},
-           {.heading = "commanded", .is_number = true, .digits = 1, .width = 11},
-           {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
-           {.heading = "sigmas", .is_number = true, .digits = 1, .has_sign = true, .width = 10},
-           {.gap = 2}},
-      .is_headed = true};
+  Table table{.columns = {text_column("Distance", 22),
+                          number_column("measured", 10, 1),
+                          number_column("commanded", 11, 1),
+                          signed_column("left out", 11),
+                          signed_column("sigmas", 10, 1),
+                          {.gap = 2}},
+              .is_headed = true};
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
     Row& row = table.rows.emplace_back();
@@ -78,22 +79,18 @@ std::string distances_in_number(const MeasuredHoles& set) {
 std::string workshop_list(const grid::HolesPlan& plan) {
   std::string text = "hole,x_mm,y_mm\n";
   for (const grid::Hole& hole : plan.set.holes) {
-    fmt::format_to(std::back_inserter(text),
-                   "{},{:.0f},{:.0f}\n",
-                   hole.name,
-                   hole.commanded.x_mm + 0.0,
-                   hole.commanded.y_mm + 0.0);
+    text += fmt::format(
+        "{},{:.0f},{:.0f}\n", hole.name, hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0);
   }
   text +=
       "# Write the tape's reading into distance_mm, and leave it empty if you did not measure; the "
       "expected value is next to it.\n";
   text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
-    fmt::format_to(std::back_inserter(text),
-                   "{},{},,{:.0f}\n",
-                   plan.set.holes[distance.from].name,
-                   distance.edge ? name(*distance.edge) : plan.set.holes[distance.to].name,
-                   distance.distance_mm);
+    text += fmt::format("{},{},,{:.0f}\n",
+                        plan.set.holes[distance.from].name,
+                        distance.edge ? name(*distance.edge) : plan.set.holes[distance.to].name,
+                        distance.distance_mm);
   }
   return text;
 }
@@ -114,18 +111,13 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
   std::vector<std::string> unreported;
   constexpr double kHardlyBetter = 0.7;
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
-    fmt::format_to(std::back_inserter(text),
-                   "  {:<30}{:>12.3f}{:>10.3f} {}\n",
-                   known.name,
-                   known.before,
-                   known.after,
-                   known.unit);
+    text += fmt::format(
+        "  {:<30}{:>12.3f}{:>10.3f} {}\n", known.name, known.before, known.after, known.unit);
     if (known.after > kHardlyBetter * known.before) unreported.push_back(known.name);
   }
-  fmt::format_to(std::back_inserter(text),
-                 "It does not determine: {}.{}\n",
-                 listed(unreported),
-                 request.edges ? "" : " To locate the sheet, measure to its edges: --edges.");
+  text += fmt::format("It does not determine: {}.{}\n",
+                      listed(unreported),
+                      request.edges ? "" : " To locate the sheet, measure to its edges: --edges.");
   std::vector<std::string> clear;
   std::vector<std::string> doubtful;
   std::vector<std::string> unseen;
@@ -142,13 +134,13 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
           fmt::format("{} and {}", effect_words(effect), effect_words(plan.effects[other])));
     }
   }
-  fmt::format_to(std::back_inserter(text),
-                 "Detectable causes of usual size that no setting can imitate: {}.\nDoubtful: "
-                 "{}.\nNot detectable: {}.\nIndistinguishable: {}.\n",
-                 listed(clear),
-                 listed(doubtful),
-                 listed(unseen),
-                 listed(equal));
+  text += fmt::format(
+      "Detectable causes of usual size that no setting can imitate: {}.\nDoubtful: {}.\nNot "
+      "detectable: {}.\nIndistinguishable: {}.\n",
+      listed(clear),
+      listed(doubtful),
+      listed(unseen),
+      listed(equal));
   return text;
 }
 

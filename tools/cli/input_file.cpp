@@ -11,7 +11,7 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/warnings.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 
@@ -34,16 +34,14 @@ void require_kind(const InputFile& file,
   const std::string what_takes = is_json && file.kind != FileKind::belt_holes && also.empty()
                                      ? files::what_takes(files::file_type_of(file.text, file.name))
                                      : "";
-  throw InputError(
-      {{file.name,
-        file.kind == FileKind::belt_holes ? "/machine"
-        : is_json                         ? "/file_type"
-                                          : "",
-        files::found_kind(file.text, file.name),
-        fmt::format(
-            "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes),
-        {},
-        ProblemKind::file_kind}});
+  refuse(file.name,
+         file.kind == FileKind::belt_holes ? "/machine"
+         : is_json                         ? "/file_type"
+                                           : "",
+         files::found_kind(file.text, file.name),
+         fmt::format(
+             "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes),
+         ProblemKind::file_kind);
 }
 
 files::FittedAnchors load_anchors(const InputFile& file) {
@@ -70,15 +68,14 @@ files::ReadBelts load_belts(const InputFile& file,
   files::ReadBelts read = files::parse_belts(file.text, file.name, without);
   print_warnings(read.warnings);
   if (read.belts.points.size() > grid::kMostBeltPoints) {
-    throw InputError({{file.name,
-                       "/points",
-                       fmt::format("{} places are more than {} accepts ({})",
-                                   read.belts.points.size(),
-                                   work,
-                                   grid::kMostBeltPoints),
-                       "fewer: leave some out, evenly over the sheet",
-                       {},
-                       ProblemKind::too_many}});
+    refuse(file.name,
+           "/points",
+           fmt::format("{} places are more than {} accepts ({})",
+                       read.belts.points.size(),
+                       work,
+                       grid::kMostBeltPoints),
+           "fewer: leave some out, evenly over the sheet",
+           ProblemKind::too_many);
   }
   return read;
 }
@@ -108,10 +105,8 @@ BeltMachine load_belt_machine(const InputFile& file) {
   if (file.kind == FileKind::anchors) return files::machine_as_pasted(load_anchors(file).fit);
   BeltMachine machine = load_belts(file, "a machine").belts.machine;
   if (!machine.anchors_known) {
-    throw InputError({{file.name,
-                       "/machine/anchors",
-                       "",
-                       "x_mm and y_mm of all four anchors that are in force"}});
+    refuse(
+        file.name, "/machine/anchors", "", "x_mm and y_mm of all four anchors that are in force");
   }
   return machine;
 }

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string_view>
 
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -64,12 +64,11 @@ void report_difference(const InputFile& result) {
   if (!made_by) return;
   for (const std::string& name : files::changed_since(*made_by, files::sources_read())) {
     end_progress();
-    fmt::print(stderr,
-               "{} has changed since {} was made from it: make {} again if the measurements have "
-               "changed.\n",
-               name,
-               result.name,
-               result.name);
+    say("{} has changed since {} was made from it: make {} again if the measurements have "
+        "changed.",
+        name,
+        result.name,
+        result.name);
   }
 }
 

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
-#include <stdexcept>
 #include <system_error>
 
 #include "grid/files/input_error.hpp"
@@ -21,7 +20,6 @@
 #include "tools/cli/run_command.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -29,7 +27,7 @@ namespace {
 int report_bad_input(const grid::files::InputError& error) {
   std::fflush(stdout);
   for (const auto& problem : error.problems())
-    fmt::print(stderr, "{}\n", in_red(with_name(problem.message(), problem.name())));
+    say("{}", in_red(with_name(problem.message(), problem.name())));
   return kBadInput;
 }
 
@@ -66,22 +64,19 @@ int with_exit_code(const std::function<int()>& work) {
   } catch (const grid::files::InputError& error) {
     return report_bad_input(error);
   } catch (const Failed& failed) {
-    if (!failed.about().empty()) fmt::print(stderr, "{}: {}\n", failed.about(), failed.what());
+    if (!failed.about().empty()) say("{}: {}", failed.about(), failed.what());
     return failed.code();
   } catch (const grid::files::ReaderGone&) {
     return kDone;
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return finish_standard_output(kDone, error.code().value());
-    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
-    return kInternal;
-  } catch (const std::logic_error& error) {
-    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
+    say("chaintrue: internal error, please report it: {}", error.what());
     return kInternal;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "chaintrue: not enough memory\n");
+    say("chaintrue: not enough memory");
     return kNotSupportedOrOutside;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
+    say("chaintrue: internal error, please report it: {}", error.what());
     return kInternal;
   }
 }

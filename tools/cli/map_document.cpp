@@ -14,6 +14,8 @@ namespace chaintrue::cli {
 namespace {
 
 using grid::MapPoint;
+using report::number_column;
+using report::text_column;
 
 /// Next steps, the most urgent first.
 void put_advice(const MapContents& contents,
@@ -93,9 +95,9 @@ Section remarks_section(const CompensationMap& map, std::optional<double> wish_m
 }
 
 Table left_out_distances(const grid::DistancesUsed& used) {
-  return {.columns = {{.heading = "Error of distances left out one at a time, mm", .width = 48},
-                      {.heading = "rms", .is_number = true, .width = 8},
-                      {.heading = "max", .is_number = true, .width = 8}},
+  return {.columns = {text_column("Error of distances left out one at a time, mm", 48),
+                      number_column("rms", 8),
+                      number_column("max", 8)},
           .rows = {{{"all", used.left_out_all.rms_mm, used.left_out_all.maximum_mm}},
                    {{"those that fit", used.left_out_good.rms_mm, used.left_out_good.maximum_mm}}},
           .is_headed = true,
@@ -105,11 +107,11 @@ Table left_out_distances(const grid::DistancesUsed& used) {
 Table left_out_points(const CompensationMap& map) {
   const grid::MapAccuracy& accuracy = map.contents().accuracy;
   const bool direct = map.machine() == nullptr;
-  Table table{.columns = {{.heading = "Error of points left out, mm", .width = 28},
-                          {.heading = "chain rms", .is_number = true, .width = 8},
-                          {.heading = "max", .is_number = true, .width = 8},
-                          {.heading = "tool rms", .is_number = true, .width = 10},
-                          {.heading = "max", .is_number = true, .width = 8}},
+  Table table{.columns = {text_column("Error of points left out, mm", 28),
+                          number_column("chain rms", 8),
+                          number_column("max", 8),
+                          number_column("tool rms", 10),
+                          number_column("max", 8)},
               .is_headed = true,
               .head_width = 35};
   const auto row = [&table](const char* what, const grid::HeldOutError& error) {

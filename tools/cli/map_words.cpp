@@ -1,20 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/talk.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <optional>
 
 #include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "model/calibration/setting.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::cli {
+namespace {
+
+using report::number_column;
+using report::text_column;
+
+/// The expected rms error with this many marks of the map's quality; empty if none can be planned.
+std::optional<double> expected_with(const CompensationMap& map, int points) {
+  const grid::MapNoise& noise = map.contents().noise;
+  grid::PlanRequest request;
+  request.points = points;
+  request.noise = {noise.length_mm * noise.factor_found, noise.position_mm * noise.factor_found};
+  const auto plan = grid::plan_measurement(*map.machine(), request);
+  if (!plan) return std::nullopt;
+  return plan->map.contents().accuracy.expected_tool.rms_mm;
+}
+
+/// The least number of marks that is expected to reach `wish_mm`: the planned error is scaled to the
+/// one that the map has at its own number of points.
+std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
+  constexpr std::array<int, 6> kNumbers = {28, 45, 70, 100, 140, grid::kMostPlanned};
+  const auto now = static_cast<int>(map.contents().points.size());
+  const auto here = expected_with(map, std::clamp(now, grid::kFewestPlanned, grid::kMostPlanned));
+  if (!here || !(*here > 0.0)) return std::nullopt;
+  const double ratio = map.contents().accuracy.expected_tool.rms_mm / *here;
+  for (const int number : kNumbers) {
+    if (number <= now) continue;
+    const auto then = expected_with(map, number);
+    if (then && ratio * *then <= wish_mm) return number;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 grid::ErrorSummary summary_of(const MapContents& contents, Residual residual) {
   grid::ErrorSummary summary;
@@ -71,7 +103,7 @@ std::string not_to_cut_with(const CompensationMap& map) {
 bool refuses_to_cut_with(const CompensationMap& map) {
   const std::string why = not_to_cut_with(map);
   if (why.empty()) return false;
-  fmt::print(stderr, "{} --force continues anyway.\n", why);
+  say("{} --force continues anyway.", why);
   return true;
 }
 
@@ -162,37 +194,6 @@ std::string points_sentence(const CompensationMap& map) {
       bad == 0 ? "" : fmt::format("; {} were left out as wrong", bad));
 }
 
-namespace {
-
-/// The expected rms error with this many marks of the map's quality; empty if none can be planned.
-std::optional<double> expected_with(const CompensationMap& map, int points) {
-  const grid::MapNoise& noise = map.contents().noise;
-  grid::PlanRequest request;
-  request.points = points;
-  request.noise = {noise.length_mm * noise.factor_found, noise.position_mm * noise.factor_found};
-  const auto plan = grid::plan_measurement(*map.machine(), request);
-  if (!plan) return std::nullopt;
-  return plan->map.contents().accuracy.expected_tool.rms_mm;
-}
-
-/// The least number of marks that is expected to reach `wish_mm`: the planned error is scaled to the
-/// one that the map has at its own number of points.
-std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
-  constexpr std::array<int, 6> kNumbers = {28, 45, 70, 100, 140, grid::kMostPlanned};
-  const auto now = static_cast<int>(map.contents().points.size());
-  const auto here = expected_with(map, std::clamp(now, grid::kFewestPlanned, grid::kMostPlanned));
-  if (!here || !(*here > 0.0)) return std::nullopt;
-  const double ratio = map.contents().accuracy.expected_tool.rms_mm / *here;
-  for (const int number : kNumbers) {
-    if (number <= now) continue;
-    const auto then = expected_with(map, number);
-    if (then && ratio * *then <= wish_mm) return number;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 std::string wish_sentence(const CompensationMap& map, double wish_mm) {
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
   const std::string held = fmt::format("Your target is {:g} mm: ", wish_mm);
@@ -203,13 +204,73 @@ std::string wish_sentence(const CompensationMap& map, double wish_mm) {
     return held + "not reached. More distances or a better tape would reduce the error.";
   const auto marks = marks_for(map, wish_mm);
   if (marks)
-    return held +
-           fmt::format("not reached. About {} marks measured as accurately as these would reach it.",
-                       *marks);
+    return held + fmt::format(
+                      "not reached. About {} marks measured as accurately as these would reach it.",
+                      *marks);
   return held + fmt::format(
                     "not reached, not even with {} marks measured as accurately as these: measure "
                     "each mark more accurately.",
                     grid::kMostPlanned);
+}
+
+namespace {
+
+using model::Setting;
+
+struct SettingWords {
+  Setting setting;
+  std::string_view words;
+  std::string_view unit;
+  double factor;
+};
+
+constexpr SettingWords kSettingWords[] = {
+    {Setting::motor_left_x_mm, "left motor, x", "mm", 1.0},
+    {Setting::motor_left_y_mm, "left motor, y", "mm", 1.0},
+    {Setting::motor_right_x_mm, "right motor, x", "mm", 1.0},
+    {Setting::motor_right_y_mm, "right motor, y", "mm", 1.0},
+    {Setting::chain_zero_left_mm, "left chain's zero", "mm", 1.0},
+    {Setting::chain_zero_right_mm, "right chain's zero", "mm", 1.0},
+    {Setting::sheet_x_mm, "sheet offset, right", "mm", 1.0},
+    {Setting::sheet_y_mm, "sheet offset, up", "mm", 1.0},
+    {Setting::sheet_rotation_rad, "sheet rotation, left", "mrad", 1000.0},
+};
+
+const SettingWords& words_of(Setting setting) {
+  for (const SettingWords& words : kSettingWords) {
+    if (words.setting == setting) return words;
+  }
+  throw grid::precondition("setting {} has no words", static_cast<int>(setting));
+}
+
+}  // namespace
+
+std::string_view setting_in_words(Setting setting) { return words_of(setting).words; }
+std::string_view unit_of(Setting setting) { return words_of(setting).unit; }
+double in_unit(Setting setting, double value) { return words_of(setting).factor * value; }
+
+Table settings_table(const std::vector<SettingRow>& settings) {
+  Table table{.columns = {text_column("Settings", 26),
+                          number_column("in the file", 14),
+                          {.heading = "+- in the file", .is_number = true, .detail = Detail::page},
+                          number_column("calibrated", 12),
+                          number_column("+- sigma", 11),
+                          {.gap = 1},
+                          {.gap = 2}},
+              .is_headed = true,
+              .head_width = 27};
+  for (const SettingRow& row : settings) {
+    const auto value = [&](double of) { return in_unit(row.setting, of); };
+    std::vector<Cell> cells = {setting_in_words(row.setting),
+                               value(row.stated),
+                               row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
+                               value(row.calibrated),
+                               value(row.sigma),
+                               unit_of(row.setting)};
+    if (row.is_off) cells.emplace_back("off: by more than the uncertainty in your file");
+    table.rows.push_back({std::move(cells), row.is_off});
+  }
+  return table;
 }
 
 }  // namespace chaintrue::cli

@@ -3,6 +3,8 @@
 /// Types of the libraries that the command uses without their namespace.
 #pragma once
 
+#include "grid/files/input_error.hpp"
+
 namespace chaintrue::grid {
 struct BeltsError;
 struct BeltsFit;
@@ -23,7 +25,6 @@ struct NextMeasurement;
 
 namespace chaintrue::grid::files {
 enum class FileKind;
-class InputError;
 }  // namespace chaintrue::grid::files
 
 namespace chaintrue::grid::sweep {}
@@ -81,6 +82,7 @@ using grid::diagnosis::Diagnosis;
 using grid::diagnosis::NextMeasurement;
 using grid::files::FileKind;
 using grid::files::InputError;
+using grid::files::refuse;
 using model::AppliedEffect;
 using model::Bed;
 using model::BedPoint;

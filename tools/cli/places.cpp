@@ -92,7 +92,7 @@ class PlaceCheck {
     if (!taken.empty() && grid::contains(taken_, taken))
       return add(path,
                  "a name given twice",
-                 "a file of its own for each output",
+                 "a different file for each output",
                  ProblemKind::output_repeated);
     taken_.push_back(taken);
     const auto identity = identity_of_output(path);
@@ -256,21 +256,17 @@ void check_folder(Verb verb, const std::string& folder, const std::vector<Folder
 
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
   if (folder.empty() || folder.front() == '-')
-    throw InputError({{"the folder",
-                       "",
-                       folder.empty() ? "an empty name" : folder,
-                       "the name of a folder; it will hold many files",
-                       {},
-                       ProblemKind::output_place}});
+    refuse("the folder",
+           folder.empty() ? "an empty name" : folder,
+           "the name of a folder; it will hold many files",
+           ProblemKind::output_place);
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
-    throw InputError({{folder,
-                       "",
-                       error.message(),
-                       "a folder that can be created or written to",
-                       {},
-                       ProblemKind::output_place}});
+    refuse(folder,
+           error.message(),
+           "a folder that can be created or written to",
+           ProblemKind::output_place);
   try {
     check_folder(verb, folder, contents);
     std::vector<files::OutputFile> outputs;

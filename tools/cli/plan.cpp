@@ -9,24 +9,97 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "grid/files/whole_file.hpp"
+#include "grid/map/compensation_map.hpp"
+#include "grid/planning/check_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/planning/second_visits.hpp"
+#include "model/chains/chain_changes.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_after.hpp"
-#include "tools/cli/plan_check.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
-#include "tools/cli/plan_outputs.hpp"
+#include "tools/cli/sheet.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
+
+// The part of chaintrue plan that chooses the few points of a check.
+
+struct CheckPlanOptions {
+  /// The map to check later; empty for other plans.
+  std::string map;
+  grid::CheckPlanRequest request;
+  /// For --measure.
+  std::string measure;
+};
+
+void check_options(const grid::CheckPlanRequest& request, const CompensationMap& map) {
+  OptionProblems problems;
+  problems.require("--points", request.points, grid::kFewestCheckPoints, grid::kMostCheckPoints);
+  if (const Machine* machine = map.machine()) {
+    const double half = 0.5 * std::min(machine->bed.width_mm, machine->bed.height_mm);
+    problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
+  }
+  problems.throw_if_any();
+}
+
+std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
+  FollowUpDrawing drawing;
+  for (const grid::MapPoint& point : map.contents().points) drawing.measured.push_back(point.mark);
+  for (std::size_t i = 0; i < plan.marks.size(); ++i)
+    drawing.next.push_back({fmt::format("{}", i + 1), plan.marks[i]});
+  return draw_follow_up(drawing, map.machine()->bed);
+}
+
+/// Whether a worn chain would be distinguished from a shifted zero. Three sigmas are one chance in
+/// 400, two one in 20.
+std::string_view detectable_change(const model::PerSide<double>& sigmas) {
+  const double least = std::min(sigmas.left, sigmas.right);
+  if (least >= 3.0) return "will certainly show it";
+  if (least >= 2.0) return "will probably show it";
+  return "may miss it, so that more points or better readings are needed";
+}
+
+/// Writes the list and the drawing; returns the exit code. \throws InputError for values out
+/// of range.
+int plan_the_check(const CompensationMap& map,
+                   const CheckPlanOptions& options,
+                   const PlanOutputs& wanted) {
+  check_options(options.request, map);
+  const auto plan = grid::plan_check(map, options.request);
+  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
+  const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
+  std::vector<files::OutputFile> outputs =
+      sheet_outputs(sheet,
+                    *map.machine(),
+                    {options.request.length_mm, options.request.position_mm, StatedNoise{}.dof},
+                    wanted,
+                    fmt::format("\"expected_sigmas\": [{}, {}]",
+                                plan->expected_sigmas.left,
+                                plan->expected_sigmas.right));
+  if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
+  write_outputs(outputs);
+  say("{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: that is "
+      "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).",
+      plan->marks.size(),
+      100.0 * model::kPitchGrowthSigma,
+      detectable_change(plan->expected_sigmas),
+      plan->expected_sigmas.left,
+      plan->expected_sigmas.right);
+  say_next({"check", options.map, wanted.list});
+  return kDone;
+}
 
 struct PlanOptions {
   std::string machine;
@@ -40,19 +113,9 @@ struct PlanOptions {
   std::optional<double> length_noise_mm;
   std::optional<double> position_noise_mm;
   std::optional<double> margin_mm;
-  std::string output = "-";
-  std::string drawing;
-  std::string gcode;
-  std::string page;
-  DrillOptions drill;
+  PlanOutputs outputs;
   std::string measure;
-  bool json = false;
 };
-
-PlanOutputs outputs_of(const PlanOptions& options) {
-  return {
-      options.output, options.drawing, options.gcode, options.page, options.drill, options.json};
-}
 
 void check_options(const PlanOptions& options, const Bed& bed) {
   OptionProblems problems;
@@ -95,7 +158,7 @@ std::string in_words(const grid::MeasurementPlan& plan,
 
 /// \param is_drilled the program drills its marks or holes
 Facts with_program(const PlanOptions& options, Facts facts, bool is_drilled) {
-  if (options.gcode.empty()) return facts;
+  if (options.outputs.gcode.empty()) return facts;
   return facts | facts::program | (is_drilled ? facts::drilled : 0U);
 }
 
@@ -107,8 +170,8 @@ int run_follow_up(Verb verb, PlanOptions options) {
   const InputFile file = open_input(options.follow_up.file);
   verb.refuse_idle_options(with_program(options, facts_after(file), false));
   options.follow_up.machine = options.machine;
-  options.follow_up.output = options.output;
-  options.follow_up.drawing = options.drawing;
+  options.follow_up.output = options.outputs.list;
+  options.follow_up.drawing = options.outputs.drawing;
   return plan_after(options.follow_up, file);
 }
 
@@ -127,7 +190,7 @@ int run_check_plan(Verb verb, PlanOptions options) {
       options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
   verb.refuse_idle_options(
       with_program(options, facts::check, drills_marks(options, map.machine())));
-  return plan_the_check(map, options.check, outputs_of(options));
+  return plan_the_check(map, options.check, options.outputs);
 }
 
 int run_plan(Verb verb, PlanOptions options) {
@@ -139,8 +202,8 @@ int run_plan(Verb verb, PlanOptions options) {
       options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
   if (of_tape) {
     options.holes.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
-    const int code = plan_the_holes(options.holes, machine, outputs_of(options));
-    if (code == kDone) say_next_of_sheet(outputs_of(options), options.machine);
+    const int code = plan_the_holes(options.holes, machine, options.outputs);
+    if (code == kDone) say_next_of_sheet(options.outputs, options.machine);
     return code;
   }
   options.request.points = options.points.value_or(options.request.points);
@@ -165,15 +228,15 @@ int run_plan(Verb verb, PlanOptions options) {
       sheet_outputs(sheet,
                     machine,
                     {noise.length_mm, noise.position_mm, StatedNoise{}.dof},
-                    outputs_of(options),
+                    options.outputs,
                     fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
                                 errors.rms_mm,
                                 errors.largest_mm));
-  if (!options.drawing.empty())
-    outputs.push_back({options.drawing, draw_plan(*plan, machine.bed, errors)});
+  if (!options.outputs.drawing.empty())
+    outputs.push_back({options.outputs.drawing, draw_plan(*plan, machine.bed, errors)});
   write_outputs(outputs);
   fmt::print(stderr, "{}", in_words(*plan, options, errors));
-  say_next_of_sheet(outputs_of(options), options.machine);
+  say_next_of_sheet(options.outputs, options.machine);
   return kDone;
 }
 
@@ -182,7 +245,8 @@ int run_plan(Verb verb, PlanOptions options) {
 void add_plan(Verb app) {
   auto options = std::make_shared<PlanOptions>();
   Verb verb = app.add_verb(
-      "plan", "Plan where to measure: a list for the workshop, and the expected accuracy of the map");
+      "plan",
+      "Plan where to measure: a list for the workshop, and the expected accuracy of the map");
   add_input(verb,
             "--machine",
             options->machine,
@@ -190,11 +254,10 @@ void add_plan(Verb app) {
             "not with --check")
       .acts_on(facts::lattice | facts::tape | facts::chains,
                "to be left out, because maps to check and belts contain their machine");
-  const Option grid =
-      add_input(verb,
-                "grid",
-                options->follow_up.file,
-                "With --after: the points, holes or belts measured so far");
+  const Option grid = add_input(verb,
+                                "grid",
+                                options->follow_up.file,
+                                "With --after: the points, holes or belts measured so far");
   const Option after = add_input(verb,
                                  "--after",
                                  options->follow_up.after,
@@ -246,8 +309,8 @@ void add_plan(Verb app) {
       fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
                   "small bed a fifth of its shorter side. Closer to the edge, a sled tips over",
                   kReachableMm))
-      .acts_on(facts::planned, "to be left out with --after, because the diagnosis determines the "
-                               "places");
+      .acts_on(facts::planned,
+               "to be left out with --after, because the diagnosis determines the places");
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
@@ -267,32 +330,31 @@ void add_plan(Verb app) {
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
              noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm))
-      .acts_on(facts::planned_marks, "to be left out, because it applies to positions measured at "
-                                     "marks only");
+      .acts_on(facts::planned_marks,
+               "to be left out, because it applies to positions measured at marks only");
   add_measure_option(verb, options->measure);
   add_output(verb,
              "-o,--output",
-             options->output,
+             options->outputs.list,
              {Origin::list, Origin::measured},
              "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
              "standard output")
       .shows_default();
   verb.add_flag("--json",
-                options->json,
+                options->outputs.json,
                 "Print the list as JSON, including the machine; if the list goes to a file, the "
                 "places and the expected error")
-      .acts_on(facts::planned,
-               "to be left out with --after, because the lines match their file");
+      .acts_on(facts::planned, "to be left out with --after, because the lines match their file");
   add_output(verb,
              "--page",
-             options->page,
+             options->outputs.page,
              {Origin::page},
              "Write a page to print: the bed, the instructions, and lines to fill in")
       .acts_on(facts::planned, "to be left out with --after, which prints lines for a file");
-  add_drill_options(verb, options->gcode, options->drill);
+  add_drill_options(verb, options->outputs.gcode, options->outputs.drill);
   add_output(verb,
              "--svg",
-             options->drawing,
+             options->outputs.drawing,
              {Origin::drawing},
              "Write an SVG picture of the points over the expected error of the map, or of the "
              "holes and their distances");

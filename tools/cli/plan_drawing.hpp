@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/names.hpp"
 
@@ -39,5 +40,11 @@ struct FollowUpDrawing {
   std::vector<Cross> next;
 };
 [[nodiscard]] std::string draw_follow_up(const FollowUpDrawing& drawing, const Bed& bed);
+
+// A plan of holes as a drawing: the sheet, the holes by name, a line for each distance to measure.
+// Same plan, same bytes.
+
+/// A self-contained SVG; nothing is fetched, no script runs.
+[[nodiscard]] std::string draw_holes_plan(const grid::HolesPlan& plan);
 
 }  // namespace chaintrue::cli

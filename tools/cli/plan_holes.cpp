@@ -10,14 +10,12 @@
 #include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
-#include "tools/cli/holes_drawing.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/sheet_page.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -6,7 +6,7 @@
 #include "grid/planning/holes_plan.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/plan_outputs.hpp"
+#include "tools/cli/sheet.hpp"
 
 namespace chaintrue::cli {
 

@@ -4,27 +4,99 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/points_file.hpp"
+#include "grid/map/length_map.hpp"
 #include "grid/map/map_in_frame.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/grid_input.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/query_text.hpp"
 #include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
+
+// The answers of chaintrue query as a table and as JSON, for maps of either kind.
+
+/// A map of either kind.
+struct AskedMap {
+  const grid::LengthMap& map;
+  int digits = 6;  ///< of lengths
+  /// The names of the first two lengths in messages.
+  const char* first = "left";
+  const char* second = "right";
+  /// Replaces the map's reason why a point has no answer; empty: the map's.
+  std::string no_answer = {};
+};
+
+/// One line of the answer; missing numbers are empty cells, or omitted.
+struct AnswerLine {
+  BedPoint point;
+  tl::expected<grid::LengthsAnswer, grid::MapFailure> answer;
+};
+
+grid::MapStatus status_of(const AnswerLine& line) {
+  return line.answer ? line.answer->status : grid::MapStatus::outside;
+}
+
+std::string as_csv(const AskedMap& asked, const std::vector<AnswerLine>& lines) {
+  const auto names = asked.map.length_names();
+  std::string text = "x_mm,y_mm,";
+  for (const std::string_view name : names) text += fmt::format("{}_mm,", name);
+  text += fmt::format("{}_sigma_mm,{}_sigma_mm,status\n", names[0], names[1]);
+  for (const AnswerLine& line : lines) {
+    text += fmt::format("{},{},", line.point.x_mm, line.point.y_mm);
+    if (line.answer) {
+      for (const double length : line.answer->lengths_mm)
+        text += fmt::format("{:.{}f},", length, asked.digits);
+      text +=
+          fmt::format("{:.4f},{:.4f},", line.answer->sigma.left_mm, line.answer->sigma.right_mm);
+    } else {
+      text.append(names.size() + 2, ',');
+    }
+    text += fmt::format("{}\n", grid::name(status_of(line)));
+  }
+  return text;
+}
+
+std::string as_json(const AskedMap& asked, const std::vector<AnswerLine>& lines) {
+  const auto names = asked.map.length_names();
+  std::string text = "[";
+  const char* separator = "\n";
+  for (const AnswerLine& line : lines) {
+    text += fmt::format(
+        "{}  {{\"x_mm\": {}, \"y_mm\": {}, ", separator, line.point.x_mm, line.point.y_mm);
+    if (line.answer) {
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        text += fmt::format("\"{}_mm\": {:.{}f}, ",
+                            names[i],
+                            line.answer->lengths_mm[static_cast<Eigen::Index>(i)],
+                            asked.digits);
+      }
+      text += fmt::format("\"{}_sigma_mm\": {:.4f}, \"{}_sigma_mm\": {:.4f}, ",
+                          names[0],
+                          line.answer->sigma.left_mm,
+                          names[1],
+                          line.answer->sigma.right_mm);
+      if (line.answer->tool_sigma_mm) {
+        text += fmt::format("\"tool_sigma_mm\": {:.4f}, ", *line.answer->tool_sigma_mm);
+      }
+    }
+    text += fmt::format("\"status\": \"{}\"}}", grid::name(status_of(line)));
+    separator = ",\n";
+  }
+  return text + "\n]\n";
+}
 
 struct QueryCommand {
   std::string map;
@@ -55,13 +127,12 @@ int answer_inverse(const AskedMap& asked, const QueryCommand& command) {
   const auto tool = asked.map.tool({command.inverse[0], command.inverse[1]});
   if (!tool) {
     const bool has_own_words = !asked.no_answer.empty() && !tool.error().cause.empty();
-    fmt::print(stderr,
-               "{} {} mm, {} {} mm: {}\n",
-               asked.first,
-               command.inverse[0],
-               asked.second,
-               command.inverse[1],
-               has_own_words ? std::string(tool.error().cause) : tool.error().sentence());
+    say("{} {} mm, {} {} mm: {}",
+        asked.first,
+        command.inverse[0],
+        asked.second,
+        command.inverse[1],
+        has_own_words ? std::string(tool.error().cause) : tool.error().sentence());
     return kNotSupportedOrOutside;
   }
   const auto status = grid::name(asked.map.status(*tool));
@@ -84,8 +155,7 @@ int answer_points(const AskedMap& asked, const QueryCommand& command) {
     progress_is(static_cast<double>(lines.size()), static_cast<double>(points.size()));
     lines.push_back({point, asked.map.query(point)});
     if (lines.back().answer) continue;
-    fmt::format_to(
-        std::back_inserter(outside),
+    outside += fmt::format(
         "({}, {}): {}\n",
         point.x_mm,
         point.y_mm,
@@ -113,15 +183,13 @@ int answer(const AskedMap& asked, const QueryCommand& command) {
 
 int query_map(const QueryCommand& command, const CompensationMap& stored) {
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
-    fmt::print(
-        stderr, "{}: fade needs a map with a machine; choose another --outside\n", command.map);
+    say("{}: fade needs a map with a machine; choose another --outside", command.map);
     return kNotSupportedOrOutside;
   }
   const CompensationMap map =
       stored.with_outside(rule_of(command.outside, stored.contents().outside));
   if (command.frame == "bed" && map.machine() == nullptr) {
-    fmt::print(
-        stderr, "{}: a map without a machine has only the frame of its marks\n", command.map);
+    say("{}: a map without a machine has only the frame of its marks", command.map);
     return kNotSupportedOrOutside;
   }
   const grid::MapInFrame in_frame(
@@ -133,11 +201,11 @@ int query_map(const QueryCommand& command, const CompensationMap& stored) {
 int query_anchors(const QueryCommand& command, const InputFile& file) {
   const files::FittedAnchors anchors = load_anchors(file);
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
-    throw InputError({{file.name,
-                       "/fit/coordinates",
-                       "no stated_mm",
-                       "anchors fitted to a file with the anchors in force, which define the "
-                       "origin of commands (import maslow4 --settings maslow.yaml)"}});
+    refuse(file.name,
+           "/fit/coordinates",
+           "no stated_mm",
+           "anchors fitted to a file with the anchors in force, which define the origin of "
+           "commands (import maslow4 --settings maslow.yaml)");
   }
   const grid::BeltMap map(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
   return answer({map,
@@ -209,8 +277,7 @@ void add_query(Verb app) {
       .shows_default();
   add_outside_options(verb, command->outside, "by default as stored in the map");
   verb.option("--outside")
-      .acts_on(facts::map | facts::anchors,
-               "to be left out, because a plotter has no surface")
+      .acts_on(facts::map | facts::anchors, "to be left out, because a plotter has no surface")
       .acts_on(facts::map, "to be left out, because four belts have no surface");
   verb.add_flag("--json", command->json, "Print JSON instead of CSV");
   verb.footer(

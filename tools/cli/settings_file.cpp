@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/settings_file.hpp"
+#include "tools/cli/talk.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/file_type.hpp"
-#include "grid/files/fluidnc_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/input_error.hpp"
-#include "grid/files/webcontrol_file.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/sha256.hpp"
+#include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/check_settings.hpp"
+#include "grid/map/map_for_settings.hpp"
+#include "grid/map/settings_to_type.hpp"
 #include "tools/gcode/firmware.hpp"
 
 namespace chaintrue::cli {
@@ -40,34 +48,31 @@ ControllerKind kind_with(const Machine& stated,
                          const ControllerKind* in_place) {
   const ControllerKind of_file = now.read.machine.controller.kind;
   if (settings_of(of_file) == SettingsOf::none) {
-    throw InputError({{now.name,
-                       "/controller",
-                       "a machine without a controller",
-                       "a controller's settings; if the controller uses the machine file itself, "
-                       "give it with --machine"}});
+    refuse(now.name,
+           "/controller",
+           "a machine without a controller",
+           "a controller's settings; if the controller uses the machine file itself, give it with "
+           "--machine");
   }
   const ControllerKind of_map = in_place != nullptr ? *in_place : stated.controller.kind;
   if (settings_of(of_map) == SettingsOf::none && in_place == nullptr) return of_file;
   if (settings_of(of_map) == settings_of(of_file)) return of_map;
-  throw InputError(
-      {{now.name,
-        "",
-        fmt::format("settings of a {} controller", name_of(of_file)),
-        in_place != nullptr
-            ? fmt::format("those of a {}, as given by --controller", name_of(of_map))
-            : fmt::format("those of a {}, which the map was measured with; if another controller "
-                          "now runs the machine, name it with --controller",
-                          name_of(of_map))}});
+  refuse(now.name,
+         fmt::format("settings of a {} controller", name_of(of_file)),
+         in_place != nullptr
+             ? fmt::format("those of a {}, as given by --controller", name_of(of_map))
+             : fmt::format("those of a {}, which the map was measured with; if another controller "
+                           "now runs the machine, name it with --controller",
+                           name_of(of_map)));
 }
 
 void refuse_other_chain(const std::vector<files::SettingChange>& changes, const std::string& file) {
   const auto of_chain = files::of_the_chain(changes);
   if (of_chain.empty()) return;
-  throw InputError({{file,
-                     "",
-                     files::in_words(of_chain),
-                     "the values that the map was measured with, because they define the meaning "
-                     "of a chain length: restore them, or measure and fit again"}});
+  refuse(file,
+         files::in_words(of_chain),
+         "the values that the map was measured with, because they define the meaning of a chain "
+         "length: restore them, or measure and fit again");
 }
 
 }  // namespace
@@ -108,10 +113,9 @@ Machine with_settings(const Machine& stated,
     machine.bed = file.bed;
   }
   if (names_none) {
-    fmt::print(stderr,
-               "The map has no controller; a {} with the settings in {} is used.\n",
-               name_of(machine.controller.kind),
-               now.name);
+    say("The map names no controller; a {} with the settings of {} is used.",
+        name_of(machine.controller.kind),
+        now.name);
     return machine;
   }
   Machine before = stated;
@@ -120,15 +124,109 @@ Machine with_settings(const Machine& stated,
       files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
   refuse_other_chain(changes, now.name);
   if (changes.empty()) {
-    fmt::print(stderr, "{} has the map's settings.\n", now.name);
+    say("{} has the settings that the map is for.", now.name);
   } else {
-    fmt::print(stderr,
-               "The settings in {} differ from those that the map was measured with ({}); the new "
-               "ones are used.\n",
-               now.name,
-               files::in_words(changes));
+    say("The settings in {} differ from those that the map was measured with ({}): the new "
+        "ones are used.",
+        now.name,
+        files::in_words(changes));
   }
   return machine;
+}
+
+CompensationMap with_settings_of(const std::string& settings,
+                                 const std::string& map_name,
+                                 const CompensationMap& map,
+                                 grid::Measured& measured) {
+  const auto stated = grid::stated_machine(map);
+  if (!stated) {
+    refuse(map_name, "a map without a machine", "no --settings: its points are chain lengths");
+  }
+  const SettingsFile file = read_settings_file(settings);
+  const model::Controller now = with_settings(*stated, file, nullptr).controller;
+  if (now.kind == ControllerKind::fluidnc_wallplotter) {
+    refuse(file.name,
+           "anchors of a wall plotter",
+           "the new points with the machine that executed the commands: give it with --machine");
+  }
+  measured = grid::commanded_with(measured, now);
+  return grid::map_for_settings(map, now, "");
+}
+
+bool was_made_from(const std::string& made, const std::string& from) {
+  const auto made_by = files::made_by_of(files::read_whole_file(made), made);
+  files::Sha256 hash;
+  hash.add(files::read_whole_file(from));
+  return made_by && grid::any_of(made_by->inputs,
+                                 [&](const auto& input) { return input.sha256 == hash.text(); });
+}
+
+std::optional<model::ControllerSettings> settings_before(const std::string& map) {
+  namespace fs = std::filesystem;
+  if (map == "-") return std::nullopt;
+  const auto made_by = files::made_by_of(files::read_whole_file(map), map);
+  if (!made_by || made_by->verb != "export groundcontrol" || made_by->inputs.empty())
+    return std::nullopt;
+  const std::string from = (fs::path(map).parent_path() / made_by->inputs.front().name).string();
+  if (!fs::is_regular_file(from) || !was_made_from(map, from)) return std::nullopt;
+  const CompensationMap exported = files::parse_map(files::read_whole_file(from), from);
+  if (exported.machine() == nullptr) return std::nullopt;
+  return exported.machine()->controller.settings;
+}
+
+std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
+                                               const grid::Measured& measured,
+                                               const grid::Check& found,
+                                               std::optional<model::ControllerSettings> before) {
+  if (found.is_valid_as_it_is() || map.machine() == nullptr) return std::nullopt;
+  const auto differ_from_map = [&](const model::ControllerSettings& settings) {
+    Machine in_force = *map.machine();
+    in_force.controller.settings = settings;
+    return files::changed_settings(files::settings_in_force(*map.machine()),
+                                   files::settings_in_force(in_force));
+  };
+  if (before && differ_from_map(*before).empty()) before.reset();
+  std::optional<model::ControllerSettings> others = before;
+  if (!before) {
+    const auto typed = grid::settings_to_type(map);
+    if (!typed || !typed->worth_typing) return std::nullopt;
+    others = typed->settings;
+  }
+  auto changed = grid::changed_settings(map, measured, *others, found);
+  if (!changed) return std::nullopt;
+  const std::string differ = files::in_words(differ_from_map(changed->in_force));
+  const auto sentence = [&](std::string_view what, std::string_view with, std::string_view to_do) {
+    return fmt::format(
+        "{}: the new points fit {} ({}) to {:.2f} mm rms in a chain, the map's settings to {:.2f} "
+        "mm. {} {}",
+        what,
+        with,
+        differ,
+        changed->with_these_mm,
+        changed->as_it_is_mm,
+        to_do,
+        changed->check.sentence);
+  };
+  std::string& said = changed->check.sentence;
+  if (!before && changed->all) {
+    said = sentence("The settings have changed since this map was measured",
+                    "the numbers from export groundcontrol",
+                    "Use the map from export groundcontrol --map-after.");
+  } else if (!before) {
+    said =
+        sentence("Only some of the numbers from export groundcontrol have been typed in",
+                 "these",
+                 "Type in the others too, and use the map from export groundcontrol --map-after.");
+  } else if (changed->all) {
+    said = sentence("The numbers that this map is for are not in the controller",
+                    "the previous ones",
+                    "Type them in, or use the map that they were exported from.");
+  } else {
+    said = sentence("Only some of the numbers that this map is for are in the controller",
+                    "the others unchanged",
+                    "Type in the others too.");
+  }
+  return std::move(changed->check);
 }
 
 }  // namespace chaintrue::cli

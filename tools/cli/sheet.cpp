@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "grid/files/grid_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -54,14 +54,14 @@ SheetOf sheet_of(const std::string& word, const Machine* machine) {
 }
 
 void add_measure_option(Verb verb, std::string& word) {
-  verb.add_option(
-          "--measure",
-          word,
-          "What you will measure. places: you send the controller to each mark and measure the "
-          "tool's position. lengths: you bring the tool to each mark and read both chains. "
-          "Default: places if the machine has a controller, otherwise lengths")
+  verb.add_option("--measure",
+                  word,
+                  "What you will measure. places: you send the controller to each mark and measure "
+                  "the tool's position. lengths: you bring the tool to each mark and read both "
+                  "chains. Default: places if the machine has a controller, otherwise lengths")
       .one_of({"places", "lengths"})
-      .acts_on(facts::planned_marks, "to be left out, because it applies to readings at marks only");
+      .acts_on(facts::planned_marks,
+               "to be left out, because it applies to readings at marks only");
 }
 
 std::string sheet_csv(const Sheet& sheet) {
@@ -69,11 +69,8 @@ std::string sheet_csv(const Sheet& sheet) {
   std::string text = places ? "order,commanded_x_mm,commanded_y_mm,x_mm,y_mm\n"
                             : "order,x_mm,y_mm,left_mm,right_mm\n";
   for (const SheetVisit& visit : visits_of(sheet)) {
-    fmt::format_to(std::back_inserter(text),
-                   "{},{},{},,\n",
-                   visit.number,
-                   whole(visit.mark.x_mm),
-                   whole(visit.mark.y_mm));
+    text +=
+        fmt::format("{},{},{},,\n", visit.number, whole(visit.mark.x_mm), whole(visit.mark.y_mm));
   }
   return text;
 }
@@ -104,9 +101,9 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
   add_number(
       verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
       .acts_on(facts::program, "to be left out without --gcode")
-      .acts_on(facts::drilled,
-               "to be left out, because a program for lengths stops above each mark without "
-               "drilling");
+      .acts_on(
+          facts::drilled,
+          "to be left out, because a program for lengths stops above each mark without drilling");
   add_number(verb,
              "--clearance-mm",
              options.clearance_mm,
@@ -125,13 +122,12 @@ std::string drill_gcode(std::string_view what,
       options.depth_mm,
       options.clearance_mm);
   for (const DrillPlace& place : places) {
-    fmt::format_to(std::back_inserter(text),
-                   "({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n",
-                   place.name,
-                   whole(place.at.x_mm),
-                   whole(place.at.y_mm),
-                   -options.depth_mm,
-                   options.clearance_mm);
+    text += fmt::format("({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n",
+                        place.name,
+                        whole(place.at.x_mm),
+                        whole(place.at.y_mm),
+                        -options.depth_mm,
+                        options.clearance_mm);
   }
   return text + "G0 X0 Y0\nM2\n";
 }
@@ -154,17 +150,58 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
       visits_of(sheet).size(),
       options.clearance_mm);
   for (const SheetVisit& visit : visits_of(sheet)) {
-    fmt::format_to(std::back_inserter(text),
-                   "G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then continue)\n",
-                   whole(visit.mark.x_mm),
-                   whole(visit.mark.y_mm),
-                   visit.number);
+    text += fmt::format("G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then continue)\n",
+                        whole(visit.mark.x_mm),
+                        whole(visit.mark.y_mm),
+                        visit.number);
   }
   return text + "G0 X0 Y0\nM2\n";
 }
 
 bool is_json_wanted(bool json, const std::string& output) {
   return output == "-" ? json : output.ends_with(".json");
+}
+
+std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
+                                             const Machine& machine,
+                                             const StatedNoise& noise,
+                                             const PlanOutputs& outputs,
+                                             const std::string& expected) {
+  std::vector<files::OutputFile> written = {{outputs.list,
+                                             is_json_wanted(outputs.json, outputs.list)
+                                                 ? sheet_json(sheet, machine, noise)
+                                                 : sheet_csv(sheet)}};
+  if (!outputs.page.empty())
+    written.push_back({outputs.page, sheet_page(sheet, machine, outputs.list)});
+  if (!outputs.gcode.empty()) written.push_back({outputs.gcode, sheet_gcode(sheet, outputs.drill)});
+  add_answer(sheet.marks, sheet.visits, expected, outputs, written);
+  return written;
+}
+
+void add_answer(const std::vector<MarkPoint>& places,
+                const std::vector<std::size_t>& visits,
+                const std::string& expected,
+                const PlanOutputs& outputs,
+                std::vector<files::OutputFile>& written) {
+  if (!outputs.json || outputs.list == "-") return;
+  std::vector<std::string> pairs;
+  for (const MarkPoint& place : places)
+    pairs.push_back(fmt::format("[{}, {}]", place.x_mm, place.y_mm));
+  std::vector<std::size_t> order = visits;
+  for (std::size_t i = 0; visits.empty() && i < places.size(); ++i) order.push_back(i);
+  written.push_back({"-",
+                     fmt::format("{{\"marks\": [{}],\n\"visits\": [{}],\n{}}}\n",
+                                 fmt::join(pairs, ", "),
+                                 fmt::join(order, ", "),
+                                 expected)});
+}
+
+void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine) {
+  std::vector<std::string> words = {"fit", outputs.list, "-o", "map.json"};
+  if (!is_json_wanted(outputs.json, outputs.list))
+    words.insert(words.begin() + 2, {"--machine", machine});
+  if (outputs.list != "-") say("Write what you read into {}.", outputs.list);
+  say_next(words);
 }
 
 }  // namespace chaintrue::cli

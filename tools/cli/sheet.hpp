@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/files/whole_file.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "grid/planning/holes_plan.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
 
@@ -82,5 +84,45 @@ struct DrillPlace {
 /// A list in a file is JSON if the file's name ends in .json; on standard output, if --json is
 /// given.
 [[nodiscard]] bool is_json_wanted(bool json, const std::string& output);
+
+// A plan as a page to print: the bed drawn, the steps in order, and lines to write the readings
+// on. For both A4 and Letter; nothing is fetched, no script runs. Same plan, same bytes.
+
+/// `list` is the file for the readings; empty: standard output.
+[[nodiscard]] std::string sheet_page(const Sheet& sheet,
+                                     const Machine& machine,
+                                     const std::string& list);
+[[nodiscard]] std::string holes_page(const grid::HolesPlan& plan, const std::string& list);
+
+// The outputs of a plan: list, page, program and drawing.
+
+/// Paths; empty: not wanted.
+struct PlanOutputs {
+  std::string list = "-";
+  std::string drawing;
+  std::string gcode;
+  std::string page;
+  DrillOptions drill;
+  bool json = false;
+};
+
+/// The list and, if requested, the page, the program and the answer. \param expected as for
+/// add_answer
+[[nodiscard]] std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
+                                                           const Machine& machine,
+                                                           const StatedNoise& noise,
+                                                           const PlanOutputs& outputs,
+                                                           const std::string& expected);
+
+/// With --json, where the list goes into a file: the places in mm, numbers of places in the order of
+/// the visits (empty: each once), and members of an object on what is expected.
+void add_answer(const std::vector<MarkPoint>& places,
+                const std::vector<std::size_t>& visits,
+                const std::string& expected,
+                const PlanOutputs& outputs,
+                std::vector<files::OutputFile>& written);
+
+/// The next step: fill in the list and fit it.
+void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);
 
 }  // namespace chaintrue::cli

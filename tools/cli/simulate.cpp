@@ -21,7 +21,6 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/simulate_belts.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -41,11 +40,10 @@ int simulate_session(const SimulateOptions& options, const Machine& machine) {
   const synthetic::SyntheticSpec spec = parse_spec(options, machine);
   auto session = synthetic::generate(machine, spec, shown_progress());
   if (!session) {
-    fmt::print(stderr,
-               "chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
-               session.error().place.x_mm,
-               session.error().place.y_mm,
-               session.error().sentence());
+    say("chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}",
+        session.error().place.x_mm,
+        session.error().place.y_mm,
+        session.error().sentence());
     return kNotSupportedOrOutside;
   }
   session->grid.name =
@@ -69,14 +67,13 @@ int simulate_places(const SimulateOptions& options, const Machine& machine) {
       synthetic::read_places(machine, hidden, visits, model, shown_progress());
   read.grid.name = options.name.empty() ? "readings at given places" : options.name;
   for (const auto& [index, reason] : read.unreachable) {
-    fmt::print(stderr,
-               "chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is "
-               "left out: {}\n",
-               options.points,
-               index,
-               visits[index].position.x_mm,
-               visits[index].position.y_mm,
-               model::sentence_of(reason));
+    say("chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is "
+        "left out: {}",
+        options.points,
+        index,
+        visits[index].position.x_mm,
+        visits[index].position.y_mm,
+        model::sentence_of(reason));
   }
   write_output(options.output, files::write_grid(read.grid));
   if (!read.unreachable.empty()) return kNotSupportedOrOutside;
@@ -118,8 +115,10 @@ void add_design_options(Verb verb, SimulateOptions& o) {
       where, "--random", o.random_points, {"", 1.0, 1e6}, "Number of marks at random positions")
       .shows_default("");
   add_input(where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), as plan writes it");
-  add_input(
-      where, "--points", o.points, "CSV of true positions, with readings without noise or rounding");
+  add_input(where,
+            "--points",
+            o.points,
+            "CSV of true positions, with readings without noise or rounding");
   add_number(where,
              "--holes",
              o.holes.plan.holes,
@@ -128,8 +127,9 @@ void add_design_options(Verb verb, SimulateOptions& o) {
       .shows_default("");
   verb.add_option("--spacing", o.spacing, "With --grid: regular or chebyshev (denser at the edges)")
       .shows_default()
-      .acts_on(facts::lattice,
-               "to be left out, because it applies to the columns and rows of a grid on two chains");
+      .acts_on(
+          facts::lattice,
+          "to be left out, because it applies to the columns and rows of a grid on two chains");
   add_number(verb,
              "--margin-mm",
              o.margin_mm,
@@ -215,8 +215,7 @@ void add_noise_options(Verb verb, SimulateOptions& o) {
              files::kNoiseDof,
              "Degrees of freedom of the noise in the file")
       .acts_on(facts::session, "to be left out, because it applies to the noise in a grid only");
-  add_number(
-      verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "Number of marks recorded wrongly")
+  add_number(verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "Number of marks recorded wrongly")
       .acts_on(facts::drawn, "to be left out, because readings at given places have no errors");
   add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "Error of those marks")
       .acts_on(facts::drawn, "to be left out, because readings at given places have no errors");
@@ -276,8 +275,8 @@ void add_truth_options(Verb verb, SimulateOptions& o) {
                   o.model,
                   "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
       .shows_default()
-      .acts_on(facts::session | facts::places, "to be left out, because it applies to chain "
-                                               "lengths only");
+      .acts_on(facts::session | facts::places,
+               "to be left out, because it applies to chain lengths only");
   add_number(verb, "--seed", o.seed, {"", 0.0, 9e15}, "Same seed, same bytes")
       .acts_on(facts::drawn, "to be left out, because nothing is drawn at given places");
 }
@@ -314,10 +313,9 @@ void add_simulate(Verb app) {
       .shows_default();
   add_output(
       verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file")
-      .acts_on(
-          facts::session | facts::tape,
-          "to be left out, because nothing is hidden at given places, and for belts there is no "
-          "such file");
+      .acts_on(facts::session | facts::tape,
+               "to be left out, because nothing is hidden at given places, and for belts there is "
+               "no such file");
   verb.footer(
       "Examples:\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm "

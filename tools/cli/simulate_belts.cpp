@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/simulate_belts.hpp"
+#include "tools/cli/simulate_options.hpp"
 
 #include <fmt/format.h>
 
@@ -11,13 +11,14 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/belts_file.hpp"
-#include "grid/files/maslow4_session.hpp"
+#include "grid/files/maslow4_log.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -44,11 +45,11 @@ StatedBelts belts_of(const std::string& path) {
     stated.machine = load_belts(file, "a simulation").belts.machine;
   }
   if (!stated.machine.anchors_known) {
-    throw InputError({{file.name,
-                       is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
-                       "",
-                       "x_mm and y_mm of all four anchors, which the simulation needs; chaintrue "
-                       "fit finds them"}});
+    refuse(file.name,
+           is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
+           "",
+           "x_mm and y_mm of all four anchors, which the simulation needs; chaintrue "
+           "fit finds them");
   }
   return stated;
 }
@@ -100,8 +101,7 @@ void take_pulls(const std::string& text, synthetic::BeltsSpec& spec, OptionProbl
   if (text.empty()) return;
   for (const grid::BeltPull& pull : files::pulls_of(text, "--pulls")) {
     if (pull.unit != grid::BeltPull::Unit::relative)
-      return problems.add(
-          "--pulls", text, "ratios, as in 1,1.6", ProblemKind::bad_syntax);
+      return problems.add("--pulls", text, "ratios, as in 1,1.6", ProblemKind::bad_syntax);
     spec.pulls.push_back(pull.value);
   }
 }
@@ -150,11 +150,10 @@ int simulate_the_belts(const SimulateOptions& options) {
   add_causes(std::move(stated.causes), spec);
   auto made = synthetic::simulate_belts(stated.machine, truth, spec);
   if (!made) {
-    fmt::print(stderr,
-               "chaintrue simulate: the command ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
-               made.error().place.x_mm,
-               made.error().place.y_mm,
-               made.error().sentence());
+    say("chaintrue simulate: the command ({:.1f}, {:.1f}) mm cannot be reached: {}",
+        made.error().place.x_mm,
+        made.error().place.y_mm,
+        made.error().sentence());
     return kNotSupportedOrOutside;
   }
   made->name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;

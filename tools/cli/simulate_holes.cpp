@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/simulate_options.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -80,7 +80,7 @@ int simulate_the_holes(const SimulateOptions& options, const Machine& stated) {
   request.margin_mm = options.margin_mm.value_or(request.margin_mm);
   auto plan = grid::plan_holes(stated, request);
   if (!plan) {
-    fmt::print(stderr, "chaintrue simulate: {}\n", plan.error().sentence());
+    say("chaintrue simulate: {}", plan.error().sentence());
     return kNotSupportedOrOutside;
   }
   MeasuredHoles design = std::move(plan->set);
@@ -95,7 +95,7 @@ int simulate_the_holes(const SimulateOptions& options, const Machine& stated) {
   design.tape.tape_zero_offset_mm = options.holes.tape_zero_offset_mm;
   const auto made = synthetic::simulate_holes(design, spec, truth);
   if (!made) {
-    fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence());
+    say("chaintrue simulate: {}", made.error().sentence());
     return kNotSupportedOrOutside;
   }
   write_outputs({{options.answer, files::write_answer(*made, spec)},

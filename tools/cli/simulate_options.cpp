@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/points_file.hpp"
 #include "model/calibration/setting.hpp"
@@ -14,16 +15,6 @@
 
 namespace chaintrue::cli {
 namespace {
-
-constexpr std::pair<std::string_view, model::Model> kModels[] = {
-    {"straight", model::Model::straight},
-    {"wrap", model::Model::wrap},
-    {"firmware", model::Model::firmware},
-    {"one_shot", model::Model::one_shot},
-    {"inextensible", model::Model::inextensible},
-    {"elastic", model::Model::elastic},
-    {"elastic_3d", model::Model::elastic_3d},
-};
 
 template <class Enum>
 Enum parse_word(std::string_view option,
@@ -114,13 +105,11 @@ Machine machine_for(const std::vector<std::string>& effects) {
 }  // namespace
 
 model::Model parse_model(const std::string& word, OptionProblems& problems) {
-  std::string known;
-  for (const auto& [name, value] : kModels) {
-    if (name == word) return value;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-  }
-  problems.add("--model", word, "one of " + known, ProblemKind::unknown_word);
-  return model::Model::elastic;
+  return parse_word("--model",
+                    word,
+                    files::named(files::kModels, word),
+                    fmt::format("one of {}", fmt::join(files::words_of(files::kModels), ", ")),
+                    problems);
 }
 
 std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::string>& arguments,

@@ -62,4 +62,9 @@ void check_words(const SimulateOptions& options, OptionProblems& problems);
 [[nodiscard]] synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
                                                   const Machine& machine);
 
+// chaintrue simulate --belts: simulates a four-belt router that finds its anchors.
+
+/// Writes the belts file; an exit code. \throws InputError with all problems.
+[[nodiscard]] int simulate_the_belts(const SimulateOptions& options);
+
 }  // namespace chaintrue::cli

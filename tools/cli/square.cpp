@@ -4,27 +4,190 @@
 /// a controller with settings that differ from the machine; and the program that cuts it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
+#include "grid/plotter/test_drawing.hpp"
 #include "model/kinematics.hpp"
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/square_drawing.hpp"
-#include "tools/cli/square_program.hpp"
+#include "tools/cli/svg.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
+
+// A self-explanatory drawing of a cut square: the commanded outline, the cut one with its errors
+// magnified, and the numbers that a ruler would show. Same square, same bytes.
+
+// The picture, in its own units.
+constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kSquareLeft = 120.0,
+                 kSquareTop = 110.0;
+constexpr double kLargestError = 0.11;  // share of the side that the largest error is drawn as
+
+/// From the bed to the picture; the cut outline is drawn about its own middle, so that shape alone
+/// shows.
+class SquarePicture {
+ public:
+  SquarePicture(const model::CutSquare& square, const SquareTask& task)
+      : square_(square),
+        scale_(kSide / task.size_mm),
+        left_(square.commanded.front().x_mm),
+        top_(square.commanded.front().y_mm + task.size_mm) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < square.cut.size(); ++i) {
+      const BedPoint e = error(i);
+      largest = std::max(largest, std::hypot(e.x_mm, e.y_mm));
+    }
+    // A round factor; a perfect square, up to rounding, is not magnified.
+    constexpr double kRoundingMm = 1e-6;
+    magnification_ = 1.0;
+    if (largest > kRoundingMm) {
+      magnification_ =
+          std::max(1.0, report::round_down_125(kLargestError * task.size_mm / largest));
+    }
+  }
+  [[nodiscard]] double magnification() const { return magnification_; }
+  [[nodiscard]] std::string commanded(std::size_t i) const { return at(square_.commanded[i]); }
+  [[nodiscard]] std::string cut(std::size_t i) const {
+    const BedPoint p = square_.commanded[i], e = error(i);
+    return at({p.x_mm + magnification_ * e.x_mm, p.y_mm + magnification_ * e.y_mm});
+  }
+
+ private:
+  [[nodiscard]] BedPoint error(std::size_t i) const {
+    return {square_.cut[i].x_mm - square_.commanded[i].x_mm - square_.offset.x_mm,
+            square_.cut[i].y_mm - square_.commanded[i].y_mm - square_.offset.y_mm};
+  }
+  [[nodiscard]] std::string at(BedPoint p) const {
+    return fmt::format("{:.2f},{:.2f}",
+                       kSquareLeft + scale_ * (p.x_mm - left_),
+                       kSquareTop + scale_ * (top_ - p.y_mm));
+  }
+
+  const model::CutSquare& square_;
+  double scale_, left_, top_, magnification_;
+};
+
+/// A self-contained SVG; nothing is fetched, no script runs.
+std::string draw_square(const model::CutSquare& square, const SquareTask& task) {
+  using model::SquareSide;
+  const SquarePicture picture(square, task);
+  std::string commanded, cut;
+  for (std::size_t i = 0; i < square.cut.size(); ++i) {
+    commanded += (i == 0 ? "" : " ") + picture.commanded(i);
+    cut += (i == 0 ? "" : " ") + picture.cut(i);
+  }
+  const std::string title = fmt::format(
+      "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm);
+  Svg svg(kWide, kHigh, "font-size=\"15\" fill=\"#222222\"", title);
+  svg.fill();
+  svg.add(
+      "<polygon points=\"{0}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
+      "stroke-dasharray=\"7 5\"/>\n"
+      "<polygon points=\"{1}\" fill=\"{2}\" fill-opacity=\"0.08\" stroke=\"{2}\" "
+      "stroke-width=\"2.5\" stroke-linejoin=\"round\"/>\n",
+      commanded,
+      cut,
+      report::kAfterColor);
+  const auto line = [&svg](double y, std::string_view words) {
+    svg.text(kWide / 2, y, words, "middle");
+  };
+  line(34.0, title);
+  line(58.0,
+       fmt::format("dashed: commanded \u00b7 solid: cut, errors drawn {:g} times as large",
+                   picture.magnification()));
+  const auto side = [&square](SquareSide which) {
+    const model::CutSide& s = square.side(which);
+    return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
+  };
+  const double middle_y = kSquareTop + kSide / 2;
+  line(kSquareTop + 70.0, side(SquareSide::top));
+  line(kSquareTop + kSide - 60.0, side(SquareSide::bottom));
+  for (const auto& [which, x] : {std::pair(SquareSide::left, kSquareLeft + 70.0),
+                                 std::pair(SquareSide::right, kSquareLeft + kSide - 60.0)}) {
+    svg.text(x,
+             middle_y,
+             side(which),
+             "middle",
+             fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, middle_y));
+  }
+  line(kSquareTop + kSide + 90.0,
+       fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
+                   square.rising_diagonal_mm,
+                   square.falling_diagonal_mm,
+                   task.size_mm * std::sqrt(2.0)));
+  line(kSquareTop + kSide + 116.0,
+       fmt::format("shifted by ({:+.2f}, {:+.2f}) mm and rotated by {:+.3f} mrad",
+                   square.offset.x_mm,
+                   square.offset.y_mm,
+                   1e3 * square.rotation_rad));
+  line(kSquareTop + kSide + 142.0,
+       "bow: largest distance of a side from the line between its corners, + outwards");
+  return svg.finished();
+}
+
+// The program that cuts, or draws, a test square: metric, absolute, clockwise from its lower left
+// corner, in one pass. Same square, same bytes.
+
+std::vector<BedPoint> corners_of(SquareTask task) {
+  task.points_per_side = 2;
+  return model::outline_of(task);
+}
+
+/// Each side's end is the next one's beginning.
+std::string sides_text(const std::vector<BedPoint>& corners, double feed_mm_per_min) {
+  std::string text;
+  for (std::size_t i = 1; i < corners.size(); i += 2) {
+    text += fmt::format(
+        "G1 X{:.3f} Y{:.3f} F{:g}\n", corners[i].x_mm, corners[i].y_mm, feed_mm_per_min);
+  }
+  return text;
+}
+
+std::string square_program(const SquareTask& task, double depth_mm) {
+  // High above the sheet between cuts, and slow enough for any hanging router.
+  constexpr double kClearanceMm = 5.0;
+  constexpr double kFeedMmPerMin = 600.0;
+  constexpr int kPlungeMmPerMin = 150;
+  const std::vector<BedPoint> corners = corners_of(task);
+  const std::string text = fmt::format(
+      "(chaintrue square: {:g} mm, {:g} mm deep)\n(Zero is the middle of the bed.)\nG21 G90 G17 "
+      "G94\nG0 Z{:g}\nG0 X{:.3f} Y{:.3f}\nG1 Z{:g} F{}\n",
+      task.size_mm,
+      depth_mm,
+      kClearanceMm,
+      corners.front().x_mm,
+      corners.front().y_mm,
+      -depth_mm,
+      kPlungeMmPerMin);
+  return text + sides_text(corners, kFeedMmPerMin) +
+         fmt::format("G0 Z{:g}\nG0 X0 Y0\nM2\n", kClearanceMm);
+}
+
+/// For a V-plotter, in its controller's coordinates: one code on a line, the pen by its own
+/// commands.
+std::string square_program(const SquareTask& task, const grid::SetPlotter& plotter) {
+  const std::vector<BedPoint> corners = corners_of(task);
+  return fmt::format("; chaintrue square: {:g} mm\nG21\nG90\n{}\nG0 X{:.3f} Y{:.3f}\n{}\n",
+                     task.size_mm,
+                     plotter.pen.up,
+                     corners.front().x_mm,
+                     corners.front().y_mm,
+                     plotter.pen.down) +
+         sides_text(corners, plotter.feed_mm_per_min) + plotter.pen.up + "\n";
+}
 
 struct SquareOptions {
   std::string machine;
@@ -151,10 +314,9 @@ std::string as_json(const model::CutSquare& square, const SquareTask& task) {
 void advise(const SquareOptions& options, const SquareTask& task) {
   if (options.program.empty()) {
     std::vector<std::string> again = {"square"};
-    if (!options.map.empty()) again.insert(again.end(), {"--map", options.map});
-    if (!options.machine.empty()) again.insert(again.end(), {"--machine", options.machine});
-    if (!options.controller_machine.empty())
-      again.insert(again.end(), {"--controller-machine", options.controller_machine});
+    add_option_words(again, "--map", options.map);
+    add_option_words(again, "--machine", options.machine);
+    add_option_words(again, "--controller-machine", options.controller_machine);
     again.insert(again.end(),
                  {"--size-mm",
                   fmt::format("{}", task.size_mm),
@@ -162,16 +324,14 @@ void advise(const SquareOptions& options, const SquareTask& task) {
                   fmt::format("{}", task.corner.x_mm),
                   fmt::format("{}", task.corner.y_mm)});
     if (task.below) again.push_back("--below");
-    again.insert(again.end(), {"--gcode", "square.nc"});
+    add_option_words(again, "--gcode", "square.nc");
     return say_next(again);
   }
-  fmt::print(stderr,
-             "Cut {} and measure the four sides and both diagonals, each from an edge of one "
-             "groove to the same edge of the other, so that the bit's width cancels. With the "
-             "machine unchanged, the lengths are those under cut_mm.{}\n",
-             options.program == "-" ? "the program" : options.program,
-             options.map.empty() ? "" : " With a compensated program, they are those under "
-                                        "commanded_mm.");
+  say("Cut {} and measure the four sides and both diagonals, each from an edge of one "
+      "groove to the same edge of the other, so that the bit's width drops out: as the "
+      "machine is, the lengths are those under cut_mm.{}",
+      options.program == "-" ? "the program" : options.program,
+      options.map.empty() ? "" : " With a compensated program, they are those under commanded_mm.");
   if (options.map.empty()) return say_next({"gcode", "check", options.program});
   say_next({"gcode",
             "compensate",
@@ -194,12 +354,11 @@ int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeM
   const auto square = machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
   if (!square) {
     const SquareRefusal& refusal = square.error();
-    fmt::print(stderr,
-               "chaintrue square: {} cannot bring the tool to ({:.1f}, {:.1f}) mm: {}\n",
-               refusal.who,
-               refusal.commanded.x_mm,
-               refusal.commanded.y_mm,
-               refusal.why);
+    say("chaintrue square: {} cannot bring the tool to ({:.1f}, {:.1f}) mm: {}",
+        refusal.who,
+        refusal.commanded.x_mm,
+        refusal.commanded.y_mm,
+        refusal.why);
     return kNotSupportedOrOutside;
   }
   std::vector<files::OutputFile> outputs = {
@@ -246,12 +405,11 @@ void add_square(Verb app) {
             "The controller's settings: a chaintrue_machine file, or one of the map's kind; by "
             "default those stored in the map");
   add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
-  add_numbers(
-      verb,
-      "--at",
-      options->at,
-      {"mm", -20000.0, 20000.0},
-      "X Y of the lower left corner [mm]; by default the square is centred on the bed")
+  add_numbers(verb,
+              "--at",
+              options->at,
+              {"mm", -20000.0, 20000.0},
+              "X Y of the lower left corner [mm]; by default the square is centred on the bed")
       .takes(2);
   verb.add_flag("--below",
                 options->below,

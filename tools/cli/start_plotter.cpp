@@ -13,7 +13,6 @@
 #include "grid/plotter/drawing_page.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -33,20 +32,19 @@ FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
 
 /// \throws InputError for a cross that the controller does not reach.
 void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
-  const auto refuse = [&](std::size_t place, std::string_view why) {
+  const auto refuse_cross = [&](std::size_t place, std::string_view why) {
     const grid::DrawnCross& cross = drawing.crosses[place];
-    throw InputError({{file,
-                       "/set/machine/area",
-                       fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}",
-                                   cross.commanded.x_mm,
-                                   cross.commanded.y_mm,
-                                   why),
-                       "an area that the pen reaches"}});
+    refuse(
+        file,
+        "/set/machine/area",
+        fmt::format(
+            "a cross at ({:.1f}, {:.1f}) mm, {}", cross.commanded.x_mm, cross.commanded.y_mm, why),
+        "an area that the pen reaches");
   };
   const auto drawn = grid::drawn_measures_of(drawing);
-  if (!drawn) refuse(drawn.error().place, drawn.error().sentence());
+  if (!drawn) refuse_cross(drawn.error().place, drawn.error().sentence());
   if (const auto cross = grid::cross_beyond_belt(drawing))
-    refuse(
+    refuse_cross(
         *cross,
         fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)", *drawing.longest_belt_mm));
 }
@@ -69,19 +67,19 @@ files::ReadPlotter load_plotter(const InputFile& file) {
 std::unique_ptr<const grid::PlotterMap> load_plotter_map(const InputFile& file,
                                                          const grid::KnownPlotter& plotter) {
   if (!plotter.found) {
-    throw InputError({{file.name,
-                       "/found",
-                       "",
-                       "results of a test drawing; chaintrue fit drawing.json -o found.json writes "
-                       "a plotter with them"}});
+    refuse(file.name,
+           "/found",
+           "",
+           "results of a test drawing; chaintrue fit drawing.json -o found.json writes a plotter "
+           "with them");
   }
   try {
     return std::make_unique<const grid::PlotterMap>(plotter);
   } catch (const std::invalid_argument& error) {
-    throw InputError({{file.name,
-                       "/set/machine/area",
-                       error.what(),
-                       "an area that the pen reaches, with the old and the new settings"}});
+    refuse(file.name,
+           "/set/machine/area",
+           error.what(),
+           "an area that the pen reaches, with the old and the new settings");
   }
 }
 
@@ -94,8 +92,7 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   if (folder.empty()) folder = ".";
   if (read.plotter.found) {
     set = grid::once_typed_in(set, grid::machine_found(set, *read.plotter.found));
-    fmt::print(stderr,
-               "This page is for the plotter with the numbers from export plotter typed in.\n");
+    say("This page is for the plotter with the numbers of export plotter typed in.");
   }
   const grid::TestDrawing drawing = grid::planned_drawing(set);
   require_reach(drawing, file.name);
@@ -112,11 +109,10 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   }
   write_folder(verb, folder, contents);
   const auto in_folder = [&](const char* name) { return (fs::path(folder) / name).string(); };
-  fmt::print(stderr,
-             "{0} holds the test page: draw {1}, print sheet.txt, measure with a ruler and a "
-             "string, and write what you read into drawing.json in place of each null.\n",
-             folder,
-             page.name);
+  say("{0} holds the test page: draw {1}, print sheet.txt, measure with a ruler and a "
+      "string, and write what you read into drawing.json in place of each null.",
+      folder,
+      page.name);
   say_next({"fit", in_folder("drawing.json"), "-o", in_folder("found.json")});
   return kDone;
 }

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,24 +16,226 @@
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/sweep/run_sweep.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/names.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/processes.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/sweep_page.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
+#include "tools/report/document.hpp"
+
+#ifdef CHAINTRUE_HAS_MPI
+#include <mpi.h>
+
+#include <cstdlib>
+#endif
 
 namespace chaintrue::cli {
 namespace {
+
+#ifdef CHAINTRUE_HAS_MPI
+// What mpirun (Open MPI), MPICH's hydra and Slurm's own launcher leave in the environment. Started
+// by hand, the program does not start MPI, which would cost more than a small sweep.
+bool is_launched_together() {
+  for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
+    if (std::getenv(variable) != nullptr) return true;
+  }
+  return false;
+}
+#endif
+
+/// The processes of one command under mpirun or a cluster's scheduler. Without MPI, or outside
+/// mpirun, there is one. Joins the others when constructed, leaves when destroyed. One per program.
+class Processes {
+ public:
+#ifdef CHAINTRUE_HAS_MPI
+  Processes() {
+    if (!is_launched_together()) return;
+    MPI_Init(nullptr, nullptr);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &count_);
+    joined_ = true;
+  }
+  ~Processes() {
+    if (joined_) MPI_Finalize();
+  }
+#else
+  Processes() = default;
+#endif
+  Processes(const Processes&) = delete;
+  Processes& operator=(const Processes&) = delete;
+
+  [[nodiscard]] std::uint64_t rank() const { return static_cast<std::uint64_t>(rank_); }
+  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(count_); }
+  /// A barrier; returns true for all if `ok` is true for all.
+  [[nodiscard]] bool all(bool ok) const {
+#ifdef CHAINTRUE_HAS_MPI
+    int all_ok = ok ? 1 : 0;
+    if (joined_) MPI_Allreduce(MPI_IN_PLACE, &all_ok, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    return all_ok == 1;
+#else
+    return ok;
+#endif
+  }
+
+ private:
+  int rank_ = 0;
+  int count_ = 1;
+#ifdef CHAINTRUE_HAS_MPI
+  bool joined_ = false;
+#endif
+};
+
+// A sweep's report: the error against the number of points, one panel a factor.
+
+constexpr std::array<std::string_view, sweep::kFactors> kTitles = {
+    "The machine",
+    "Hidden effects",
+    "The machine that the map is used on",
+    "The surface",
+    "The spacing of the marks",
+    "Distance of the sled from the marks, mm",
+    "Noise of length / position, mm",
+    "The grid"};
+
+double points_of(const sweep::SweepSpec& spec, std::size_t grid) {
+  return spec.grids[grid].columns * spec.grids[grid].rows;
+}
+
+Chart panel(const sweep::SweepSpec& spec,
+            const std::vector<files::LevelError>& errors,
+            std::size_t factor) {
+  DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}, {}};
+  for (const files::LevelError& error : errors) {
+    if (error.factor != factor) continue;
+    const std::string level =
+        factor + 1 == sweep::kFactors ? "all" : sweep::level_name(spec, factor, error.level);
+    lines.rows.push_back({level,
+                          points_of(spec, error.grid),
+                          error.tool_rms_mm,
+                          error.tool_max_mm,
+                          static_cast<double>(error.cells)});
+  }
+  return {.specification = "sweep_lines",
+          .title = std::string(kTitles[factor]),
+          .caption =
+              "Error of the tool over the bed, rms in mm, against the number of points; all other "
+              "factors combined.",
+          .data = {std::move(lines)}};
+}
+
+Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
+  Table table;
+  table.columns = {{"factor"},
+                   {"level"},
+                   {"points", true},
+                   {"rms at the tool, mm", true},
+                   {"worst, mm", true},
+                   {"cells", true}};
+  const auto counts = sweep::level_counts(spec);
+  for (const files::LevelError& error : errors) {
+    // A factor with one level duplicates the grids.
+    if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
+    table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
+                           sweep::level_name(spec, error.factor, error.level),
+                           fmt::format("{:.0f}", points_of(spec, error.grid)),
+                           fmt::format("{:.3f}", error.tool_rms_mm),
+                           fmt::format("{:.3f}", error.tool_max_mm),
+                           fmt::format("{}", error.cells)}});
+  }
+  return table;
+}
+
+/// Pooled over the grids, one for each level of a factor; 0 if nothing was done.
+std::vector<double> errors_of_levels(const std::vector<files::LevelError>& errors,
+                                     std::size_t factor,
+                                     std::size_t levels) {
+  std::vector<double> squares(levels, 0.0);
+  std::vector<double> cells(levels, 0.0);
+  for (const files::LevelError& error : errors) {
+    if (error.factor != factor) continue;
+    const auto number = static_cast<double>(error.cells);
+    squares[error.level] += number * error.tool_rms_mm * error.tool_rms_mm;
+    cells[error.level] += number;
+  }
+  for (std::size_t level = 0; level < levels; ++level)
+    squares[level] = cells[level] > 0.0 ? std::sqrt(squares[level] / cells[level]) : 0.0;
+  return squares;
+}
+
+/// The sweep's answer to its question, a sentence for each varying factor.
+std::vector<std::string> answers(const sweep::SweepSpec& spec,
+                                 const std::vector<files::LevelError>& errors) {
+  const auto counts = sweep::level_counts(spec);
+  std::vector<std::string> sentences;
+  std::vector<files::LevelError> grids;
+  for (const files::LevelError& error : errors) {
+    if (error.factor + 1 == sweep::kFactors) grids.push_back(error);
+  }
+  if (grids.size() > 1) {
+    const auto [fewest, most] = grid::minmax_element(grids, [&](const auto& a, const auto& b) {
+      return points_of(spec, a.grid) < points_of(spec, b.grid);
+    });
+    sentences.push_back(fmt::format(
+        "From {:.0f} to {:.0f} points the error changes from {:.2f} to {:.2f} mm rms at the tool.",
+        points_of(spec, fewest->grid),
+        points_of(spec, most->grid),
+        fewest->tool_rms_mm,
+        most->tool_rms_mm));
+  }
+  for (std::size_t factor = 0; factor + 1 < sweep::kFactors; ++factor) {
+    if (counts[factor] < 2) continue;
+    const std::vector<double> rms = errors_of_levels(errors, factor, counts[factor]);
+    const auto [least, most] = grid::minmax_element(rms);
+    const auto level = [&](auto at) {
+      return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
+    };
+    // Results that round to the same hundredths are equal in practice.
+    if (fmt::format("{:.2f}", *least) == fmt::format("{:.2f}", *most)) {
+      sentences.push_back(fmt::format(
+          "{}: no difference, {:.2f} mm rms at the tool with each.", kTitles[factor], *least));
+      continue;
+    }
+    sentences.push_back(fmt::format(
+        "{}: {} has the smallest error, {:.2f} mm rms at the tool; {} the largest, {:.2f} mm.",
+        kTitles[factor],
+        level(least),
+        *least,
+        level(most),
+        *most));
+  }
+  return sentences;
+}
+
+Document sweep_page(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
+  Document page;
+  page.title = spec.name;
+  page.subtitle = spec.question;
+  const auto counts = sweep::level_counts(spec);
+  Section panels{"Error against the number of points", {}};
+  for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
+    const bool varies = counts[factor] > 1 && factor + 1 < sweep::kFactors;
+    if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));
+  }
+  if (panels.blocks.empty()) panels.blocks.emplace_back(panel(spec, errors, sweep::kFactors - 1));
+  page.verdict = {fmt::format("{} cells: {} combinations, {} repetitions each.",
+                              sweep::cells(spec),
+                              sweep::combinations(spec),
+                              spec.repetitions)};
+  for (std::string& line : answers(spec, errors)) page.advice.push_back({std::move(line)});
+  page.not_proved = {"Made with the simulator; a real machine has errors that it does not model."};
+  page.sections.push_back(std::move(panels));
+  page.sections.push_back({"Numbers", {table(spec, errors)}});
+  return page;
+}
 
 namespace fs = std::filesystem;
 
@@ -66,12 +271,11 @@ void refuse_old_results(const SweepOptions& options) {
   const fs::path parts = fs::path(options.directory) / "parts";
   std::error_code error;
   if (options.resume || !fs::is_directory(parts, error) || fs::is_empty(parts, error)) return;
-  OptionProblems problems;
-  problems.add("-o",
-               options.directory,
-               "a new folder, or --resume to continue with the existing cells",
-               ProblemKind::output_place);
-  problems.throw_if_any();
+  refuse("command line",
+         "-o",
+         options.directory,
+         "a new folder, or --resume to continue with the existing cells",
+         ProblemKind::output_place);
 }
 
 std::vector<FolderFile> results() {
@@ -86,15 +290,13 @@ int assemble(Verb verb,
              const SweepOptions& options) {
   const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
   if (missing > 0) {
-    fmt::print(stderr,
-               "chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
-               "parts of all shards are in {}/parts\n",
-               static_cast<std::ptrdiff_t>(cells.size()) - missing,
-               cells.size(),
-               options.directory);
+    say("chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
+        "parts of all shards stand in {}/parts",
+        static_cast<std::ptrdiff_t>(cells.size()) - missing,
+        cells.size(),
+        options.directory);
     std::vector<std::string> next = {"sweep", options.specification, "-o", options.directory};
-    for (const std::string& effect : options.effects)
-      next.insert(next.end(), {"--effects", effect});
+    add_option_words(next, "--effects", options.effects);
     next.emplace_back("--resume");
     say_next(next);
     return kDone;
@@ -104,10 +306,9 @@ int assemble(Verb verb,
   files::write_whole_file(
       fs::path(options.directory) / "report.html",
       files::signed_text(report::render_html(sweep_page(spec, errors)), Origin::page));
-  fmt::print(stderr,
-             "{} cells: {}/results.csv, summary.json, report.html (open it in any browser)\n",
-             cells.size(),
-             options.directory);
+  say("{} cells: {}/results.csv, summary.json, report.html (open it in any browser)",
+      cells.size(),
+      options.directory);
   say_next({"start"});
   return kDone;
 }

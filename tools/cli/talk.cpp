@@ -12,6 +12,7 @@
 #include "grid/containers.hpp"
 
 namespace chaintrue::cli {
+
 namespace {
 
 std::string environment(const char* name) {
@@ -60,12 +61,22 @@ bool shows_colours() {
 std::string in_bold(std::string_view text) { return between("\x1b[1m", text); }
 std::string in_red(std::string_view text) { return between("\x1b[31m", text); }
 
+void add_option_words(std::vector<std::string>& words, std::string option, std::string value) {
+  if (!value.empty()) words.insert(words.end(), {std::move(option), std::move(value)});
+}
+
+void add_option_words(std::vector<std::string>& words,
+                      const std::string& option,
+                      const std::vector<std::string>& values) {
+  for (const std::string& value : values) add_option_words(words, option, value);
+}
+
 void say_next(const std::vector<std::string>& words) {
   if (grid::contains(words, "-")) return;
   std::string line = called_as;
   for (const std::string& word : words) line += " " + quoted(word);
   std::fflush(stdout);
-  fmt::print(stderr, "{}\n", in_bold("Next: " + line));
+  say("{}", in_bold("Next: " + line));
 }
 
 QuietTalk::QuietTalk(bool is_quiet) {
@@ -101,6 +112,19 @@ void write_whole_lines() {
   if (::fstat(STDOUT_FILENO, &out) != 0 || ::fstat(STDERR_FILENO, &err) != 0) return;
   if (out.st_dev == err.st_dev && out.st_ino == err.st_ino)
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+}
+
+std::string with_name(std::string message, std::string_view name) {
+  if (std::getenv("CHAINTRUE_PROBLEM_NAMES") == nullptr) return message;
+  return fmt::format("{} ({})", message, name);
+}
+
+void print_warnings(const std::vector<files::Warning>& warnings) {
+  for (const files::Warning& warning : warnings) {
+    say("{}",
+        warning.kind ? with_name(warning.message(), grid::name_of(*warning.kind))
+                     : warning.message());
+  }
 }
 
 }  // namespace chaintrue::cli

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The last line of every verb, and the style of messages: coloured on a terminal, plain in a
+/// Messages on standard error, the last line of every verb, and their style: coloured on a terminal, plain in a
 /// pipe or if NO_COLOR is set (no-color.org).
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -18,6 +25,19 @@ namespace chaintrue::cli {
 /// The name under which the command was called, for the lines to paste: `build/chaintrue` as typed,
 /// `chaintrue` if it was found on the path.
 void set_called_as(std::string_view name);
+
+/// A line on standard error.
+template <class... Args>
+void say(::fmt::format_string<Args...> text, Args&&... args) {
+  fmt::print(stderr, "{}\n", fmt::format(text, std::forward<Args>(args)...));
+}
+
+/// Adds an option with its value to a command's words; nothing for an empty value.
+void add_option_words(std::vector<std::string>& words, std::string option, std::string value);
+/// With each of the values.
+void add_option_words(std::vector<std::string>& words,
+                      const std::string& option,
+                      const std::vector<std::string>& values);
 
 /// `Next: chaintrue fit 'my marks.csv' -o map.json` on standard error, the words quoted for a shell
 /// if necessary. Prints nothing if one of the words is "-": the pipeline continues.
@@ -41,5 +61,13 @@ class QuietTalk {
 /// Whether standard output and standard error are the same: lines must then end before others
 /// begin.
 void write_whole_lines();
+
+// Prints a reader's assumptions and warnings on standard error.
+
+/// `message (name)` if the environment has CHAINTRUE_PROBLEM_NAMES, for tests and other programs:
+/// names are stable when sentences change. Otherwise only the message.
+[[nodiscard]] std::string with_name(std::string message, std::string_view name);
+
+void print_warnings(const std::vector<files::Warning>& warnings);
 
 }  // namespace chaintrue::cli

@@ -98,6 +98,18 @@ struct Column {
   int gap = 0;
   Detail detail = Detail::always;
 };
+[[nodiscard]] inline Column text_column(std::string heading, int width) {
+  return {.heading = std::move(heading), .width = width};
+}
+[[nodiscard]] inline Column number_column(std::string heading, int width, int digits = 2) {
+  return {.heading = std::move(heading), .is_number = true, .digits = digits, .width = width};
+}
+/// Shows the sign of positive numbers too.
+[[nodiscard]] inline Column signed_column(std::string heading, int width, int digits = 2) {
+  Column column = number_column(std::move(heading), width, digits);
+  column.has_sign = true;
+  return column;
+}
 struct Row {
   /// The last cells may be left out.
   std::vector<Cell> cells{};
@@ -146,7 +158,8 @@ using Block = std::variant<Paragraph, List, Figures, Table, Chart, ChartRow>;
 struct Section {
   std::string title{};
   std::vector<Block> blocks{};
-  /// On the page: after the open ones, only its title until it is opened; printed only if it is open.
+  /// On the page: after the open ones, only its title until it is opened; printed only if it is
+  /// open.
   bool is_folded = false;
   Detail detail = Detail::always;
   /// Whether the terminal shows the title, with the blocks indented below it.
@@ -178,8 +191,8 @@ struct Document {
   std::string provenance{};
 };
 
-/// The document as a page. \throws std::invalid_argument if a number is not finite, a row has
-/// more cells than its table has columns, or a chart specification does not exist.
+/// The document as a page. \throws std::invalid_argument if a number is not finite, a row has more
+/// cells than its table has columns, or a chart specification does not exist.
 [[nodiscard]] std::string render_html(const Document& document);
 
 /// The document as lines for a terminal, with the details of `detail` (always or verbose). \throws

@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -88,7 +87,7 @@ class HtmlWriter {
  private:
   template <class... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(html_), format, std::forward<Args>(args)...);
+    html_ += fmt::format(format, std::forward<Args>(args)...);
   }
 
   void head(const Document& page) {

@@ -34,12 +34,13 @@ class RealScans : public testing::Test {
   void SetUp() override {
     data_ = std::filesystem::path(CHAINTRUE_SHARED_DATA);
     if (!std::filesystem::exists(data_ / "optical_grid" / kFull)) {
-      GTEST_SKIP() << "the scans are not part of a checkout and are not here: " << data_ / "optical_grid";
+      GTEST_SKIP() << "the scans are not part of a checkout and are not here: "
+                   << data_ / "optical_grid";
     }
   }
 
   [[nodiscard]] MeasuredGrid scan(const char* file,
-                                  std::optional<files::VisitOrder> assumed = {}) const {
+                                  std::optional<VisitingOrder> assumed = {}) const {
     files::OpticalOptions options;
     options.order = assumed;
     // The settings in force were not recorded, so the tolerances' purpose is unknown.
@@ -76,7 +77,7 @@ TEST_F(RealScans, BothScansNameTheBannersScale) {
   for (const char* file : {kUpper, kFull}) {
     // With the whole bed's marks play is detected, but only with an assumed order; without it
     // nothing is named.
-    const Diagnosis d = diagnosed(scan(file, files::VisitOrder::serpentine_columns));
+    const Diagnosis d = diagnosed(scan(file, VisitingOrder{.rows = false, .serpentine = true}));
     EXPECT_TRUE(names(d).contains("tape_scale:x")) << file << ": " << d.sentence;
     EXPECT_TRUE(std::none_of(d.extended_machine.effects.begin(),
                              d.extended_machine.effects.end(),

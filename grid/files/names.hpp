@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Names of values, the same in files and on the command line.
+///
+/// \code
+///   const auto end = named(kEndConditions, "clamped");   // empty for a word that is none of them
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "grid/map/compensation_map.hpp"
+#include "grid/observation/visiting_order.hpp"
+#include "model/kinematics.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::grid::files {
+
+template <class E>
+using Named = std::pair<std::string_view, E>;
+
+inline constexpr Named<model::ControllerKind> kControllerKinds[] = {
+    {"ideal", model::ControllerKind::ideal},
+    {"maslow_classic", model::ControllerKind::maslow_classic},
+    {"holey", model::ControllerKind::holey},
+    {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter}};
+inline constexpr Named<model::Feed> kFeeds[] = {{"over_top", model::Feed::over_top},
+                                                {"off_bottom", model::Feed::off_bottom}};
+inline constexpr Named<model::Model> kModels[] = {{"straight", model::Model::straight},
+                                                  {"wrap", model::Model::wrap},
+                                                  {"firmware", model::Model::firmware},
+                                                  {"one_shot", model::Model::one_shot},
+                                                  {"inextensible", model::Model::inextensible},
+                                                  {"elastic", model::Model::elastic},
+                                                  {"elastic_3d", model::Model::elastic_3d}};
+inline constexpr Named<interp::EndCondition> kEndConditions[] = {
+    {"not_a_knot", interp::EndCondition::not_a_knot},
+    {"natural", interp::EndCondition::natural},
+    {"parabolic", interp::EndCondition::parabolic},
+    {"clamped", interp::EndCondition::clamped}};
+/// What a map does beyond its points.
+inline constexpr Named<Outside> kOutsideWays[] = {{"continued", Outside::continued},
+                                                  {"refuse", Outside::refuse},
+                                                  {"fade", Outside::fade},
+                                                  {"linear", Outside::linear},
+                                                  {"clamp", Outside::clamp}};
+/// From the top left.
+inline constexpr Named<VisitingOrder> kVisitingOrders[] = {
+    {"rows", {.rows = true, .serpentine = false}},
+    {"columns", {.rows = false, .serpentine = false}},
+    {"serpentine_rows", {.rows = true, .serpentine = true}},
+    {"serpentine_columns", {.rows = false, .serpentine = true}}};
+
+template <class E, std::size_t n>
+[[nodiscard]] std::optional<E> named(const Named<E> (&names)[n], std::string_view word) {
+  for (const auto& [name, value] : names) {
+    if (name == word) return value;
+  }
+  return std::nullopt;
+}
+
+template <class E, std::size_t n>
+[[nodiscard]] std::vector<std::string> words_of(const Named<E> (&names)[n]) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : names) words.emplace_back(name);
+  return words;
+}
+
+}  // namespace chaintrue::grid::files
