@@ -97,7 +97,10 @@ std::vector<Outcome> Campaign::outcomes_of(const std::vector<PlannedSet>& list, 
       std::vector<Outcome> own = attempt(open[k]);
       const std::lock_guard lock(writing);
       out << text_of(own) << std::flush;
-      if (show && against.empty()) fmt::print("{}", text_of(own));
+      if (show && against.empty()) {
+        fmt::print("{}", text_of(own));
+        std::fflush(stdout);
+      }
       append(outcomes, std::move(own));
       if (outcomes.size() % 50 == 0) fmt::print(stderr, "\r{} outcomes", outcomes.size());
     }
