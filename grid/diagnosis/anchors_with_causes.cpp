@@ -83,23 +83,16 @@ struct AnchorsWithCauses {
 };
 
 tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
-    const MeasuredBelts& belts) {
-  auto alone = fit_belts(belts);
-  if (!alone) return tl::unexpected(alone.error());
-  auto analysed = analyse(belts, {}, AnalysisDepth::anchors);
-  if (!analysed) {
-    return tl::unexpected(
-        BeltsFitFailure{BeltsFitFailure::Reason::no_frame, analysed.error().sentence()});
-  }
-  const AveragedAnchors& averaged = analysed->averaged;
+    const BeltsAnalysis& analysis, const MeasuredBelts& belts, const BeltsFit& alone) {
+  const AveragedAnchors& averaged = analysis.averaged;
   std::vector<CauseInAnchorFit> causes;
   std::vector<SizedCause> sizes;
   for (const AveragedCause& own : averaged.causes) {
     causes.push_back(cause_in_fit(own));
     sizes.push_back(own.cause);
   }
-  AnchorFit frame = analysed->frame;
-  frame.counting = decided_counting(*analysed);
+  AnchorFit frame = analysis.frame;
+  frame.counting = decided_counting(analysis);
   frame.state.anchors = averaged.anchors;
   MeasuredBelts without_causes = without_effects(belts, sizes, frame.state);
   place_and_judge(without_causes, sizes.size(), frame);
@@ -118,13 +111,32 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
   BeltsFit fit =
       belts::fit_report(without_causes, FitDiagnostics(without_causes, frame), covariance);
   fit.causes = std::move(causes);
-  fit.rms_mm = alone->rms_mm;
-  fit.half_left_out = prediction_by_halves(analysed->belts, {frame, sizes, {}});
+  fit.rms_mm = alone.rms_mm;
+  fit.half_left_out = prediction_by_halves(analysis.belts, {frame, sizes, {}});
   return AnchorsWithCauses{{std::move(fit), std::move(frame), std::move(covariance)},
                            std::move(without_causes)};
 }
 
+tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const MeasuredBelts& belts) {
+  const auto alone = fit_belts(belts);
+  if (!alone) return tl::unexpected(alone.error());
+  const auto analysed = analyse(belts, {});
+  if (!analysed) {
+    return tl::unexpected(
+        BeltsFitFailure{BeltsFitFailure::Reason::no_frame, analysed.error().sentence()});
+  }
+  return fit_anchors_with_causes(*analysed, belts, *alone);
+}
+
 }  // namespace
+
+tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis,
+                                                        const MeasuredBelts& belts,
+                                                        const BeltsFit& alone) {
+  return fit_anchors_with_causes(analysis, belts, alone).map([](AnchorsWithCauses found) {
+    return std::move(found.alone.fit);
+  });
+}
 
 tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts) {
   return fit_anchors_with_causes(belts).map(

@@ -181,8 +181,7 @@ Analysis analysis_of_laws(const BeltsAnalysis& a) {
 }
 
 tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
-                                                      const DiagnosisOptions& options,
-                                                      AnalysisDepth depth) {
+                                                      const DiagnosisOptions& options) {
   BeltsAnalysis a;
   a.belts = without_distances(belts);
   const auto alone = belts::fit_anchors_robustly(a.belts);
@@ -197,11 +196,7 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   const BeltRules rules(a);
   if (auto done = compare_in_rounds(rules, a); !done) return tl::unexpected(done.error());
   a.averaged = averaged_anchors(a.frame.state.anchors, a);
-  if (depth == AnalysisDepth::verdict) {
-    judge(rules, a);
-  } else {
-    decide_by(rules, true, a);
-  }
+  decide_by(rules, true, a);
   return a;
 }
 

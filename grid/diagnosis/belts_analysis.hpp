@@ -34,15 +34,10 @@ class BeltRules final : public AnalysisRules {
   BeltsAnalysis& belts_;
 };
 
-/// How far an analysis goes: to the averaged anchors, with the decision of the comparison alone, or
-/// to a verdict.
-enum class AnalysisDepth { anchors, verdict };
-
+/// To the averaged anchors, with the decision of the comparison alone; judge() makes it a verdict.
 /// Precondition: fit_belts() takes these belts.
-[[nodiscard]] tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(
-    const MeasuredBelts& belts,
-    const DiagnosisOptions& options,
-    AnalysisDepth depth = AnalysisDepth::verdict);
+[[nodiscard]] tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
+                                                                    const DiagnosisOptions& options);
 
 /// The frame with the readings and the causes that the decision keeps; empty if that does not
 /// converge.

@@ -13,6 +13,11 @@ namespace chaintrue::grid::diagnosis {
 /// Converged anchors, places and sizes with the causes of the decision.
 [[nodiscard]] FitGivenCauses explained(const BeltsAnalysis& analysis);
 
+/// fit_with_causes() by an analysis of the same belts that is not judged yet, `alone` as below.
+[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis,
+                                                                      const MeasuredBelts& belts,
+                                                                      const BeltsFit& alone);
+
 /// Prediction of the lower belts of each half of the places by a fit to the other, including the
 /// causes' sizes; empty with too few places.
 [[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,

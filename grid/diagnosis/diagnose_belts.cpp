@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "grid/belts/belts_error.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/diagnose.hpp"
@@ -34,10 +35,16 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   auto analysed = analyse(belts, options);
   if (!analysed) return tl::unexpected(analysed.error());
   BeltsAnalysis& a = *analysed;
+  // Belongs to the decision before the verdict.
+  const auto fit = fit_with_causes(a, belts, *alone);
+  const auto error = fit ? error_of_belts(*fit) : std::nullopt;
+  const BeltRules rules(a);
+  judge(rules, a);
   const LawsFound found = laws_found(analysis_of_laws(a));
-  std::vector<CauseGivenLaw> given_law = name_given_law(found, BeltRules(a), a);
+  std::vector<CauseGivenLaw> given_law = name_given_law(found, rules, a);
   const FitGivenCauses given = explained(a);
   Diagnosis d;
+  if (error) d.tool_today = error->today;
   d.observations = Observations::belts;
   d.grid_name = belts.name;
   take_findings(a, d);

@@ -15,9 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/belts/belts_error.hpp"
 #include "grid/containers.hpp"
-#include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
@@ -171,13 +169,6 @@ diagnosis::Transfer held_out(const DiagnoseCommand& command,
   return transferred;
 }
 
-/// The number in the first line of a fit of the same belts.
-std::optional<grid::ErrorSummary> tool_today(const MeasuredBelts& belts) {
-  const auto fit = diagnosis::fit_with_causes(belts);
-  const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
-  return error ? error->today : std::nullopt;
-}
-
 /// Grids and holes; an order that was assumed is put into `measured`.
 Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   if (MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
@@ -210,13 +201,10 @@ Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file)
                              read.belts.points.size(),
                              kMostPlaces));
   }
-  Diagnosis found =
-      named(diagnosis::diagnose(read.belts,
-                                diagnosis_options(command),
-                                files::indices_without(read.belts.points.size(), without)),
-            command);
-  found.tool_today = tool_today(read.belts);
-  return found;
+  return named(diagnosis::diagnose(read.belts,
+                                   diagnosis_options(command),
+                                   files::indices_without(read.belts.points.size(), without)),
+               command);
 }
 
 /// A test drawing is diagnosed alone, with the plotter in its file.

@@ -43,8 +43,9 @@ bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagno
 bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts& belts) {
   namespace diagnosis = grid::diagnosis;
   constexpr std::size_t kCompared = 10;
-  const auto analysed = diagnosis::analyse(belts, {});
+  auto analysed = diagnosis::analyse(belts, {});
   if (!analysed) return false;
+  diagnosis::judge(diagnosis::BeltRules(*analysed), *analysed);
   const diagnosis::Analysis& a = *analysed;
   std::vector<diagnosis::CauseId> leading;
   for (const diagnosis::ClassProbability& one : a.decision.marginal) {
