@@ -325,4 +325,85 @@ SetEvidence set_evidence(const NormalEquations& equations,
   return wide;
 }
 
+namespace {
+
+struct SizePrior {
+  double sigma;
+  double share;
+};
+constexpr std::array<SizePrior, 2> kSizePriors = {{{kUsualSignalToNoise, 1.0 - kWideSignalToNoisePrior},
+                                                   {kWideSignalToNoise, kWideSignalToNoisePrior}}};
+
+}  // namespace
+
+EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
+                               const std::vector<Regressor>& regressors,
+                               const NoiseDensity& noise)
+    : equations_(equations),
+      regressors_(regressors),
+      noise_(noise),
+      outside_(equations.ge.size(), std::ssize(kSizePriors)) {
+  const double s = std::sqrt(noise.noise_square(equations.ee));
+  for (Eigen::Index i = 0; i < outside_.rows(); ++i) {
+    const double unit = s / std::sqrt(equations.prior_square(i));
+    for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
+      const double sigma = unit * kSizePriors[as_size(k)].sigma;
+      outside_(i, k) =
+          regressor(i).fixed ? 0.0 : -log_mass(0.0, sigma, regressor(i).lowest, regressor(i).highest);
+    }
+  }
+}
+
+Eigen::ArrayXd EvidenceBounds::with_each(std::span<const Eigen::Index> set) const {
+  const Eigen::MatrixXd& gg = equations_.gg;
+  double fixed_left = equations_.ee;
+  Eigen::ArrayXd of_data = equations_.ge;
+  for (const Eigen::Index i : set) {
+    if (!regressor(i).fixed) continue;
+    fixed_left += gg(i, i) - 2.0 * of_data(i);
+    of_data -= gg.col(i).array();
+  }
+  Eigen::ArrayXd most = Eigen::ArrayXd::Constant(of_data.size(), kMinusInfinity);
+  for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
+    const SizePrior& prior = kSizePriors[as_size(k)];
+    const auto occam = [&](Eigen::Index i, double square) {
+      return outside_(i, k) -
+             0.5 * std::log(square / equations_.prior_square(i) * prior.sigma * prior.sigma);
+    };
+    const Eigen::ArrayXd precision = equations_.prior_square / (prior.sigma * prior.sigma);
+    // The columns of the set's factor, of all rows.
+    Eigen::MatrixXd factor(of_data.size(), std::ssize(set));
+    Eigen::Index rank = 0;
+    double quadratic = fixed_left;
+    double log_weight = std::log(prior.share) - 0.5 * equations_.log_det;
+    Eigen::ArrayXd left = of_data;
+    Eigen::ArrayXd square = gg.diagonal();
+    for (const Eigen::Index i : set) {
+      if (regressor(i).fixed) continue;
+      Eigen::VectorXd column = gg.col(i);
+      for (Eigen::Index j = 0; j < rank; ++j) column -= factor(i, j) * factor.col(j);
+      const double own = square(i) + precision(i);
+      log_weight += occam(i, own);
+      factor.col(rank) = column / std::sqrt(own);
+      const double c = left(i) / std::sqrt(own);
+      quadratic -= c * c;
+      left -= c * factor.col(rank).array();
+      square -= factor.col(rank).array().square();
+      ++rank;
+    }
+    for (Eigen::Index i = 0; i < most.size(); ++i) {
+      double q = quadratic - 2.0 * left(i) + square(i);
+      double own = log_weight;
+      if (!regressor(i).fixed) {
+        const double whole = square(i) + precision(i);
+        q = quadratic - left(i) * left(i) / whole;
+        own += occam(i, whole);
+      }
+      own += noise_.log_density(std::clamp(q, 0.0, equations_.ee));
+      most(i) = log_sum(most(i), own);
+    }
+  }
+  return most;
+}
+
 }  // namespace chaintrue::grid::diagnosis

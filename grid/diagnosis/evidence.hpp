@@ -171,4 +171,28 @@ struct SetEvidence {
                                        std::span<const Eigen::Index> set,
                                        const NoiseDensity& noise);
 
+/// Upper bounds of log_evidence for sets with one more column, at the cost of an inner product each.
+///
+/// Without the mass of the posterior inside the bounds, which is at most one; over that of the prior for the largest
+/// noise that a set can leave. Beyond the residual of nothing the density falls faster with the
+/// noise than that grows.
+class EvidenceBounds {
+ public:
+  /// All references must outlive this.
+  EvidenceBounds(const NormalEquations& equations,
+                 const std::vector<Regressor>& regressors,
+                 const NoiseDensity& noise);
+  /// For each column, added to this set.
+  [[nodiscard]] Eigen::ArrayXd with_each(std::span<const Eigen::Index> set) const;
+
+ private:
+  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
+    return regressors_[as_size(equations_.columns[as_size(i)])];
+  }
+  const NormalEquations& equations_;
+  const std::vector<Regressor>& regressors_;
+  const NoiseDensity& noise_;
+  Eigen::ArrayXXd outside_;  ///< column, prior: -log of the prior's mass inside the bounds
+};
+
 }  // namespace chaintrue::grid::diagnosis

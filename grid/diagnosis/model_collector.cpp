@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -68,21 +69,24 @@ double ModelCollector::consider(const ColumnSet& set,
   sort(model.regressors);
   model.discrepancy = discrepancy;
   model.marginalised = number_;
-  model.log_weight = evidence.log_evidence + marginalised_.log_outliers +
-                     log_prior_of(model.regressors, discrepancy);
+  model.log_weight = evidence.log_evidence + log_prior_of(model.regressors, discrepancy);
   model.larger_noise = evidence.larger_noise;
   model.quadratic = evidence.quadratic;
   best_ = std::max(best_, model.log_weight);
   const double weight = model.log_weight;
-  // The model without causes and single causes without a discrepancy are needed later, however
-  // unlikely.
-  const bool asked_for = discrepancy < 0 && set.size() <= 1;
-  if (weight > best_ - kNegligibleModel || asked_for) models_.push_back(std::move(model));
+  if (keeps(set.size(), discrepancy, weight)) models_.push_back(std::move(model));
   return weight;
 }
 
+bool ModelCollector::keeps(std::size_t size, int discrepancy, double weight) const {
+  // The model without causes and single causes without a discrepancy are needed later, however
+  // unlikely.
+  const bool asked_for = discrepancy < 0 && size <= 1;
+  return weight > best_ - kNegligibleModel || asked_for;
+}
+
 double ModelCollector::log_prior_of(const std::vector<int>& regressors, int discrepancy) const {
-  double value = log_prior(system_, regressors, discrepancy >= 0);
+  double value = marginalised_.log_outliers + log_prior(system_, regressors, discrepancy >= 0);
   if (discrepancy >= 0) value += system_.discrepancies->log_share_of(discrepancy);
   return value;
 }
@@ -118,20 +122,38 @@ void search_by_beam(const RegressorSystem& system,
   // Number of sets of none, one, two and three causes that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
   collector.consider({}, discrepancy, equations);
+  const EvidenceBounds bounds(equations, system.regressors, collector.noise());
   std::vector<WeighedSet> parents = {{0.0, {}}};
   for (std::size_t size = 1; size <= kMostCauses; ++size) {
+    const std::size_t extended = size < kMostCauses ? kExtended.at(size) : 0;
     std::vector<WeighedSet> children;
+    std::multiset<double> heaviest;  // weights of those to extend
     std::set<ColumnSet> found;
     for (const WeighedSet& parent : parents) {
+      const Eigen::ArrayXd most = bounds.with_each(parent.set);
+      std::map<std::pair<bool, bool>, double> prior;  // of one more, by its kind
       for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
+        const Regressor& own = system.regressor(equations.columns[as_size(i)]);
+        const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
+        if (is_new) {
+          std::vector<int> regressors = {equations.columns[as_size(i)]};
+          for (const Eigen::Index other : parent.set) regressors.push_back(equations.columns[as_size(other)]);
+          known->second = collector.log_prior_of(regressors, discrepancy) - own.log_prior;
+        }
+        const double at_most = most(i) + known->second + own.log_prior;
+        const bool may_be_extended = extended > 0 && (heaviest.size() < extended || at_most >= *heaviest.begin());
+        if (!may_be_extended && !collector.keeps(size, discrepancy, at_most)) continue;
         auto set = with_column(system, equations, limits, parent.set, i);
         if (!set || !found.insert(*set).second) continue;
         const double weight = collector.consider(*set, discrepancy, equations);
-        if (std::isfinite(weight)) children.push_back({weight, *std::move(set)});
+        if (!std::isfinite(weight)) continue;
+        children.push_back({weight, *std::move(set)});
+        heaviest.insert(weight);
+        if (heaviest.size() > extended) heaviest.erase(heaviest.begin());
       }
     }
     stable_sort(children, descending(&WeighedSet::weight));
-    if (size < kMostCauses && children.size() > kExtended.at(size)) children.resize(kExtended.at(size));
+    if (children.size() > extended) children.resize(extended);
     parents = std::move(children);
   }
 }

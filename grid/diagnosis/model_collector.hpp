@@ -40,7 +40,9 @@ class ModelCollector {
 
   /// Returns a set's weight and keeps the set if relevant; minus infinity if it is impossible.
   double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
-  /// Log prior of a set with a discrepancy or none, including the discrepancy's share.
+  /// Whether a set of so many causes with this weight is relevant.
+  [[nodiscard]] bool keeps(std::size_t size, int discrepancy, double weight) const;
+  /// Log prior of a set with a discrepancy or none, including the discrepancy's share and the rejected points.
   [[nodiscard]] double log_prior_of(const std::vector<int>& regressors, int discrepancy) const;
 
   [[nodiscard]] double best() const { return best_; }
