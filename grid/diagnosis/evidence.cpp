@@ -288,7 +288,8 @@ SetEvidence evidence_at(const FreeEquations& free,
   result.quadratic = std::max(free.ee - free.c.dot(ratio), 0.0);
   const NoiseDensity::Averages averages = noise.averages(result.quadratic);
   result.larger_noise = averages.larger_share;
-  result.log_evidence = averages.log_density - 0.5 * log_det;
+  result.log_evidence = averages.log_density - 0.5 * log_det -
+                        std::log(llt.matrixLLT().diagonal().cwiseProduct(prior).prod());
   const double s = std::sqrt(averages.noise_square);
   for (Eigen::Index i = 0; i < m; ++i) {
     const double sigma = s * inverse_root.col(i).norm();
@@ -301,7 +302,6 @@ SetEvidence evidence_at(const FreeEquations& free,
       result.log_evidence = kMinusInfinity;
       return result;
     }
-    result.log_evidence -= std::log(llt.matrixLLT()(i, i) * prior(i));
     result.log_evidence += log_mass(ratio(i), sigma, free.low(i), free.high(i)) -
                            log_mass(0.0, s * prior(i), free.low(i), free.high(i));
   }
