@@ -67,7 +67,7 @@ std::vector<Group> groups_of(const Analysis& a) {
 /// X their design.
 ///   mean + K C^-1 (residual),  design - K C^-1 X,  and K** - K C^-1 K' of its own
 /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
-/// \returns a square root of the last.
+/// \returns the last.
 Eigen::MatrixXd add_discrepancy(const Analysis& a,
                                 const RegressorSystem& system,
                                 const Estimate& fitted,
@@ -91,7 +91,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   Eigen::MatrixXd own =
       square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
   linear::add_gram(own, -1.0, covariance.half_solve(k.transpose()));
-  return root_of_spread(own);
+  return own;
 }
 
 /// An alternative's prediction for every candidate.
@@ -119,24 +119,21 @@ void predict(const Analysis& a,
       design.col(column++) = column_of;
     }
   }
-  Eigen::MatrixXd of_pattern(design.rows(), 0);
-  if (h.discrepancy >= 0) of_pattern = add_discrepancy(a, system, fitted, h.mean, design);
-  const linear::Cholesky covariance(fitted.covariance);
-  h.spread.resize(design.rows(), design.cols() + to_come + of_pattern.cols());
-  h.spread.leftCols(design.cols()) = linear::product(design, covariance.lower());
-  h.spread.middleCols(design.cols(), to_come) = linear::scaled_columns(
-      system.by_setting.rightCols(to_come), system.sigma.tail(to_come));
-  h.spread.rightCols(of_pattern.cols()) = of_pattern;
+  h.covariance.setZero(design.rows(), design.rows());
+  if (h.discrepancy >= 0) h.covariance = add_discrepancy(a, system, fitted, h.mean, design);
+  linear::add_outer(
+      h.covariance, 1.0, linear::product(design, linear::Cholesky(fitted.covariance).lower()));
+  linear::add_outer(
+      h.covariance,
+      1.0,
+      linear::scaled_columns(system.by_setting.rightCols(to_come), system.sigma.tail(to_come)));
 }
 
 /// D over these rows, for two alternatives.
 double distance(const Alternative& k, const Alternative& l, const std::vector<Eigen::Index>& rows) {
   const Eigen::VectorXd difference = k.mean(rows) - l.mean(rows);
-  const Eigen::MatrixXd of_k = k.spread(rows, Eigen::all);
-  const Eigen::MatrixXd of_l = l.spread(rows, Eigen::all);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(of_k.rows(), of_k.rows());
-  linear::add_outer(covariance, 0.5, of_k);
-  linear::add_outer(covariance, 0.5, of_l);
+  Eigen::MatrixXd covariance = 0.5 * (k.covariance(rows, rows) + l.covariance(rows, rows));
+  covariance.diagonal().array() += 1.0;
   return linear::Cholesky(std::move(covariance)).half_solve(difference).squaredNorm();
 }
 
@@ -167,11 +164,6 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
 }
 
 }  // namespace
-
-Eigen::MatrixXd root_of_spread(const Eigen::MatrixXd& matrix) {
-  constexpr double kNegligible = 1e-4;
-  return linear::PivotedCholesky(matrix).root(kNegligible);
-}
 
 std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   std::vector<Group> groups = groups_of(a);

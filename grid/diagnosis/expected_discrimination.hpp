@@ -42,7 +42,7 @@ struct Alternative {
   int discrepancy = -1;      ///< with them, as in the most probable model of these causes
   double probability = 0.0;  ///< their sum over all alternatives is 1
   Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
-  Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k without the noise
+  Eigen::MatrixXd covariance;  ///< S_k without the noise
 };
 
 /// The remaining sets of causes, each at its best places, by group and the most probable first,
@@ -60,11 +60,8 @@ using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>
                                                           const RegressorSystem& next,
                                                           const ColumnOf& column);
 
-/// As above without predictions: no means and spreads.
+/// As above without predictions: no means and covariances.
 [[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
-
-/// A square root of a positive semidefinite matrix of whitened rows, to a hundredth of the noise.
-[[nodiscard]] Eigen::MatrixXd root_of_spread(const Eigen::MatrixXd& matrix);
 
 struct ExpectedDiscrimination {
   double confusion = 0.0;

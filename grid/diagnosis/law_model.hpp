@@ -19,7 +19,6 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -96,13 +95,13 @@ class LawModel {
     return left;
   }
 
-  /// The prediction of other rows, whitened, from all kept ones: mean, and a square root of the
+  /// The prediction of other rows, whitened, from all kept ones: mean, and the
   /// covariance without their noise. `columns` of these rows: the regressors', then those added.
   ///   m = X* f + K* C^-1 (e - X f),  S = K** - K* C^-1 K*'
   /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations 2.38 and 2.39.
   struct Expected {
     Eigen::VectorXd mean;
-    Eigen::MatrixXd spread;
+    Eigen::MatrixXd covariance;
   };
   [[nodiscard]] Expected expected_of(const RegressorSystem& next,
                                      const Eigen::MatrixXd& columns) const {
@@ -135,7 +134,7 @@ class LawModel {
     expected.mean = linear::product(next.by_setting.leftCols(settings), system_.expected_change);
     linear::add_product(expected.mean, 1.0, across, factor.solve(e_));
     linear::add_gram(own, -1.0, factor.half_solve(across.transpose()));
-    expected.spread = root_of_spread(own);
+    expected.covariance = std::move(own);
     return expected;
   }
 

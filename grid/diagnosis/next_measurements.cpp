@@ -136,7 +136,7 @@ Alternative expected_with(const Analysis& a,
       model_with(a, evidence, law).expected_of(next.system, columns_of(a, next, regressors, there));
   Alternative one;
   one.mean = std::move(expected.mean);
-  one.spread = std::move(expected.spread);
+  one.covariance = std::move(expected.covariance);
   return one;
 }
 

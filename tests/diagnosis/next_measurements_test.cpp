@@ -14,6 +14,7 @@
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/random.hpp"
+#include "interp/linear_algebra.hpp"
 #include "tests/diagnosis/sessions.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -40,7 +41,7 @@ std::string what_of(const NextMeasurement& next) {
 /// Not affected by any alternative, nor by any setting.
 bool is_silent(const Alternatives& alternatives, const Rows& rows) {
   return std::all_of(alternatives.begin(), alternatives.end(), [&](const Alternative& one) {
-    return one.mean(rows).isZero(0.0) && one.spread(rows, Eigen::all).isZero(0.0);
+    return one.mean(rows).isZero(0.0) && one.covariance(rows, rows).isZero(0.0);
   });
 }
 
@@ -93,8 +94,7 @@ std::vector<double> posterior(const Alternatives& alternatives,
                               const Eigen::VectorXd& read) {
   std::vector<double> logs;
   for (const Alternative& one : alternatives) {
-    const Eigen::MatrixXd spread = one.spread(rows, Eigen::all);
-    Eigen::MatrixXd covariance = spread * spread.transpose();
+    Eigen::MatrixXd covariance = one.covariance(rows, rows);
     covariance.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
     const Eigen::VectorXd off = read - one.mean(rows);
@@ -122,7 +122,7 @@ double drawn_named_alone(const Alternatives& alternatives,
   constexpr int kDraws = 2000;
   double named = 0.0;
   for (const Alternative& truth : alternatives) {
-    const Eigen::MatrixXd spread = truth.spread(rows, Eigen::all);
+    const Eigen::MatrixXd spread = linear::covariance_root(truth.covariance(rows, rows));
     int right = 0;
     for (int draw = 0; draw < kDraws; ++draw) {
       Eigen::VectorXd read = truth.mean(rows);
