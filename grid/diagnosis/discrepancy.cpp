@@ -11,16 +11,6 @@ namespace {
 /// Radius of a sled: that far from the border its rim begins to hang over.
 constexpr double kSledMm = 230.0;
 
-/// A unit and the places of its system.
-struct PlacedUnit {
-  const SystemUnit& unit;
-  const std::vector<SystemPlace>& places;
-};
-
-PlacedUnit placed(const RegressorSystem& system, std::size_t unit) {
-  return {system.units[unit], system.places};
-}
-
 /// k of each length at two places.
 double between_lengths(const DiscrepancyKernel& kernel,
                        const SystemPlace& a,
@@ -31,29 +21,58 @@ double between_lengths(const DiscrepancyKernel& kernel,
   return sum / as_double(kernel.fields.size());
 }
 
-Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
-                              const PlacedUnit& a,
-                              const PlacedUnit& b) {
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  if (kernel.of_lengths()) {
-    const double k = between_lengths(
-        kernel, a.places[a.unit.places.front().place], b.places[b.unit.places.front().place]);
-    auto block = sum.topLeftCorner(a.unit.rows, b.unit.rows);
-    if (const auto alone = kernel.fields.front().alone) {
-      block = k * a.unit.by_reading.col(*alone) * b.unit.by_reading.col(*alone).transpose();
-    } else {
-      block = (k * a.unit.by_reading).lazyProduct(b.unit.by_reading.transpose());
-    }
-    return sum;
-  }
-  for (const observation::PlaceColumns& i : a.unit.places) {
-    for (const observation::PlaceColumns& j : b.unit.places) {
-      sum.topLeftCorner(a.unit.rows, b.unit.rows) +=
-          i.by_chain * discrepancy_block(kernel, a.places[i.place], b.places[j.place]) *
-          j.by_chain.transpose();
+/// The kept rows of a unit by what disturbs them at one place: the two chains, or each length.
+struct RowsAtPlace {
+  Eigen::Index at = 0;  ///< position of the first
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 4> by;
+};
+
+/// Of each place, so that two places are compared once, however many units see them.
+std::vector<std::vector<RowsAtPlace>> rows_by_place(const RegressorSystem& system,
+                                                    const KeptRows& kept,
+                                                    const DiscrepancyKernel& kernel) {
+  std::vector<std::vector<RowsAtPlace>> result(system.places.size());
+  for (const KeptRows::Unit& own : kept.units()) {
+    const SystemUnit& unit = system.units[own.unit];
+    for (const observation::PlaceColumns& place : unit.places) {
+      Eigen::MatrixXd by = kernel.of_lengths() ? unit.by_reading : Eigen::MatrixXd(place.by_chain);
+      if (const auto alone = kernel.fields.front().alone) by = Eigen::MatrixXd(by.col(*alone));
+      result[place.place].push_back({own.at, KeptRows::of_unit(own, by)});
     }
   }
-  return sum;
+  return result;
+}
+
+/// K of these rows and those, which are the same if `symmetric`.
+Eigen::MatrixXd between(const DiscrepancyKernel& kernel,
+                        const RegressorSystem& to,
+                        const KeptRows& rows,
+                        const RegressorSystem& from,
+                        const KeptRows& columns,
+                        bool symmetric) {
+  const auto to_places = rows_by_place(to, rows, kernel);
+  const auto from_places = rows_by_place(from, columns, kernel);
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(rows.size(), columns.size());
+  for (std::size_t p = 0; p < to_places.size(); ++p) {
+    for (std::size_t q = 0; q < (symmetric ? p + 1 : from_places.size()); ++q) {
+      if (to_places[p].empty() || from_places[q].empty()) continue;
+      const SystemPlace& here = to.places[p];
+      const SystemPlace& there = from.places[q];
+      const double k = kernel.of_lengths() ? between_lengths(kernel, here, there) : 1.0;
+      const Eigen::Matrix2d block = kernel.of_lengths() ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
+                                                        : discrepancy_block(kernel, here, there);
+      for (const RowsAtPlace& a : to_places[p]) {
+        decltype(a.by) left = k * a.by;
+        if (!kernel.of_lengths()) left = a.by.lazyProduct(block);
+        for (const RowsAtPlace& b : from_places[q]) {
+          const decltype(a.by) part = left.lazyProduct(b.by.transpose());
+          c.block(a.at, b.at, part.rows(), part.cols()) += part;
+          if (symmetric && p != q) c.block(b.at, a.at, part.cols(), part.rows()) += part.transpose();
+        }
+      }
+    }
+  }
+  return c;
 }
 
 }  // namespace
@@ -120,48 +139,13 @@ Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
                                        const RegressorSystem& from,
                                        const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(to.e.size(), kept.size());
-  for (const KeptRows::Unit& kept_unit : kept.units()) {
-    const PlacedUnit other = placed(from, kept_unit.unit);
-    for (std::size_t u = 0; u < to.units.size(); ++u) {
-      const SystemUnit& own = to.units[u];
-      const Eigen::Matrix2d block = between_units(kernel, placed(to, u), other);
-      const auto columns = block.topLeftCorner(own.rows, other.unit.rows);
-      auto to_fill = c.block(own.first_row, kept_unit.at, own.rows, kept_unit.rows);
-      if (kept_unit.across) {
-        to_fill = columns * kept_unit.across->transpose();
-      } else {
-        to_fill = columns;
-      }
-    }
-  }
-  return c;
+  return between(kernel, to, KeptRows::all(to), from, kept, false);
 }
 
 Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
                                        const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
-  const std::vector<KeptRows::Unit>& units = kept.units();
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(kept.size(), kept.size());
-  for (std::size_t a = 0; a < units.size(); ++a) {
-    const PlacedUnit own = placed(system, units[a].unit);
-    for (std::size_t b = 0; b <= a; ++b) {
-      const PlacedUnit other = placed(system, units[b].unit);
-      const Eigen::Matrix2d whole = between_units(kernel, own, other);
-      const auto put = [&](const auto& block) {
-        c.block(units[a].at, units[b].at, units[a].rows, units[b].rows) = block;
-        c.block(units[b].at, units[a].at, units[b].rows, units[a].rows) = block.transpose();
-      };
-      const auto all = whole.topLeftCorner(own.unit.rows, other.unit.rows);
-      if (!units[a].across && !units[b].across) {
-        put(all);
-      } else {
-        const Eigen::MatrixXd part = KeptRows::of_unit(units[a], all);
-        put(Eigen::MatrixXd(KeptRows::of_unit(units[b], part.transpose()).transpose()));
-      }
-    }
-  }
-  return c;
+  return between(kernel, system, kept, system, kept, true);
 }
 
 }  // namespace chaintrue::grid::diagnosis
