@@ -80,20 +80,34 @@ Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis,
 }  // namespace
 
 void LargestError::add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2Xd& spread_mm) {
-  if (largest_mm2_.size() == 0) {
+  constexpr Eigen::Index kTogether = 24;
+  if (taken_mm2_.size() == 0) {
     draws_ = drawn(spread_mm.cols());
-    largest_mm2_ = Eigen::RowVectorXd::Zero(kDraws);
+    taken_mm2_ = Eigen::RowVectorXd::Zero(kDraws);
+    expected_mm_.resize(2 * kTogether);
+    spread_mm_.resize(2 * kTogether, spread_mm.cols());
   }
   if (spread_mm.cols() != draws_.rows())
     throw precondition("a spread of {} columns after one of {}", spread_mm.cols(), draws_.rows());
-  Eigen::MatrixXd errors = linear::product(spread_mm, draws_);
-  errors.colwise() += expected_mm;
-  largest_mm2_ = largest_mm2_.cwiseMax(errors.colwise().squaredNorm());
+  expected_mm_.segment<2>(2 * waiting_) = expected_mm;
+  spread_mm_.middleRows<2>(2 * waiting_) = spread_mm;
+  if (++waiting_ < kTogether) return;
+  taken_mm2_ = largest_mm2();
+  waiting_ = 0;
+}
+
+Eigen::RowVectorXd LargestError::largest_mm2() const {
+  Eigen::MatrixXd errors = linear::product(spread_mm_.topRows(2 * waiting_), draws_);
+  errors.colwise() += expected_mm_.head(2 * waiting_);
+  Eigen::RowVectorXd largest = taken_mm2_;
+  for (Eigen::Index k = 0; k < waiting_; ++k)
+    largest = largest.cwiseMax(errors.middleRows<2>(2 * k).colwise().squaredNorm());
+  return largest;
 }
 
 double LargestError::bound_mm() const {
-  if (largest_mm2_.size() == 0) return 0.0;
-  Eigen::RowVectorXd sorted = largest_mm2_;
+  if (taken_mm2_.size() == 0) return 0.0;
+  Eigen::RowVectorXd sorted = largest_mm2();
   const auto at = static_cast<Eigen::Index>(kLevel * static_cast<double>(kDraws));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
   return std::sqrt(sorted[at]);

@@ -58,8 +58,13 @@ class LargestError {
   [[nodiscard]] double bound_mm() const;
 
  private:
-  Eigen::MatrixXd draws_;        ///< of z, a column each
-  Eigen::RowVectorXd largest_mm2_;  ///< of each draw so far
+  /// Of each draw, with the places that wait.
+  [[nodiscard]] Eigen::RowVectorXd largest_mm2() const;
+  Eigen::MatrixXd draws_;           ///< of z, a column each
+  Eigen::RowVectorXd taken_mm2_;    ///< largest of each draw without those
+  Eigen::VectorXd expected_mm_;     ///< m of places that wait, so that their products are one
+  Eigen::MatrixXd spread_mm_;       ///< S, the same
+  Eigen::Index waiting_ = 0;
 };
 
 }  // namespace chaintrue::grid
