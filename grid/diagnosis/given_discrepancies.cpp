@@ -53,8 +53,13 @@ class Scout {
         all, kSinglesGivenDiscrepancy, [](const auto& single) { return single.first; }));
     if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
     result.singles = std::move(all);
+    if (best_models_.empty()) return result;
+    std::vector<int> columns;
+    for (const std::vector<int>& set : best_models_) append_all(columns, set);
+    sort_unique(columns);
+    const NormalEquations equations = given.equations(family().strength_of(discrepancy), columns);
     for (const std::vector<int>& set : best_models_) {
-      result.weight = std::max(result.weight, together(given, discrepancy, set));
+      result.weight = std::max(result.weight, together(equations, discrepancy, set));
     }
     return result;
   }
@@ -77,12 +82,11 @@ class Scout {
     return noise.log_density_as_stated(std::max(q, 0.0)) - 0.5 * std::log1p(gg / precision);
   }
 
-  [[nodiscard]] double together(const DiscrepancyBasis::GivenKernel& given,
+  [[nodiscard]] double together(const NormalEquations& equations,
                                 int discrepancy,
                                 const std::vector<int>& set) const {
-    const NormalEquations equations = given.equations(family().strength_of(discrepancy), set);
     ColumnSet all;
-    for (std::size_t k = 0; k < set.size(); ++k) all.push_back(as_index(k));
+    for (const int k : set) all.push_back(equations.position(k));
     return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
            collector_.log_prior_of(set, discrepancy);
   }
