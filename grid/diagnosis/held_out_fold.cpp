@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <map>
+#include <memory>
+
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
@@ -28,9 +31,15 @@ class FoldErrors {
 
   [[nodiscard]] Errors at(const std::vector<std::size_t>& units) const {
     const std::vector<int>& all = a_.decision.regressors;
+    std::map<int, std::shared_ptr<const DiscrepancyNoise>> noise;
     const auto with = [&](const MarginalisedSystem& marginalised, const std::vector<int>& causes) {
-      return ErrorsWith{left_at(units, fit(marginalised, causes)),
-                        left_at(units, fit(marginalised_, causes, preferred_discrepancy(causes)))};
+      const int discrepancy = preferred_discrepancy(causes);
+      const auto [known, is_new] = noise.try_emplace(discrepancy);
+      if (is_new) known->second = discrepancy_noise(a_.system, marginalised_, discrepancy);
+      const auto left = [&](const MarginalisedSystem& own, const DiscrepancyNoise* given) {
+        return left_at(units, estimate(a_.system, own, causes, given));
+      };
+      return ErrorsWith{left(marginalised, nullptr), left(marginalised_, known->second.get())};
     };
     return {with(without_slips(a_, marginalised_), {}),
             with(marginalised_, decision_.regressors),
@@ -38,12 +47,6 @@ class FoldErrors {
   }
 
  private:
-  [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
-                             const std::vector<int>& regressors,
-                             int discrepancy = -1) const {
-    return estimate(a_.system, marginalised, regressors, discrepancy);
-  }
-
   /// The discrepancy preferred given these causes, or none. If the comparison contains no model of
   /// these causes, the best model's is used.
   [[nodiscard]] int preferred_discrepancy(const std::vector<int>& regressors) const {
