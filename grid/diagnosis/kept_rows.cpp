@@ -72,11 +72,10 @@ KeptRows KeptRows::all(const RegressorSystem& system) {
   return {system, nothing_rejected(system)};
 }
 
-std::vector<Eigen::Index> KeptRows::positions(const std::vector<std::size_t>& units,
-                                              bool among) const {
+std::vector<Eigen::Index> KeptRows::positions(const std::vector<std::size_t>& units) const {
   std::vector<Eigen::Index> result;
   for (const Unit& unit : units_) {
-    if (contains(units, unit.unit) != among) continue;
+    if (!contains(units, unit.unit)) continue;
     for (Eigen::Index k = 0; k < unit.rows; ++k) result.push_back(unit.at + k);
   }
   return result;

@@ -44,9 +44,8 @@ class KeptRows {
   /// row.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
-  /// Positions of the rows that belong to these units, or else of all others.
-  [[nodiscard]] std::vector<Eigen::Index> positions(const std::vector<std::size_t>& units,
-                                                    bool among = true) const;
+  /// Positions of the rows that belong to these units.
+  [[nodiscard]] std::vector<Eigen::Index> positions(const std::vector<std::size_t>& units) const;
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& all) const;

@@ -58,11 +58,6 @@ class LawModel {
     sigmas_.push_back(sigma);
   }
 
-  /// For some of the kept rows, by their positions.
-  [[nodiscard]] double log_density(const std::vector<Eigen::Index>& rows) const {
-    return log_density_of(covariance_(rows, rows), e_(rows), dof_);
-  }
-
   /// For all kept rows, after subtracting `known` (all rows).
   [[nodiscard]] double log_density(const Eigen::VectorXd& known) const {
     return log_density_of(covariance_, e_ - marginalised_.kept(known), dof_);
@@ -80,18 +75,6 @@ class LawModel {
     left.unexplained = left.noise;
     if (discrepancy_.size() > 0)
       linear::add_product(left.unexplained, 1.0, discrepancy_, left.noise);
-    return left;
-  }
-
-  /// For left-out kept rows, by their positions: the difference from the prediction by the others.
-  [[nodiscard]] Eigen::VectorXd left_of_prediction(
-      const std::vector<Eigen::Index>& rows, const std::vector<Eigen::Index>& left_out) const {
-    const linear::Cholesky own(covariance_(rows, rows));
-    Eigen::VectorXd left = e_(left_out);
-    linear::add_product(left,
-                        -1.0,
-                        Eigen::MatrixXd(covariance_(left_out, rows)),
-                        own.solve(Eigen::VectorXd(e_(rows))));
     return left;
   }
 
@@ -137,6 +120,43 @@ class LawModel {
     expected.covariance = std::move(own);
     return expected;
   }
+
+  /// The kept rows without some of them, from one factorisation. With P = C^-1, O the rows left out and K the others:
+  ///   e_K' C_KK^-1 e_K = e'P e - (P e)_O' P_OO^-1 (P e)_O,   |C_KK| = |C| |P_OO|
+  ///   e_O - C_OK C_KK^-1 e_K = P_OO^-1 (P e)_O
+  /// As in downdating.hpp.
+  class Downdated {
+   public:
+    explicit Downdated(const LawModel& model) : dof_(model.dof_) {
+      const linear::Cholesky factor(model.covariance_);
+      precision_ = factor.inverse();
+      weighed_ = linear::product(precision_, model.e_);
+      quadratic_ = model.e_.dot(weighed_);
+      log_det_ = factor.log_det();
+    }
+    struct Without {
+      double log_density = 0.0;  ///< of the other rows
+      Eigen::VectorXd left;      ///< of those left out: the difference from the prediction by the others
+    };
+    /// By their positions.
+    [[nodiscard]] Without without(const std::vector<Eigen::Index>& rows) const {
+      const linear::Cholesky block(precision_(rows, rows));
+      const Eigen::VectorXd weighed = weighed_(rows);
+      Without result{0.0, block.solve(weighed)};
+      const double quadratic = quadratic_ - weighed.dot(result.left);
+      result.log_density = NoiseDensity(dof_, weighed_.size() - weighed.size())
+                               .log_density(std::max(quadratic, 0.0)) -
+                           0.5 * (log_det_ + block.log_det());
+      return result;
+    }
+
+   private:
+    double dof_;
+    Eigen::MatrixXd precision_;
+    Eigen::VectorXd weighed_;  ///< P e
+    double quadratic_;
+    double log_det_;
+  };
 
  private:
   static double log_density_of(const Eigen::MatrixXd& covariance,
