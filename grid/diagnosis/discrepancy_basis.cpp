@@ -181,6 +181,10 @@ class DiscrepancyBasis::Fields {
     for_each_index(all_.size(), [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
   }
 
+  void forget() {
+    for (Products& own : all_) own.with.clear();
+  }
+
  private:
   /// The residual and these columns.
   [[nodiscard]] Eigen::MatrixXd columns_of(const NormalEquations& plain) const {
@@ -261,6 +265,7 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
 DiscrepancyBasis::~DiscrepancyBasis() = default;
 
 void DiscrepancyBasis::relate(const NormalEquations& plain) { fields_->relate_all(plain); }
+void DiscrepancyBasis::forget() { fields_->forget(); }
 
 DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
                                                   const NormalEquations& plain) {

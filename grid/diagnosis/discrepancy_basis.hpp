@@ -69,6 +69,8 @@ class DiscrepancyBasis {
   /// Prepares these columns for `given` for all kernels at once, after which several threads may
   /// call it.
   void relate(const NormalEquations& plain);
+  /// Frees what `given` and `relate` keep of columns.
+  void forget();
   /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
   [[nodiscard]] GivenKernel given(std::size_t kernel, const NormalEquations& plain);
 

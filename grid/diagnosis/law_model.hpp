@@ -136,7 +136,8 @@ class LawModel {
     }
     struct Without {
       double log_density = 0.0;  ///< of the other rows
-      Eigen::VectorXd left;      ///< of those left out: the difference from the prediction by the others
+      Eigen::VectorXd
+          left;  ///< of those left out: the difference from the prediction by the others
     };
     /// By their positions.
     [[nodiscard]] Without without(const std::vector<Eigen::Index>& rows) const {
@@ -175,7 +176,7 @@ class LawModel {
   const MarginalisedSystem& marginalised_;
   double dof_;
   std::optional<Discrepancy> process_;
-  Eigen::MatrixXd settings_;             ///< kept rows, scaled to one sigma each
+  Eigen::MatrixXd settings_;              ///< kept rows, scaled to one sigma each
   std::vector<Eigen::VectorXd> columns_;  ///< the same
   std::vector<double> sigmas_;
   Eigen::MatrixXd covariance_;

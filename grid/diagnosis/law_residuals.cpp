@@ -131,14 +131,14 @@ class Predictor {
  public:
   Predictor(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law)
       : system_(a.system),
-        marginalised_(a.comparison.marginalised_systems[evidence.marginalised]),
+        kept_(a.comparison.marginalised_systems[evidence.marginalised].kept),
         without_(model_with(a, evidence, nullptr)) {
     for (const WeighedLaw& own : evidence.laws) {
       if (own.curve != law.curve || with_.size() == kMostValues) continue;
       WeighedLaw other = own;
       other.set = law.set;
       other.discrepancy = law.discrepancy;
-      with_.push_back(model_with(a, evidence, &other));
+      with_.emplace_back(model_with(a, evidence, &other));
     }
   }
 
@@ -148,12 +148,11 @@ class Predictor {
     double with = 0.0;
     double count = 0.0;
     for (const Units& left_out : parts) {
-      const Rows kept = marginalised_.kept.positions(left_out, false);
-      const Rows out = marginalised_.kept.positions(left_out);
+      const Rows out = kept_.positions(left_out);
       // No prediction for a part that was rejected, or that is everything.
-      if (out.empty() || kept.empty()) continue;
-      without += square_mm2(without_, kept, out, left_out);
-      with += square_mm2(likeliest(kept), kept, out, left_out);
+      if (out.empty() || std::ssize(out) == kept_.size()) continue;
+      without += square_mm2(without_.without(out).left, left_out);
+      with += square_mm2(likeliest(out).left, left_out);
       count += 1.0;
     }
     if (!(count > 0.0)) return {};
@@ -161,32 +160,29 @@ class Predictor {
   }
 
  private:
-  const LawModel& likeliest(const Rows& kept) const {
-    std::vector<double> density;
-    for (const LawModel& model : with_) density.push_back(model.log_density(kept));
-    return with_[as_size(max_element(density) - density.begin())];
+  /// Of the models with the law, the prediction of the one that is likeliest by the other rows.
+  LawModel::Downdated::Without likeliest(const Rows& out) const {
+    std::vector<LawModel::Downdated::Without> all;
+    for (const LawModel::Downdated& model : with_) all.push_back(model.without(out));
+    return *max_element(all, ascending(&LawModel::Downdated::Without::log_density));
   }
 
-  double square_mm2(const LawModel& model,
-                    const Rows& kept,
-                    const Rows& out,
-                    const Units& units) const {
-    const Eigen::VectorXd wrong = model.left_of_prediction(kept, out);
+  double square_mm2(const Eigen::VectorXd& wrong, const Units& units) const {
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
     Eigen::Index at = 0;
-    for (const KeptRows::Unit& unit : marginalised_.kept.units()) {
+    for (const KeptRows::Unit& unit : kept_.units()) {
       if (!has(units, unit.unit)) continue;
       if (!unit.across)
         rows.segment(system_.units[unit.unit].first_row, unit.rows) = wrong.segment(at, unit.rows);
       at += unit.rows;
     }
-    return std::pow(rms_of_units_mm(system_, marginalised_.kept, rows, units), 2);
+    return std::pow(rms_of_units_mm(system_, kept_, rows, units), 2);
   }
 
   const RegressorSystem& system_;
-  const MarginalisedSystem& marginalised_;
-  LawModel without_;
-  std::vector<LawModel> with_;
+  const KeptRows& kept_;
+  LawModel::Downdated without_;
+  std::vector<LawModel::Downdated> with_;
 };
 
 }  // namespace
@@ -230,19 +226,20 @@ double averaged_over_parts(const Analysis& a,
   const std::vector<BedPart> parts =
       bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
   if (parts.empty()) return probability;
-  const LawModel with = model_with(a, evidence, &law);
-  const LawModel without = model_with(a, evidence, nullptr);
-  const auto all = kept.positions({}, false);
-  const double of_all = with.log_density(all) - without.log_density(all);
+  const LawModel::Downdated with(model_with(a, evidence, &law));
+  const LawModel::Downdated without(model_with(a, evidence, nullptr));
+  const auto log_ratio = [&](const Rows& out) {
+    return with.without(out).log_density - without.without(out).log_density;
+  };
+  const double of_all = log_ratio({});
   // Keeps the odds finite.
   const double sure = std::min(probability, 1.0 - 1e-15);
   const double log_odds = std::log(sure) - std::log1p(-sure);
   double sum = 0.0;
   for (const BedPart& part : parts) {
-    const auto rows = kept.positions(part.units, false);
-    const double counts = as_double(all.size()) / as_double(rows.size());
-    const double own =
-        log_odds + counts * (with.log_density(rows) - without.log_density(rows)) - of_all;
+    const auto out = kept.positions(part.units);
+    const double counts = as_double(kept.size()) / as_double(kept.size() - std::ssize(out));
+    const double own = log_odds + counts * log_ratio(out) - of_all;
     sum += 1.0 / (1.0 + std::exp(-own));
   }
   return std::min(probability, sum / as_double(parts.size()));

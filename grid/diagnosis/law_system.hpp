@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <compare>
-#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -158,8 +157,7 @@ class LawSystem {
   std::vector<std::vector<Eigen::Index>> sets_;
   std::vector<Priors> log_prior_;
   std::optional<DiscrepancyBasis> basis_;
-  std::deque<NormalEquations> plains_;  ///< the basis refers to them
-  const NormalEquations* plain_ = nullptr;
+  NormalEquations plain_;  ///< the basis refers to them
   std::map<std::size_t, DiscrepancyBasis::GivenKernel> given_;
 };
 
