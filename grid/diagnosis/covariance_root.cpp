@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/covariance_root.hpp"
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 
 CovarianceRoot::CovarianceRoot(const Eigen::MatrixXd& a) {
@@ -21,10 +23,11 @@ void CovarianceRoot::multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) co
   linear::add_product(m, 1.0, basis_, along);
 }
 
-Eigen::MatrixXd CovarianceRoot::inverse() const {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows());
-  linear::add_product(
-      result, 1.0, linear::scaled_columns(basis_, change(-0.5)), linear::transposed(basis_));
+Eigen::MatrixXd CovarianceRoot::inverse(const std::vector<Eigen::Index>& columns) const {
+  Eigen::MatrixXd result = linear::product(
+      linear::scaled_columns(basis_, change(-0.5)),
+      linear::transposed(Eigen::MatrixXd(basis_(columns, Eigen::all))));
+  for (std::size_t k = 0; k < columns.size(); ++k) result(columns[k], as_index(k)) += 1.0;
   return result;
 }
 

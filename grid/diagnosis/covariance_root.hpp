@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "interp/linear_algebra.hpp"
 
@@ -33,8 +34,8 @@ class CovarianceRoot {
   [[nodiscard]] linear::Like<M> times(const M& m) const {
     return multiplied<linear::Like<M>>(0.5, m);
   }
-  /// V^(-1/2), rows x rows.
-  [[nodiscard]] Eigen::MatrixXd inverse() const;
+  /// These columns of V^(-1/2).
+  [[nodiscard]] Eigen::MatrixXd inverse(const std::vector<Eigen::Index>& columns) const;
   /// The block of V^(-1) of this size that starts at these indices.
   [[nodiscard]] Eigen::MatrixXd precision_block(Eigen::Index row,
                                                 Eigen::Index rows,

@@ -141,7 +141,6 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
   }
   sort_unique(columns);
   const Eigen::Index n = marginalised.kept.size();
-  factorised.inverse = marginalised.root.inverse();
   Eigen::MatrixXd e(n, std::ssize(columns) + 1);
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
@@ -154,11 +153,13 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
     k = marginalised.root.solve(k.transpose()) * (process.sigma_mm * process.sigma_mm);
     k.diagonal().array() += 1.0;
     const linear::Cholesky noise(std::move(k));
+    factorised.inverse = marginalised.root.inverse(numbers_below<Eigen::Index>(n));
     noise.half_solve_in_place(factorised.inverse);
     noise.half_solve_in_place(e);
     log_det += noise.log_det();
   }
-  factorised.precision = linear::product(linear::transposed(factorised.inverse), e);
+  factorised.precision = discrepancy < 0 ? marginalised.root.solve(e)
+                                         : linear::product(linear::transposed(factorised.inverse), e);
   const Eigen::MatrixXd gram = linear::gram(e);
   const Eigen::Index c = e.cols() - 1;
   factorised.equations = {columns,
@@ -186,7 +187,10 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
                                                 const std::vector<Eigen::Index>& out) const {
   NormalEquations equations = factorised.equations;
   if (out.empty()) return equations;
-  const Eigen::MatrixXd half = factorised.inverse(Eigen::all, out);
+  const Eigen::MatrixXd half =
+      factorised.discrepancy < 0
+          ? comparison_.marginalised_systems[factorised.marginalised].root.inverse(out)
+          : Eigen::MatrixXd(factorised.inverse(Eigen::all, out));
   const linear::Cholesky block(linear::gram(half));
   Eigen::MatrixXd found = factorised.precision(out, Eigen::all);
   block.half_solve_in_place(found);
@@ -211,7 +215,7 @@ Downdating::Downdated Downdating::downdated(const Factorisation& factorised,
   std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
   const double price = log_price_of_outliers(system_, outliers);
   return {downdated_equations(factorised, out),
-          factorised.inverse.rows() - std::ssize(out),
+          factorised.precision.rows() - std::ssize(out),
           std::move(outliers),
           price};
 }
@@ -271,7 +275,7 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
     const NoiseDensity noise(system_.noise_dof, own.rows);
     const double power =
         count_as == CountAs::all
-            ? as_double(factorised.inverse.rows()) / as_double(std::max<Eigen::Index>(own.rows, 1))
+            ? as_double(factorised.precision.rows()) / as_double(std::max<Eigen::Index>(own.rows, 1))
             : 1.0;
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];

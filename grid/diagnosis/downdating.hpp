@@ -73,7 +73,7 @@ class Downdating {
     std::size_t marginalised = 0;
     int discrepancy = -1;
     NormalEquations equations;  ///< with all points
-    Eigen::MatrixXd inverse;    ///< L^-1
+    Eigen::MatrixXd inverse;    ///< L^-1; empty without a discrepancy, where V's root gives its columns
     Eigen::MatrixXd precision;  ///< U: first column the residual
     std::vector<CandidateModel> models;
     std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the equations

@@ -90,16 +90,17 @@ class LawSystem {
     own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
     auto all = numbers_below<int>(own_.regressors.size());
     given_.clear();
-    plain_ = &plains_.emplace_back(normal_equations(own_, marginalised_, std::move(all)));
+    basis_->forget();
+    plain_ = normal_equations(own_, marginalised_, std::move(all));
   }
 
   /// For the causes and the laws taken last.
   [[nodiscard]] NormalEquations equations(int discrepancy) {
-    if (discrepancy < 0) return *plain_;
+    if (discrepancy < 0) return plain_;
     const std::size_t kernel = family().kernel_of(discrepancy);
     auto found = given_.find(kernel);
-    if (found == given_.end()) found = given_.emplace(kernel, basis_->given(kernel, *plain_)).first;
-    return found->second.equations(family().strength_of(discrepancy), plain_->columns);
+    if (found == given_.end()) found = given_.emplace(kernel, basis_->given(kernel, plain_)).first;
+    return found->second.equations(family().strength_of(discrepancy), plain_.columns);
   }
 
   /// Log prior and evidence of a context with some of the laws' columns; without the laws' prior.
