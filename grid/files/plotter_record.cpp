@@ -192,7 +192,7 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
   }
   if (!is_mural && !set.home) {
     at.child("home").missing(
-        "position that the controller assumes when it is switched on, from the middle between the "
+        "the position that the controller assumes when it is switched on, from the middle between the "
         "pins");
   }
 }
