@@ -14,7 +14,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 constexpr std::string_view kSignature =
-    "Written by chaintrue; unchanged if its content has the hash ";
+    "Written by chaintrue and not changed since, if its content has the hash ";
 constexpr std::string_view kMark = "<!-- made by chaintrue -->";
 constexpr std::string_view kPageHead = "<!DOCTYPE html>\n";
 
@@ -141,7 +141,7 @@ Origin origin_of(std::string_view text) {
       first_line.starts_with("; chaintrue start:")) {
     return Origin::program;
   }
-  if (text.find("\nMeasured minus map  ") != std::string_view::npos) return Origin::table;
+  if (text.find("\nMeasured less map  ") != std::string_view::npos) return Origin::table;
   return origin_of_list(text);
 }
 
