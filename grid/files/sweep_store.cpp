@@ -73,12 +73,6 @@ void take_line(std::string_view line, FinishedCells& cells) {
   if (cell < cells.size()) cells[cell] = result;
 }
 
-[[noreturn]] void refuse(const fs::path& path,
-                         const std::string& value,
-                         const std::string& expected) {
-  refuse(path.string(), value, expected);
-}
-
 /// Appends to one part, cell by cell. Not thread safe.
 class Part {
  public:
@@ -91,13 +85,13 @@ class Part {
     const bool is_torn = has_header && before.get() != '\n';
     file_.open(path_,
                has_header ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
-    if (!file_) refuse(path_, "", "a folder that can be written to");
+    if (!file_) refuse(path_.string(), "", "a folder that can be written to");
     if (!has_header) write(header);
     if (is_torn) write("\n");
   }
   void write(const std::string& text) {
     file_ << text << std::flush;
-    if (!file_) refuse(path_, "", "room on the disk");
+    if (!file_) refuse(path_.string(), "", "room on the disk");
   }
 
  private:
@@ -128,7 +122,7 @@ FinishedCells finished_cells(const fs::path& directory, const ReadSweep& read) {
     std::getline(in, line);
     if (in.eof() && header.starts_with(line)) continue;  // stopped before its first cell
     if (line + '\n' != header) {
-      refuse(entry->path(),
+      refuse(entry->path().string(),
              "cells of another sweep",
              "an empty folder, or one with parts of the same specification");
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
