@@ -341,8 +341,7 @@ struct Diagnosis {
   LeftOver left_over;
   /// How far the machine misses as it is used today: error_in_use() of the plain map of these readings,
   /// the number that a fit begins with; at least the effect of a claimed law at the points. Empty
-  /// for drawings, for belts unless chaintrue diagnose adds it, if the readings give no map, and if
-  /// held-out errors were not requested.
+  /// for drawings, if the readings give no map, and, except for belts, if held-out errors were not requested.
   std::optional<ErrorSummary> tool_today;
   /// Empty for drawings, as the budget is.
   std::optional<Unexplained> unexplained;
