@@ -91,7 +91,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   Eigen::MatrixXd own =
       square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
   linear::add_gram(own, -1.0, covariance.half_solve(k.transpose()));
-  return own;
+  return without_negligible(own);
 }
 
 /// An alternative's prediction for every candidate.
@@ -164,6 +164,11 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
 }
 
 }  // namespace
+
+Eigen::MatrixXd without_negligible(const Eigen::MatrixXd& covariance) {
+  constexpr double kNegligible = 1e-4;
+  return linear::outer(linear::PivotedCholesky(covariance).root(kNegligible));
+}
 
 std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   std::vector<Group> groups = groups_of(a);

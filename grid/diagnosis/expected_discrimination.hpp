@@ -63,6 +63,9 @@ using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>
 /// As above without predictions: no means and covariances.
 [[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
 
+/// A covariance of whitened rows without what is below a hundredth of the noise.
+[[nodiscard]] Eigen::MatrixXd without_negligible(const Eigen::MatrixXd& covariance);
+
 struct ExpectedDiscrimination {
   double confusion = 0.0;
   double named_alone = 0.0;  ///< probability that the right group is named alone

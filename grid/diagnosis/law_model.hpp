@@ -19,6 +19,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -117,7 +118,7 @@ class LawModel {
     expected.mean = linear::product(next.by_setting.leftCols(settings), system_.expected_change);
     linear::add_product(expected.mean, 1.0, across, factor.solve(e_));
     linear::add_gram(own, -1.0, factor.half_solve(across.transpose()));
-    expected.covariance = std::move(own);
+    expected.covariance = without_negligible(own);
     return expected;
   }
 
