@@ -36,19 +36,21 @@ inline void take_in(interp::Rectangle& area, model::MarkPoint mark) {
 enum class RasterOf { nodes, cells };
 
 /// Row by row from y_min, each from x_min. A single row or column of nodes lies in the middle.
+/// Symmetric about the middle to the last bit, and exactly there where a row or column is.
 [[nodiscard]] inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over,
                                                           int columns,
                                                           int rows,
                                                           RasterOf of) {
   const auto share = [of](int i, int count) {
-    if (of == RasterOf::cells) return (i + 0.5) / count;
-    return count > 1 ? as_double(i) / (count - 1) : 0.5;
+    if (of == RasterOf::cells) return (i + 0.5) / count - 0.5;
+    return count > 1 ? as_double(i) / (count - 1) - 0.5 : 0.0;
   };
+  const double x = 0.5 * (over.x_min + over.x_max), y = 0.5 * (over.y_min + over.y_max);
   std::vector<model::MarkPoint> points;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      points.push_back({over.x_min + over.width() * share(column, columns),
-                        over.y_min + over.height() * share(row, rows)});
+      points.push_back(
+          {x + over.width() * share(column, columns), y + over.height() * share(row, rows)});
     }
   }
   return points;

@@ -29,8 +29,8 @@ Origin origin_by_type(const Json& document) {
   return format == nullptr ? Origin::foreign : format->origin;
 }
 
-/// The first words of the description of a file format.
-constexpr std::string_view kPageOfFormat = "This page is written by `chaintrue formats ";
+/// The last words of the description of a file format's kind.
+constexpr std::string_view kPageOfFormat = "` writes this page from the reader's tables.";
 constexpr std::string_view kSchemaOfFormat =
     "{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"chaintrue_";
 

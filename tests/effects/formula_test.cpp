@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"a_mm *", 6, "the end", "a number, a name, a function or an opening bracket"},
         Bad{"a_mm * 1e999", 7, "1", "a number within the range of the computer"},
         Bad{"a_mm \xC2\xB7 2", 5, "\xC2\xB7", "an operator + - * / ^, or the end"},
-        Bad{"sin", 0, "sin", "a bracket behind sin, as in sin(...)"}));
+        Bad{"sin", 0, "sin", "a bracket after sin, as in sin(...)"}));
 
 TEST(Formula, RefusesTenThousandNestedBrackets) {
   const std::string text = std::string(10000, '(') + "a_mm" + std::string(10000, ')');

@@ -165,7 +165,7 @@ TEST(FitTogether, RefusesAnotherMachine) {
   own.holes.machine.reset();
   const auto none = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().sentence(), HasSubstr("holes.json names no machine"));
+  EXPECT_THAT(none.error().sentence(), HasSubstr("holes.json has no machine"));
   EXPECT_THROW((void)joint_fit({}), std::invalid_argument);
 }
 

@@ -447,7 +447,7 @@ Section taped_section(const grid::HolesWithBelts& holes) {
                           number_column("taped", 8, 1),
                           signed_column("off, mm", 10),
                           signed_column("alone", 11),
-                          number_column("sigma", 8),
+                          number_column("+-", 8),
                           {.gap = 1}},
               .caption = "Alone: taped minus predicted from all others. * left out.",
               .is_headed = true,

@@ -39,7 +39,7 @@ using report::text_column;
 Table table_of(std::string what, bool has_sign) {
   return {.columns = {text_column(std::move(what), 30),
                       {.heading = "mm", .is_number = true, .has_sign = has_sign, .width = 10},
-                      number_column("sigma", 10)},
+                      number_column("+-", 10)},
           .is_headed = true};
 }
 
@@ -130,8 +130,8 @@ void say_other_settings(const CompensationMap& map, const grid::Measured& measur
     const auto changes = files::changed_settings(files::settings_in_force(*map.machine()),
                                                  files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
-    say("In {} the machine's settings differ from the map's ({}): these are used. State the "
-        "controller's settings with --settings.",
+    say("The machine's settings in {} differ from the map's ({}); those in the file are used. Give "
+        "the controller's settings with --settings.",
         file.name.empty() ? "the new points" : file.name,
         files::in_words(changes));
   }

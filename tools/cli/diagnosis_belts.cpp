@@ -37,7 +37,7 @@ Section anchors_section(const Diagnosis& found) {
   Table table{.columns = {text_column("Anchor", 6),
                           number_column("alone", 12),
                           number_column("with the causes", 17),
-                          number_column("sigma", 8),
+                          number_column("+-", 8),
                           number_column("in force", 10, 1)},
               .caption = kAnchorsCaption,
               .is_headed = true};

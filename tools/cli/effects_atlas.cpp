@@ -343,7 +343,7 @@ int write_atlas(const std::string& machine,
       named.atlas.pictures.size() == 1 ? "a picture"
                                        : fmt::format("{} pictures", named.atlas.pictures.size()));
   for (const std::string& missing : named.atlas.not_drawn)
-    say("No picture of {}: at its usual size this machine cannot work with it.", missing);
+    say("No picture of {}: this machine cannot work with it at its usual size.", missing);
   return kDone;
 }
 

@@ -250,8 +250,8 @@ bool refuses_weak_causes(const std::vector<AppliedEffect>& effects, const std::s
                                diagnosis::percent(*one.probability)));
   }
   if (weak.empty()) return false;
-  say("{}: this machine rests on {}; to type numbers in, a cause must be at least {} certain. "
-      "Measure what the diagnosis proposes next and diagnose again; --force continues anyway.",
+  say("{}: this machine depends on {}, and numbers to type in require at least {}. Measure what "
+      "the diagnosis proposes next and diagnose again; --force continues anyway.",
       name,
       diagnosis::joined(weak, "and"),
       diagnosis::percent(diagnosis::kSureOfCause));
@@ -397,8 +397,7 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   if (!settings) return kCheckFailed;
   write_output(command.output, settings->text);
   for (const std::string& remark : settings->remarks) say("{}", remark);
-  say("The machine forgets these lines when it is switched off, until $CD=/maslow.yaml has "
-      "saved them.");
+  say("These lines are lost when the machine is switched off, unless $CD=/maslow.yaml saves them.");
   return kDone;
 }
 

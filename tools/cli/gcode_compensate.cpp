@@ -99,8 +99,8 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   if (machine.map() == nullptr) return;
   if (options.settings.empty() && options.machine.empty()) {
     if (const std::string after = map_after(options.map); !after.empty()) {
-      say("Have you typed in the numbers that {0} is for? {1} is for the controller as it "
-          "was before: with the numbers in it, compensate with {0}.",
+      say("Have you typed in the numbers for {0}? {1} is for the controller without them; with "
+          "them, compensate with {0}.",
           after,
           options.map);
     }
@@ -111,10 +111,10 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   if (!adds_home || options.home_is_zero) return;
   const BedPoint home = options.home_mm();
   if (home.x_mm == 0.0 && home.y_mm == 0.0) {
-    say("It is for home at 0, 0. If you have moved home (Define Home), give its place with "
+    say("It assumes home at 0, 0. If you have moved home (Define Home), give its position with "
         "--home X,Y.");
   } else {
-    say("Home at {:g}, {:g} is in its numbers: move home back to 0, 0 before you run it.",
+    say("Its coordinates include home at {:g}, {:g}: move home back to 0, 0 before you run it.",
         home.x_mm,
         home.y_mm);
   }
@@ -255,9 +255,9 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   }
   say("{}", words);
   if (!holds) {
-    say("{}: run on a simulated {} controller, the compensated program is not within {} mm: {}\n"
-        "the program is not written; try another --tolerance-mm, or --no-verify for a look at that "
-        "line",
+    say("{}: run on a simulated {} controller, the compensated program is not within {} mm: "
+        "{}\nthe program is not written; try another --tolerance-mm, or --no-verify to inspect "
+        "that line",
         files::name_in_messages(options.program),
         machine.corrector().firmware().name,
         options.tolerance_mm,

@@ -232,8 +232,8 @@ GcodeTarget target_of_belts(const GcodeOptions& options) {
     BeltsFit taken_as_true = found.fit;
     taken_as_true.scale = grid::BeltScale{};
     target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
-    say("The scale is not known: a turn of the encoder is assumed to be {:g} mm of belt, so parts "
-        "can be no more accurate than that. One long taped distance, or holes, determines it.",
+    say("The scale is unknown. An encoder turn is assumed to be {:g} mm of belt, and parts can be "
+        "no more accurate than that. One long taped distance, or holes, determine the scale.",
         found.fit.machine.belt_turn_mm);
   }
   target.lengths = std::move(map);

@@ -43,8 +43,8 @@ int import_optical(const OpticalCommand& command) {
   options.order = files::named(files::kVisitingOrders, command.order);
   const files::ReadOptical read = files::read_optical(command.input, options);
   write_output(command.output, files::write_grid(read.grid));
-  say("{} of {} squares were visited; the sheet is taken as placed by hand, to {} mm and {} "
-      "mrad{}",
+  say("{} of {} squares were visited; the sheet is assumed to be placed by hand, within {} mm and "
+      "{} mrad{}",
       read.grid.points.size(),
       read.squares,
       read.grid.sheet->shift_mm,
@@ -218,7 +218,7 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
 void tell_pulls(const MeasuredBelts& belts) {
   const std::vector<double> different = grid::different_pulls(belts);
   if (different.size() < 2) return;
-  say("One session of {} pulls, the least {}, the others {:.3g} times as hard.",
+  say("One session with {} pulls: the lowest {}, the others {:.3g} times as strong.",
       different.size(),
       grid::words_of(*grid::reference_pull(belts)),
       fmt::join(different.begin() + 1, different.end(), ", "));
@@ -239,8 +239,8 @@ int import_maslow4(const Maslow4Command& command) {
   say("{} points read.", read.belts.points.size());
   for (const std::string& sentence : read.assumed) say("Assumed: {}.", sentence);
   if (!read.belts.machine.anchors_known) {
-    say("The anchors in force are not known; --settings maslow.yaml gives them, with the "
-        "arm and the heights.");
+    say("The anchors in force are unknown; --settings maslow.yaml supplies them, with the arm and "
+        "the heights.");
   }
   if (read.stopped) say("{}", *read.stopped);
   if (read.is_enough) say_next({"fit", command.output, "-o", "anchors.json"});

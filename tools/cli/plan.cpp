@@ -90,7 +90,7 @@ int plan_the_check(const CompensationMap& map,
                                 plan->expected_sigmas.right));
   if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
   write_outputs(outputs);
-  say("{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: that is "
+  say("{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: its effect is "
       "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).",
       plan->marks.size(),
       100.0 * model::kPitchGrowthSigma,

@@ -118,7 +118,7 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
   const InputFile after = open_input(options.after);
   const Diagnosis found = load_diagnosis(after);
   if (!is_of(found, read.belts)) {
-    say("{} was made from readings other than those of {}: diagnose these first.",
+    say("{} was made from other readings than those in {}: diagnose these first.",
         options.after,
         file.name);
     return kBadInput;
@@ -308,7 +308,7 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
   const bool none_holds_readings =
       grid::none_of(sources.all, [](const Source& source) { return source.json; });
   if (none_holds_readings && proposes(found, MeasurementKind::reading)) {
-    say("A CSV cannot store readings: use a {} (JSON), which has a list for them.",
+    say("A CSV file cannot store readings: use a {} (JSON), which has a list for them.",
         sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
   // The next step once these are measured and written into their files.

@@ -113,7 +113,7 @@ Machine with_settings(const Machine& stated,
     machine.bed = file.bed;
   }
   if (names_none) {
-    say("The map names no controller; a {} with the settings of {} is used.",
+    say("The map has no controller; a {} with the settings in {} is used.",
         name_of(machine.controller.kind),
         now.name);
     return machine;
@@ -124,10 +124,10 @@ Machine with_settings(const Machine& stated,
       files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
   refuse_other_chain(changes, now.name);
   if (changes.empty()) {
-    say("{} has the settings that the map is for.", now.name);
+    say("{} has the map's settings.", now.name);
   } else {
-    say("The settings in {} differ from those that the map was measured with ({}): the new "
-        "ones are used.",
+    say("The settings in {} differ from those that the map was measured with ({}); the new ones "
+        "are used.",
         now.name,
         files::in_words(changes));
   }

@@ -327,9 +327,9 @@ void advise(const SquareOptions& options, const SquareTask& task) {
     add_option_words(again, "--gcode", "square.nc");
     return say_next(again);
   }
-  say("Cut {} and measure the four sides and both diagonals, each from an edge of one "
-      "groove to the same edge of the other, so that the bit's width drops out: as the "
-      "machine is, the lengths are those under cut_mm.{}",
+  say("Cut {} and measure the four sides and both diagonals, each from an edge of one groove to "
+      "the same edge of the other, so that the bit's width cancels. With the machine unchanged, "
+      "the lengths are those under cut_mm.{}",
       options.program == "-" ? "the program" : options.program,
       options.map.empty() ? "" : " With a compensated program, they are those under commanded_mm.");
   if (options.map.empty()) return say_next({"gcode", "check", options.program});

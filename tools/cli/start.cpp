@@ -184,7 +184,7 @@ int start_template(Verb verb, const std::string& folder) {
                folder,
                {{"machine.json", files::write_machine({}, template_comments()), Origin::machine},
                 {"README.txt", template_readme(path), Origin::list}});
-  say("{} describes a classic Maslow, with every key explained. Put your machine's numbers in.",
+  say("{} describes a classic Maslow, with every key explained. Enter your machine's numbers.",
       path);
   say_next({"start", path});
   return kDone;

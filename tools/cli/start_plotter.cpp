@@ -92,7 +92,7 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   if (folder.empty()) folder = ".";
   if (read.plotter.found) {
     set = grid::once_typed_in(set, grid::machine_found(set, *read.plotter.found));
-    say("This page is for the plotter with the numbers of export plotter typed in.");
+    say("This page is for the plotter with the numbers from export plotter typed in.");
   }
   const grid::TestDrawing drawing = grid::planned_drawing(set);
   require_reach(drawing, file.name);

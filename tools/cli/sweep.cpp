@@ -290,8 +290,8 @@ int assemble(Verb verb,
              const SweepOptions& options) {
   const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
   if (missing > 0) {
-    say("chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
-        "parts of all shards stand in {}/parts",
+    say("chaintrue sweep: {} of {} cells are finished; results.csv is written once the parts of "
+        "all shards are in {}/parts",
         static_cast<std::ptrdiff_t>(cells.size()) - missing,
         cells.size(),
         options.directory);
