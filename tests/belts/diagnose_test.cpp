@@ -126,7 +126,7 @@ TEST(BeltsDiagnosis, ReportsLengthsThatExcludeTheArms) {
   MeasuredBelts belts = measured_in({{"belt_zero", "all", {{"offset_mm", -153.4}}}});
   const Diagnosis found = diagnosed(belts);
   ASSERT_FALSE(found.causes.empty()) << found.sentence;
-  EXPECT_THAT(found.what_to_do.front(), HasSubstr("exclude arm and extension"));
+  EXPECT_THAT(found.what_to_do.front(), HasSubstr("do not include arm and extension"));
 }
 
 TEST(BeltsDiagnosis, UntestableCausesNameTheMeasurementThatTestsThem) {
