@@ -105,5 +105,5 @@ def test_several_files_are_one_fit(grid, holes, calibration):
 def test_belts_are_diagnosed_by_themselves(belts, grid):
     found = chaintrue.diagnose(belts)
     assert found.sentence and found.machine is None
-    with pytest.raises(ValueError, match="themselves"):
+    with pytest.raises(ValueError, match="with the machine in their file"):
         chaintrue.diagnose(belts, grid)

@@ -92,7 +92,7 @@ for (const browser of browsers) {
     await visit.text("#step-measure .said.good", "With this map it misses by about 0.2 mm");
     await visit.type(11, 1, "-230.5");
     await visit.text("tr.note", "is it -250.5 rather than -230.5?");
-    await visit.text("#step-measure .said.caution", "Mark 12 lies 20 mm off");
+    await visit.text("#step-measure .said.caution", "Mark 12 is 20 mm from");
     await visit.click("Undo");
     await visit.text("#step-measure .said.good", "With this map");
     await assertFits(visit, "the readings");
@@ -187,7 +187,7 @@ for (const browser of browsers) {
     await visit.page.type("#belts-wish", "0,5");
     await visit.page.keyboard.press("Tab");
     await visit.click("Result");
-    await visit.text("#step-result .said", "You wish for 0.5 mm: reached");
+    await visit.text("#step-result .said", "Your target is 0.5 mm: reached");
     await visit.click("Measure");
     await visit.page.click("#leave-7");
     await visit.text("#step-measure tr.out th", "7");
