@@ -280,8 +280,8 @@ Record<Diagnosis> make_diagnosis_record() {
                 left_over_record())
       .optional("tool_today",
                 "Error of the machine as it is used today, over the measured part: the first "
-                "number of a fit, at least the effect of a claimed law at the points. Absent for "
-                "belts and if no map can be made.",
+                "number of a fit, at least the effect of a claimed law at the points. Absent if "
+                "no map or anchors can be made.",
                 &Diagnosis::tool_today,
                 error_summary_record())
       .optional("visiting_order",
