@@ -329,7 +329,7 @@ FramePoint nearest_place(const model::BeltMachine& machine,
     }
     return square;
   };
-  // Any two belts that count cross somewhere; the middle of the frame where none do.
+  // The crossing of any two counting belts; the middle of the frame if none cross.
   FramePoint best{0.5 * a.br.x_mm, 0.5 * std::max(a.tl.y_mm, a.tr.y_mm)};
   double least = square_at(best);
   for (const Belt first : kBelts) {

@@ -111,7 +111,7 @@ ExpectedImprovement over_units(const RegressorSystem& there,
   return {drop / count, drop > 0.0 ? drop / (drop + doubt) : 0.0};
 }
 
-/// Over the distances that were read, since nothing between them has a position.
+/// Over the distances that were read, because only they have positions.
 ExpectedImprovement improvement_of_distances(const Analysis& a) {
   const Estimate plain = estimate_of(a, {});
   const Estimate named = estimate_of(a, a.decision.regressors);

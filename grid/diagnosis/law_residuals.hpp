@@ -29,7 +29,7 @@ namespace chaintrue::grid::diagnosis {
 //
 // Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.25.
 
-/// For the law at the heaviest point of its curve; absent where no parts of the bed can be left out.
+/// For the law at the heaviest point of its curve; absent if no parts of the bed can be left out.
 [[nodiscard]] std::optional<LawHeldOut> held_out_with(const Analysis& analysis,
                                                       const LawEvidence& evidence,
                                                       const WeighedLaw& law);

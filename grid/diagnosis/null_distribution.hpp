@@ -50,7 +50,7 @@ class SingleScore {
     return result;
   }
 
-  /// The largest over the columns of normal equations of so many rows.
+  /// The largest over the columns of normal equations with this many rows.
   [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const {
     double result = kNoScore;
     for (std::size_t i = 0; i < equations.columns.size(); ++i) {

@@ -35,7 +35,7 @@ ModelSurface& surface_of(MapContents& contents) {
   return *surface;
 }
 
-/// Differences of the lengths at one place, a row for each chain; empty where a map does not answer.
+/// Differences of the lengths at one place, a row for each chain; empty if a map does not answer.
 Eigen::Matrix2Xd differences_at(const std::vector<MapDifference>& differences,
                                 model::MarkPoint mark) {
   Eigen::Matrix2Xd at(2, std::ssize(differences));

@@ -151,7 +151,7 @@ class FactoredCovariance {
   }
 
  private:
-  /// L^-1 of a unit. Throws with the noise where it is not positive.
+  /// L^-1 of a unit. Throws if the noise is not positive.
   static Eigen::MatrixXd whitening_of_unit(const Eigen::MatrixXd& own) {
     const linear::Cholesky factor(own);
     if (own.size() == 0 || !factor.is_positive_definite()) {
