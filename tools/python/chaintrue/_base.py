@@ -12,6 +12,7 @@ import warnings
 from typing import Any, Callable, Iterable, Optional, Sequence, Union
 
 import numpy
+from numpy.typing import NDArray
 
 from . import _core
 from ._records import Record, table
@@ -81,21 +82,24 @@ class Filed(Written):
         thing._text, thing._sources = text, tuple(sources)
         return thing
 
+    @classmethod
+    def _kind(cls) -> str:
+        return cls.__name__.lower()
+
     def _become(self, contents: dict[str, Any], sources: Sources, few: bool = False) -> None:
         """The object that a file with these contents describes; keys without a value are dropped."""
-        kind = type(self).__name__.lower()
-        text = text_of(contents, f"chaintrue_{kind}")
-        self._text, _ = _core.parse(kind, text, "arrays", "", few)
+        text = text_of(contents, f"chaintrue_{self._kind()}")
+        self._text, _ = _core.parse(self._kind(), text, "arrays", "", few)
         self._sources = tuple(sources)
 
     @classmethod
     def from_dict(cls, contents: dict[str, Any]) -> Any:
         """The object with this to_dict(), checked as a file is."""
-        return told(cls, parsed(cls, json.dumps(contents), "the dictionary"))
+        return from_text(cls, json.dumps(contents), "the dictionary")
 
     @property
     def _file(self) -> File:
-        return File(f"{type(self).__name__.lower()}.json", self._text)
+        return File(f"{self._kind()}.json", self._text)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), self._text, self._sources)
@@ -111,8 +115,41 @@ class Filed(Written):
         return facts_table(f"{type(self).__name__} {self.name}", self._facts())
 
 
-class Made(Filed):
-    """A result with its sources and an HTML report, which a notebook shows."""
+class Listed(Filed):
+    """Measurements: entries of a list in their file."""
+
+    _list = "points"
+
+    def _columns(self, *keys: str, number: type = float) -> Any:
+        """(n, ...) array of the values under these keys; None where an entry lacks one."""
+        entries = self._contents[self._list]
+        if any(key not in entry for entry in entries for key in keys):
+            return None
+        return numpy.array([[entry[key] for key in keys] for entry in entries], dtype=number)
+
+    def __len__(self) -> int:
+        return len(self._contents[self._list])
+
+
+class Paged:
+    """What has an HTML report, which a notebook shows."""
+
+    _page_text: str
+    _height = 640
+
+    def _page(self, source: str, *options: str) -> str:
+        return self._page_text
+
+    def _repr_html_(self) -> str:
+        """The page in a frame of the notebook, so that their styles stay apart."""
+        return (
+            f'<iframe sandbox="allow-scripts" srcdoc="{html.escape(self._page("Python"))}" '
+            f'style="width:100%;height:{self._height}px;border:0"></iframe>'
+        )
+
+
+class Made(Paged, Filed):
+    """A result with its sources and a report."""
 
     made_by: Optional[Record] = key(
         "made_by",
@@ -128,7 +165,7 @@ class Made(Filed):
     @classmethod
     def _by(cls, *words: Union[str, File], sources: Sources) -> Any:
         """The output of a verb, with the sources of its inputs instead of the run's temporary files."""
-        result = cls.__name__.lower() + ".json"
+        result = f"{cls._kind()}.json"
         files, _, _ = run(*words, "-o", result, out=[result], sources=sources)
         return cls._of(files[result])
 
@@ -138,9 +175,6 @@ class Made(Filed):
         file = File(pathlib.PurePath(source).name or "Python", self._text)
         return run("report", file, "-o", page, *options, out=[page])[0][page]
 
-    def _repr_html_(self) -> str:
-        return framed(self._page("Python"))
-
 
 def inputs(things: Iterable[Filed]) -> list[Union[str, File]]:
     """The arguments that pass these objects' files to a verb."""
@@ -148,22 +182,30 @@ def inputs(things: Iterable[Filed]) -> list[Union[str, File]]:
     return words[1:]
 
 
-def parsed(kind: type[Filed], text: str, file: str) -> tuple[str, list[str]]:
-    """A file's text in this version's form, and the assumptions made in reading it."""
-    return _core.parse(kind.__name__.lower(), text, file, "", True)
+def from_text(kind: type[Filed], text: str, file: str, sources: Sources = ()) -> Any:
+    """The object of a file's text."""
+    return _told(kind, *_core.parse(kind._kind(), text, file, "", True), sources)
 
 
 def from_file(
     kind: type[Filed], path: PathLike, machine: Optional[Filed] = None, few: bool = False
-) -> tuple[str, list[str], Sources]:
-    """The same for a file, with that machine, and the files that were read for it."""
+) -> Any:
+    """The object of a file, with that machine in place of its own."""
     stated = "" if machine is None else machine._text
-    return _core.read(kind.__name__.lower(), os.fspath(path), stated, few)
+    text, assumed, sources = _core.read(kind._kind(), os.fspath(path), stated, few)
+    return _told(kind, text, assumed, [*sources, *sources_of(machine)])
 
 
 def _again(kind: type[Filed], text: str, sources: Sources) -> Any:
     """Restores a pickled object."""
-    return told(kind, (*parsed(kind, text, f"the stored {kind.__name__}"), sources))
+    return from_text(kind, text, f"the stored {kind.__name__}", sources)
+
+
+def _told(kind: type[Filed], text: str, assumed: list[str], sources: Sources) -> Any:
+    """What was read; each assumption is a warning where the reading was asked for."""
+    for sentence in assumed:
+        warnings.warn(sentence, stacklevel=4)
+    return kind._of(text, sources)
 
 
 def sources_of(*things: Optional[Filed]) -> list[tuple[str, str]]:
@@ -178,23 +220,6 @@ def facts_table(title: str, facts: dict[str, Any]) -> str:
     return f"<b>{html.escape(title)}</b>" + table({"": names, " ": values})
 
 
-def framed(page: str, height: int = 640) -> str:
-    """A page in a frame of the notebook, so that their styles stay apart."""
-    return (
-        f'<iframe sandbox="allow-scripts" srcdoc="{html.escape(page)}" '
-        f'style="width:100%;height:{height}px;border:0"></iframe>'
-    )
-
-
-def told(kind: type[Filed], read: tuple[Any, ...], machine: Optional[Filed] = None) -> Any:
-    """What was read, on that machine; what was assumed of it is a warning where the reading was asked
-    for."""
-    text, sentences, *sources = read
-    for sentence in sentences:
-        warnings.warn(sentence, stacklevel=3)
-    return kind._of(text, [*(sources[0] if sources else ()), *sources_of(machine)])
-
-
 def in_words(facts: dict[str, Any]) -> str:
     return ", ".join(f"{value} {key}" for key, value in facts.items())
 
@@ -205,23 +230,20 @@ def text_of(contents: dict[str, Any], file_type: str) -> str:
     return json.dumps({**head, **{k: v for k, v in contents.items() if v is not None}})
 
 
-def rows(numbers: Any, name: str, columns: int = 2) -> numpy.ndarray:
-    """Returns an (n, columns) float64 array of finite numbers; raises ValueError otherwise."""
+def array_of(
+    numbers: Any, name: str, columns: int = 2, also_single: bool = False
+) -> NDArray[numpy.float64]:
+    """Returns an (n, columns) float64 array of finite numbers, with `also_single` (..., columns); raises
+    ValueError otherwise."""
     array = numpy.asarray(numbers, dtype=numpy.float64)
-    if array.ndim != 2 or array.shape[1] != columns:
-        raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}")
-    bad = numpy.flatnonzero(~numpy.isfinite(array).all(axis=1))
+    if array.shape[-1:] != (columns,) or (array.ndim != 2 and not also_single):
+        or_single = f" or ({columns},)" * also_single
+        raise ValueError(f"{name} must have the shape (n, {columns}){or_single}, not {array.shape}")
+    bad = numpy.argwhere(~numpy.isfinite(array))
     if bad.size:
-        raise ValueError(f"{name}: row {bad[0]} holds a number that is none, or infinite")
+        row = bad[0][0] if array.ndim > 1 else 0
+        raise ValueError(f"{name}: row {row} holds a number that is none, or infinite")
     return array
-
-
-def same_count(counts: dict[str, Optional[int]]) -> None:
-    """Raises ValueError unless all arrays have as many rows as the first; None is skipped."""
-    first, *others = counts
-    for name in others:
-        if counts[name] is not None and counts[name] != counts[first]:
-            raise ValueError(f"{counts[first]} {first}, but {counts[name]} {name}")
 
 
 def one_of(word: str, name: str, words: tuple[str, ...]) -> str:

@@ -7,14 +7,16 @@ import os
 from typing import Any, Optional, Union
 
 from . import _plots
-from ._base import PathLike, Written, framed, inputs, key
+from ._base import Paged, PathLike, Written, inputs, key
 from ._maps import Anchors, Map, Measured, sorted_out
 from ._records import Record, Records, records
 from ._run import run
 
 
-class Check(Written):
+class Check(Paged, Written):
     """Whether a map or anchors are still valid; the file is that of `chaintrue check --json`."""
+
+    _height = 420
 
     def __init__(self, text: str, page: str):
         self._text = text
@@ -45,18 +47,10 @@ class Check(Written):
         """residuals.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
         return self.residuals.to_frame()
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the probability of each possible change; returns the axes."""
-        return _plots.probabilities(self.hypotheses, "what", ax)
+    plot = _plots.probabilities
 
     def __repr__(self) -> str:
         return f"<chaintrue.Check: {self.sentence}>"
-
-    def _page(self, source: str) -> str:
-        return self._page_text
-
-    def _repr_html_(self) -> str:
-        return framed(self._page_text, 420)
 
 
 def check(

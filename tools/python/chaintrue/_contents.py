@@ -7,38 +7,35 @@ from typing import Any, Iterable
 
 import numpy
 
-from ._base import rows, same_count
+from ._base import array_of
 
 Readings = Iterable[dict[str, Any]]
 """An additional reading, as in a file: {"what": "link_pitch_mm", "side": "left", "value": 6.353,
 "sigma": 0.001}."""
 
-
-def points_of(marks: Any, lengths: Any, commanded: Any, order: Any) -> list[dict[str, Any]]:
-    """The "points" entry of a grid."""
-    places = rows(marks, "marks")
-    points: list[dict[str, Any]] = [{"x_mm": x, "y_mm": y} for x, y in places.tolist()]
-    if lengths is not None:
-        read = rows(lengths, "lengths")
-        same_count({"marks": len(points), "lengths": len(read)})
-        for point, (left, right) in zip(points, read.tolist()):
-            point.update(left_mm=left, right_mm=right)
-    add_visits(points, commanded, order, "marks")
-    return points
+PLACE = ("x_mm", "y_mm")
+COMMANDED = ("commanded_x_mm", "commanded_y_mm")
 
 
-def add_visits(points: list[dict[str, Any]], commanded: Any, order: Any, rows_are: str) -> None:
+def entries_of(numbers: Any, name: str, keys: tuple[str, ...]) -> list[dict[str, Any]]:
+    """The rows of an array with as many columns, each as an entry of a file."""
+    return [dict(zip(keys, row)) for row in array_of(numbers, name, len(keys)).tolist()]
+
+
+def add(entries: list[dict[str, Any]], name: str, more: list[dict[str, Any]], more_name: str) -> None:
+    """Adds further keys to each entry. Raises ValueError unless there are as many."""
+    if len(more) != len(entries):
+        raise ValueError(f"{len(entries)} {name}, but {len(more)} {more_name}")
+    for entry, values in zip(entries, more):
+        entry.update(values)
+
+
+def add_visits(points: list[dict[str, Any]], name: str, commanded: Any, order: Any) -> None:
     """Adds commanded places and visit numbers, if given."""
     if commanded is not None:
-        sent = rows(commanded, "commanded")
-        same_count({rows_are: len(points), "commanded places": len(sent)})
-        for point, (x, y) in zip(points, sent.tolist()):
-            point.update(commanded_x_mm=x, commanded_y_mm=y)
+        add(points, name, entries_of(commanded, "commanded", COMMANDED), "commanded places")
     if order is not None:
-        numbers = [int(number) for number in order]
-        same_count({rows_are: len(points), "orders": len(numbers)})
-        for point, number in zip(points, numbers):
-            point["order"] = number
+        add(points, name, [{"order": int(number)} for number in order], "orders")
 
 
 def _end(end: Any) -> Any:
@@ -46,8 +43,7 @@ def _end(end: Any) -> Any:
     if isinstance(end, str):
         return end
     if numpy.ndim(end) == 1:
-        x, y = end
-        return {"x_mm": float(x), "y_mm": float(y)}
+        return dict(zip(PLACE, map(float, end), strict=True))
     return int(end)
 
 
@@ -56,5 +52,5 @@ def distance_of(one: tuple[Any, ...]) -> dict[str, Any]:
     if len(one) not in (3, 4):
         raise ValueError(f"a distance is (from, to, mm) or (from, to, mm, sigma), not {one!r}")
     start, end, *numbers = one
-    values = dict(zip(("distance_mm", "sigma_mm"), (float(number) for number in numbers)))
+    values = dict(zip(("distance_mm", "sigma_mm"), map(float, numbers)))
     return {"from": _end(start), "to": _end(end), **values}

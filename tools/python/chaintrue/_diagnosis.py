@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Optional
 
 from . import _plots
-from ._base import Made, PathLike, from_file, inputs, key, sources_of, told
+from ._base import Made, PathLike, from_file, inputs, key, sources_of
 from ._maps import Measured, sorted_out
 from ._measured import Grid, Machine, machine_in
 from ._records import Record, Records, records
@@ -61,9 +61,7 @@ class Diagnosis(Made):
         """causes.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
         return self.causes.to_frame()
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the probabilities of the hypotheses; returns the axes."""
-        return _plots.probabilities(self.hypotheses, "effect", ax)
+    plot = _plots.probabilities
 
     def __repr__(self) -> str:
         return f"<chaintrue.Diagnosis {self.name!r}: {self.sentence}>"
@@ -100,4 +98,4 @@ def diagnose(
 
 def read_diagnosis(path: PathLike) -> Diagnosis:
     """The Diagnosis of a chaintrue_diagnosis file."""
-    return told(Diagnosis, from_file(Diagnosis, path))
+    return from_file(Diagnosis, path)

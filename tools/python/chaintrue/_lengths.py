@@ -10,11 +10,11 @@ import numpy
 from numpy.typing import NDArray
 
 from . import _plots
-from ._records import frame, table
+from ._records import Tabled
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Lengths:
+class Lengths(Tabled):
     """What a map says of places. A single place has no first axis: lengths are (2,), status is a word.
 
     points      (..., 2) array, mm: x and y as they were asked for
@@ -86,29 +86,7 @@ class Lengths:
         columns["status"] = numpy.reshape(self.status, -1).tolist()
         return columns
 
-    def to_frame(self) -> Any:
-        """A pandas.DataFrame with a row for each place. Raises MissingPackage without pandas."""
-        return frame(self.columns())
-
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the places, coloured by the tool's sigma; returns the axes."""
-        return _plots.lengths(self, ax)
-
-    def _repr_html_(self) -> str:
-        return table(self.columns())
-
-
-def places_of(numbers: Any, name: str) -> NDArray[numpy.float64]:
-    """A (..., 2) float64 array of finite numbers, or ValueError."""
-    array = numpy.asarray(numbers, dtype=numpy.float64)
-    if array.ndim == 0 or array.shape[-1] != 2:
-        raise ValueError(f"{name} must have the shape (n, 2) or (2,), not {array.shape}")
-    bad = numpy.argwhere(~numpy.isfinite(array))
-    if bad.size:
-        raise ValueError(
-            f"{name}: row {bad[0][0] if array.ndim > 1 else 0} holds a number that is none, or infinite"
-        )
-    return array
+    plot = _plots.lengths
 
 
 def masked(numbers: NDArray[numpy.float64]) -> numpy.ma.MaskedArray:

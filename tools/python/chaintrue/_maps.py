@@ -10,8 +10,8 @@ import numpy
 from numpy.typing import ArrayLike
 
 from . import _core, _plots
-from ._base import Made, PathLike, from_file, inputs, key, one_of, sources_of, told
-from ._lengths import Lengths, answered, masked, places_of
+from ._base import Made, PathLike, array_of, from_file, inputs, key, one_of, sources_of
+from ._lengths import Lengths, answered, masked
 from ._measured import Grid, Machine
 from ._records import Record, Records, records
 from ._taped import Belts, Holes
@@ -51,16 +51,22 @@ class _Asked(Made):
     def _answering(self) -> Any:
         return _core.Answering(self._text)
 
-    def _query(self, xy: ArrayLike, bed: bool) -> Lengths:
-        places = places_of(xy, "points")
-        return answered(places, self._answering.query(places.reshape(-1, 2), bed))
+    def query(self, xy: ArrayLike, frame: str = "marks") -> Lengths:
+        """The chain or belt lengths at places, an array (..., 2) of x and y in mm; (2,) is one place.
 
-    def _inverse(self, lengths: Any, bed: bool) -> numpy.ma.MaskedArray:
+        frame  of a map: marks: as the grid's points were given; bed: as the machine file has it
+        """
+        places = array_of(xy, "points", also_single=True)
+        return answered(places, self._answering.query(places.reshape(-1, 2), _is_bed(frame)))
+
+    def inverse(self, lengths: Union[ArrayLike, Lengths], frame: str = "marks") -> numpy.ma.MaskedArray:
+        """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
+        of left and right chain or of the upper two belts in mm, or what query gave."""
         if isinstance(lengths, Lengths):
             lengths = lengths.lengths[..., :2]
         unknown = numpy.ma.getmaskarray(numpy.ma.asarray(lengths)).any(axis=-1)
-        pairs = places_of(numpy.ma.filled(lengths, 0.0), "lengths")
-        points = self._answering.inverse(pairs.reshape(-1, 2), bed).reshape(pairs.shape)
+        pairs = array_of(numpy.ma.filled(lengths, 0.0), "lengths", also_single=True)
+        points = self._answering.inverse(pairs.reshape(-1, 2), _is_bed(frame)).reshape(pairs.shape)
         points[unknown] = numpy.nan
         return masked(points)
 
@@ -94,21 +100,7 @@ class Map(_Asked):
         text = self._answering.machine()
         return Machine._of(text) if text else None
 
-    def query(self, xy: ArrayLike, frame: str = "marks") -> Lengths:
-        """The chain lengths at places, an array (..., 2) of x and y in mm; (2,) is one place.
-
-        frame  marks: as the grid's points were given; bed: as the machine file has it
-        """
-        return self._query(xy, _is_bed(frame))
-
-    def inverse(self, lengths: Union[ArrayLike, Lengths], frame: str = "marks") -> numpy.ma.MaskedArray:
-        """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
-        of left and right chain in mm, or what query gave."""
-        return self._inverse(lengths, _is_bed(frame))
-
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the tool's expected error over the bed, and the points; returns the axes."""
-        return _plots.calibration(self, ax)
+    plot = _plots.calibration
 
     def _facts(self) -> dict[str, Any]:
         return {
@@ -138,18 +130,7 @@ class Anchors(_Asked):
         """Lines to paste into the machine's terminal."""
         return _core.maslow4_settings(self._text)
 
-    def query(self, xy: ArrayLike) -> Lengths:
-        """The belt lengths at places, an array (..., 2) of x and y in mm; (2,) is one place."""
-        return self._query(xy, False)
-
-    def inverse(self, lengths: Union[ArrayLike, Lengths]) -> numpy.ma.MaskedArray:
-        """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
-        of the upper two belts in mm, or what query gave."""
-        return self._inverse(lengths, False)
-
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the anchors and the places; returns the axes."""
-        return _plots.belts(self._contents["fit"], ax)
+    plot = _plots.belts
 
     def _facts(self) -> dict[str, Any]:
         return {
@@ -172,11 +153,6 @@ def sorted_out(measured: Iterable[Measured], who: str) -> tuple[list[Any], list[
     if not any(found.values()):
         raise TypeError(f"{who} takes Grids, Holes and Belts, one at least")
     return found[Grid], found[Holes], found[Belts]
-
-
-def texts_of(*things: Iterable[Measured]) -> list[str]:
-    """The texts of their files, in the order of the lists."""
-    return [thing._text for one in things for thing in one]
 
 
 @overload
@@ -223,21 +199,21 @@ def fit(
 
 def read_map(path: PathLike) -> Map:
     """The Map of a chaintrue_map file."""
-    return told(Map, from_file(Map, path))
+    return from_file(Map, path)
 
 
 def read_anchors(path: PathLike) -> Anchors:
     """The Anchors of a chaintrue_anchors file."""
-    return told(Anchors, from_file(Anchors, path))
+    return from_file(Anchors, path)
 
 
 def query(map: Union[Map, Anchors], points: ArrayLike, frame: str = "marks") -> Lengths:
     """Chain lengths at points: the same as calibration.query(points)."""
-    return map.query(points) if isinstance(map, Anchors) else map.query(points, frame)
+    return map.query(points, frame)
 
 
 def inverse(
     map: Union[Map, Anchors], lengths: Union[ArrayLike, Lengths], frame: str = "marks"
 ) -> numpy.ma.MaskedArray:
     """Places for chain lengths: the same as calibration.inverse(lengths)."""
-    return map.inverse(lengths) if isinstance(map, Anchors) else map.inverse(lengths, frame)
+    return map.inverse(lengths, frame)

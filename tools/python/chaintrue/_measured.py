@@ -9,9 +9,11 @@ from typing import Any, Iterable, Optional
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from . import _plots
-from ._base import Filed, PathLike, from_file, parsed, sources_of, told
-from ._contents import Readings, points_of
+from . import _core, _plots
+from ._base import Filed, Listed, PathLike, from_file, sources_of
+from ._contents import COMMANDED, PLACE, Readings, add, add_visits, entries_of
+
+_LENGTHS = ("left_mm", "right_mm")
 
 
 class Machine(Filed):
@@ -21,12 +23,10 @@ class Machine(Filed):
         bed = self._contents["bed"]
         return {"mm wide": bed["width_mm"], "mm high": bed["height_mm"]}
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots bed and motors with matplotlib; returns the axes."""
-        return _plots.machine(self._contents, ax)
+    plot = _plots.machine
 
 
-class Grid(Filed):
+class Grid(Listed):
     """Measured points of one session.
 
     marks      (n, 2) array, mm: where the tool was, x and y
@@ -61,12 +61,16 @@ class Grid(Filed):
         noise = None
         if length_noise_mm is not None:
             noise = {"length_mm": length_noise_mm, "position_mm": position_noise_mm, "dof": noise_dof}
+        points = entries_of(marks, "marks", PLACE)
+        if lengths is not None:
+            add(points, "marks", entries_of(lengths, "lengths", _LENGTHS), "lengths")
+        add_visits(points, "marks", commanded, order)
         contents = {
             "name": name,
             "machine": None if machine is None else machine.to_dict(),
             "noise": noise,
             "readings": list(readings) or None,
-            "points": points_of(marks, lengths, commanded, order),
+            "points": points,
         }
         self._become(contents, sources_of(machine), few)
 
@@ -78,53 +82,42 @@ class Grid(Filed):
     @property
     def marks(self) -> NDArray[numpy.float64]:
         """(n, 2) array, mm: where the tool was, x and y."""
-        return self._column(float, "x_mm", "y_mm")
+        return self._columns(*PLACE)
 
     @property
     def lengths(self) -> Optional[NDArray[numpy.float64]]:
         """(n, 2) array, mm: left and right chain as read; None where a point has none."""
-        return self._column(float, "left_mm", "right_mm")
+        return self._columns(*_LENGTHS)
 
     @property
     def commanded(self) -> Optional[NDArray[numpy.float64]]:
         """(n, 2) array, mm: the commanded places; None for points without one."""
-        return self._column(float, "commanded_x_mm", "commanded_y_mm")
+        return self._columns(*COMMANDED)
 
     @property
     def order(self) -> Optional[NDArray[numpy.int_]]:
         """(n,) array of visit numbers; None if the order is not known."""
-        order = self._column(int, "order")
+        order = self._columns("order", number=int)
         return None if order is None else order[:, 0]
-
-    def _column(self, number: type, *keys: str) -> Any:
-        points = self._contents["points"]
-        if any(key not in point for point in points for key in keys):
-            return None
-        return numpy.array([[point[key] for key in keys] for point in points], dtype=number)
-
-    def __len__(self) -> int:
-        return len(self._contents["points"])
 
     def _facts(self) -> dict[str, Any]:
         read = "read at each" if self.lengths is not None else "commanded for each"
         what = "two lengths" if self.lengths is not None else "a place"
         return {"points": len(self), read: what}
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the marks, with arrows from the commanded places; returns the axes."""
-        return _plots.grid(self.marks, self.commanded, ax)
+    plot = _plots.grid
 
 
 def machine_in(contents: dict[str, Any], key: str = "machine") -> Optional[Machine]:
     """The Machine on two chains that a file holds, or None."""
     if "motors" not in contents.get(key, {}):
         return None
-    return Machine._of(parsed(Machine, json.dumps(contents[key]), key)[0])
+    return Machine._of(_core.parse("machine", json.dumps(contents[key]), key, "", True)[0])
 
 
 def read_machine(path: PathLike) -> Machine:
     """The Machine of a chaintrue_machine file; assumptions are issued as warnings."""
-    return told(Machine, from_file(Machine, path))
+    return from_file(Machine, path)
 
 
 def read_grid(path: PathLike, machine: Optional[Machine] = None, few: bool = False) -> Grid:
@@ -132,4 +125,4 @@ def read_grid(path: PathLike, machine: Optional[Machine] = None, few: bool = Fal
 
     few  a handful of points, which only check a map
     """
-    return told(Grid, from_file(Grid, path, machine, few), machine)
+    return from_file(Grid, path, machine, few)

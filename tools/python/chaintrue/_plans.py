@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _core, _plots
 from ._base import PathLike, facts_table, in_words, one_of
 from ._diagnosis import Diagnosis
-from ._maps import Map, Measured, sorted_out, texts_of
+from ._maps import Map, Measured, sorted_out
 from ._measured import Grid, Machine
 from ._records import Records, records
 from ._run import run
@@ -76,9 +76,7 @@ class Plan:
         """to_records().to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
         return self.to_records().to_frame()
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the places in the order of the visits; returns the axes."""
-        return _plots.plan(self.marks[self.visits], ax)
+    plot = _plots.plan
 
     def _facts(self) -> dict[str, Any]:
         facts: dict[str, Any] = {"places": len(self), "visits": len(self.visits)}
@@ -168,6 +166,7 @@ def _plan_after(measured: Any, found: Diagnosis) -> Plan:
     grids, holes, belts = sorted_out([measured] if one else measured, "plan")
     if belts and (len(belts) > 1 or grids or holes):
         raise ValueError("Belts are diagnosed by themselves, one at a time")
-    plan = _core.plan_after(found._text, texts_of(grids, holes, belts))
+    texts = [thing._text for thing in (*grids, *holes, *belts)]
+    plan = _core.plan_after(found._text, texts)
     marks = numpy.array(plan.pop("marks")).reshape(-1, 2)
     return Plan(marks=marks, visits=list(range(len(marks))), program="", **plan)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plots with matplotlib, where it is installed. Each takes axes to draw on, or makes them, and gives
-them back; places are in mm, x to the right, y up."""
+"""Plots with matplotlib, where it is installed. Each public function is the method `plot` of a class: it takes
+axes to draw on, or makes them, and gives them back; places are in mm, x to the right, y up."""
 
 from __future__ import annotations
 
@@ -31,110 +31,108 @@ def _axes(ax: Any) -> Any:
 
 def _bed_axes(ax: Any, title: str) -> Any:
     axes = _axes(ax)
-    axes.set_aspect("equal")
-    axes.set_xlabel("x, mm")
-    axes.set_ylabel("y, mm")
-    axes.set_title(title)
+    axes.set(aspect="equal", xlabel="x, mm", ylabel="y, mm", title=title)
     return axes
 
 
-def _coloured(axes: Any, drawn: Any, label: str) -> None:
-    axes.figure.colorbar(drawn, ax=axes, label=label, orientation="horizontal")
+def _coloured(axes: Any, drawn: Any) -> None:
+    axes.figure.colorbar(drawn, ax=axes, label="one sigma, mm", orientation="horizontal")
 
 
-def machine(contents: dict[str, Any], ax: Any) -> Any:
-    axes = _bed_axes(ax, contents.get("name", ""))
+def _places(entries: Iterable[dict[str, Any]], before: str = "") -> numpy.ndarray:
+    """(n, 2) array: x and y of the entries that have both."""
+    x, y = f"{before}x_mm", f"{before}y_mm"
+    return numpy.array([(one[x], one[y]) for one in entries if x in one and y in one]).reshape(-1, 2)
+
+
+def machine(of: Any, ax: Any = None) -> Any:
+    """Plots bed and motors with matplotlib; returns the axes."""
+    contents = of.to_dict()
+    axes = _bed_axes(ax, of.name)
     wide, high = contents["bed"]["width_mm"] / 2, contents["bed"]["height_mm"] / 2
     axes.plot([-wide, wide, wide, -wide, -wide], [-high, -high, high, high, -high])
-    motors = contents["motors"].values()
-    axes.scatter([motor["x_mm"] for motor in motors], [motor["y_mm"] for motor in motors], marker="o")
+    axes.scatter(*_places(contents["motors"].values()).T, marker="o")
     return axes
 
 
-def grid(marks: numpy.ndarray, commanded: Any, ax: Any) -> Any:
+def grid(of: Any, ax: Any = None) -> Any:
+    """Plots the marks, with arrows from the commanded places; returns the axes."""
+    marks, commanded = of.marks, of.commanded
     arrows = "" if commanded is None else ", arrows not to scale"
     axes = _bed_axes(ax, f"{len(marks)} points{arrows}")
-    axes.scatter(marks[:, 0], marks[:, 1], marker="+")
+    axes.scatter(*marks.T, marker="+")
     if commanded is not None:
-        off = marks - commanded
-        axes.quiver(commanded[:, 0], commanded[:, 1], off[:, 0], off[:, 1], angles="xy", color=BEFORE)
+        axes.quiver(*commanded.T, *(marks - commanded).T, angles="xy", color=BEFORE)
     return axes
 
 
-def holes(contents: dict[str, Any], ax: Any) -> Any:
-    places = {}
-    for number, hole in enumerate(contents["holes"]):
-        places[number] = places[hole.get("name", str(number))] = (hole["x_mm"], hole["y_mm"])
-    axes = _bed_axes(ax, f"{len(contents['holes'])} holes")
+def holes(of: Any, ax: Any = None) -> Any:
+    """Plots the holes and the distances between them; returns the axes."""
+    contents, places = of.to_dict(), of.commanded
+    names = [hole.get("name", str(number)) for number, hole in enumerate(contents["holes"])]
+    numbers = {name: number for number, name in enumerate(names)}
+    axes = _bed_axes(ax, f"{len(names)} holes")
     for distance in contents["distances"]:
-        ends = [places.get(distance["from"]), places.get(distance["to"])]
-        if None not in ends:  # an edge is no place
-            axes.plot(*zip(*ends), color=NEUTRAL, linewidth=0.8)
-    for number, hole in enumerate(contents["holes"]):
-        axes.annotate(hole.get("name", str(number)), places[number])
-    axes.scatter(*zip(*(places[number] for number in range(len(contents["holes"])))), marker="o")
+        ends = [numbers.get(distance[end], distance[end]) for end in ("from", "to")]
+        if all(isinstance(end, int) for end in ends):  # an edge is no place
+            axes.plot(*places[ends].T, color=NEUTRAL, linewidth=0.8)
+    for name, place in zip(names, places):
+        axes.annotate(name, place)
+    axes.scatter(*places.T, marker="o")
     return axes
 
 
-def belts(contents: dict[str, Any], ax: Any) -> Any:
-    """Of a chaintrue_belts file or of a fit: anchors count from the bottom left one, places of a file
-    from where the frame's diagonals cross."""
-    anchors = contents.get("machine", {}).get("anchors", {})
-    corners = [
-        (at["x_mm"], at["y_mm"]) for at in anchors.values() if "x_mm" in at and "y_mm" in at
-    ]
+def belts(of: Any, ax: Any = None) -> Any:
+    """Plots the anchors and the places; returns the axes. Anchors count from the bottom left one, commanded
+    places from where the frame's diagonals cross."""
+    contents = of.to_dict()
+    contents = contents.get("fit", contents)
+    corners = _places(contents.get("machine", {}).get("anchors", {}).values())
     axes = _bed_axes(ax, "Four belts")
-    if len(corners) == 4:
-        axes.scatter(*zip(*corners), marker="s")
-    if "places" in contents:
-        places = [(place["x_mm"], place["y_mm"]) for place in contents["places"]]
-    else:
-        middle = _crossing(corners) if len(corners) == 4 else numpy.zeros(2)
-        places = [
-            (point["commanded_x_mm"] + middle[0], point["commanded_y_mm"] + middle[1])
-            for point in contents.get("points", [])
-            if "commanded_x_mm" in point
-        ]
-    if places:
-        axes.scatter(*zip(*places), marker="+")
+    if is_whole := len(corners) == 4:
+        axes.scatter(*corners.T, marker="s")
+    places = _places(contents.get("places", []))
+    if "places" not in contents:
+        places = _places(contents.get("points", []), "commanded_") + (_crossing(corners) if is_whole else 0.0)
+    if places.size:
+        axes.scatter(*places.T, marker="+")
     return axes
 
 
-def _crossing(corners: list[tuple[float, float]]) -> numpy.ndarray:
+def _crossing(corners: numpy.ndarray) -> numpy.ndarray:
     """Where the diagonals cross: tl + s (br - tl) = tr + t (bl - tr)."""
-    top_left, top_right, bottom_left, bottom_right = numpy.array(corners)
+    top_left, top_right, bottom_left, bottom_right = corners
     sides = numpy.column_stack([bottom_right - top_left, top_right - bottom_left])
     along, _ = numpy.linalg.solve(sides, top_right - top_left)
     return top_left + along * (bottom_right - top_left)
 
 
-def calibration(map: Any, ax: Any) -> Any:
-    """The expected error over the domain, at 60 by 30 places, and the measured points."""
-    contents = map.to_dict()
+def calibration(of: Any, ax: Any = None) -> Any:
+    """Plots the tool's expected error over the bed, at 60 by 30 places, and the points; returns the axes."""
+    contents = of.to_dict()
     domain = contents["domain_mm"]
     x = numpy.linspace(domain["x_min"], domain["x_max"], 60)
     y = numpy.linspace(domain["y_min"], domain["y_max"], 30)
-    sigma = map.query(numpy.stack(numpy.meshgrid(x, y), axis=-1)).tool_sigma
-    axes = _bed_axes(ax, f"{map.name}: expected error of the tool")
-    _coloured(axes, axes.pcolormesh(x, y, sigma, shading="nearest", cmap=_EXPECTED_ERROR), "one sigma, mm")
-    points = contents["points"]
-    axes.scatter([p["x_mm"] for p in points], [p["y_mm"] for p in points], marker="+", color="black")
+    sigma = of.query(numpy.stack(numpy.meshgrid(x, y), axis=-1)).tool_sigma
+    axes = _bed_axes(ax, f"{of.name}: expected error of the tool")
+    _coloured(axes, axes.pcolormesh(x, y, sigma, shading="nearest", cmap=_EXPECTED_ERROR))
+    axes.scatter(*_places(contents["points"]).T, marker="+", color="black")
     return axes
 
 
-def lengths(answer: Any, ax: Any) -> Any:
-    places = answer.points.reshape(-1, 2)
+def lengths(of: Any, ax: Any = None) -> Any:
+    """Plots the places, coloured by the tool's sigma; returns the axes."""
     axes = _bed_axes(ax, "Expected error of the tool")
-    drawn = axes.scatter(places[:, 0], places[:, 1], c=answer.tool_sigma.reshape(-1), cmap=_EXPECTED_ERROR)
-    _coloured(axes, drawn, "one sigma, mm")
+    places = of.points.reshape(-1, 2)
+    _coloured(axes, axes.scatter(*places.T, c=of.tool_sigma.reshape(-1), cmap=_EXPECTED_ERROR))
     return axes
 
 
-def probabilities(hypotheses: Iterable[dict[str, Any]], key: str, ax: Any) -> Any:
-    """The most probable causes, the first on top."""
+def probabilities(of: Any, ax: Any = None) -> Any:
+    """Plots the most probable hypotheses, the first on top; returns the axes."""
     axes = _axes(ax)
-    shown = sorted(hypotheses, key=lambda one: one["probability"], reverse=True)[:_MOST_BARS]
-    names = [" ".join(filter(None, (one[key], one.get("side"), _point(one)))) for one in shown]
+    shown = sorted(of.hypotheses, key=lambda one: one["probability"], reverse=True)[:_MOST_BARS]
+    names = [_name(one) for one in shown]
     axes.barh(range(len(shown)), [one["probability"] for one in shown], color=AFTER)
     axes.set_yticks(range(len(shown)))
     axes.set_yticklabels([name.replace("_", " ") for name in names])
@@ -143,33 +141,38 @@ def probabilities(hypotheses: Iterable[dict[str, Any]], key: str, ax: Any) -> An
     return axes
 
 
-def _point(hypothesis: dict[str, Any]) -> str:
-    """Of a bad point its number, from 1."""
-    return str(hypothesis["point"] + 1) if "point" in hypothesis else ""
+def _name(hypothesis: dict[str, Any]) -> str:
+    """Its cause, or what has changed, the side, and the number of a bad point, from 1."""
+    words = [hypothesis.get(key) for key in ("effect", "what", "side")]
+    number = str(hypothesis["point"] + 1) if "point" in hypothesis else ""
+    return " ".join(filter(None, [*words, number]))
 
 
-def plan(visits: numpy.ndarray, ax: Any) -> Any:
+def plan(of: Any, ax: Any = None) -> Any:
+    """Plots the places in the order of the visits; returns the axes."""
+    visits = of.marks[of.visits]
     axes = _bed_axes(ax, f"{len(visits)} visits")
-    axes.plot(visits[:, 0], visits[:, 1], color=NEUTRAL, linewidth=0.8)
-    axes.scatter(visits[:, 0], visits[:, 1], marker="+", color=AFTER)
+    axes.plot(*visits.T, color=NEUTRAL, linewidth=0.8)
+    axes.scatter(*visits.T, marker="+", color=AFTER)
     axes.annotate("1", visits[0])
     return axes
 
 
-def path(pieces: numpy.ndarray, ax: Any) -> Any:
-    """Cuts drawn through, rapids pale, arrows for how far each end is moved (not to scale)."""
+def path(of: Any, ax: Any = None) -> Any:
+    """Plots the path, rapids pale, with arrows for how far each end is moved (not to scale); returns the axes."""
     axes = _bed_axes(ax, "Path, and how far each command is moved")
-    for piece in pieces:
+    for piece in of.pieces:
         axes.plot(piece[[2, 4]], piece[[3, 5]], color=NEUTRAL if piece[1] else AFTER, linewidth=0.8)
-    axes.quiver(pieces[:, 4], pieces[:, 5], pieces[:, 8], pieces[:, 9], color=BEFORE)
+    axes.quiver(*of.pieces[:, [4, 5, 8, 9]].T, color=BEFORE)
     return axes
 
 
-def sweep(errors: Iterable[dict[str, Any]], ax: Any) -> Any:
-    """A line for each level of a factor that has several; the number of points is the x axis."""
+def sweep(of: Any, ax: Any = None) -> Any:
+    """Plots the tool's error over the number of points, a line for each level of the factors that have several;
+    returns the axes."""
     axes = _axes(ax)
     lines: dict[tuple[str, str], list[tuple[float, float]]] = {}
-    for error in errors:
+    for error in of.errors:
         line = lines.setdefault((error["factor"], error["level"]), [])
         line.append((error["points"], error["tool_rms_mm"]))
     factors = [factor for factor, _ in lines if factor != "grid"]

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Iterable, Iterator, Optional
+from html import escape
+from typing import Any, Callable, Iterable, Iterator, Optional
 
 from ._errors import MissingPackage
 
@@ -31,7 +32,20 @@ class Record(dict):
         return value
 
 
-class Records(list):
+class Tabled:
+    """What has columns()."""
+
+    columns: Callable[[], dict[str, list[Any]]]
+
+    def to_frame(self) -> Any:
+        """A pandas.DataFrame of columns(). Raises MissingPackage where pandas is not installed."""
+        return needed("pandas", "A data frame").DataFrame(self.columns())
+
+    def _repr_html_(self) -> str:
+        return table(self.columns())
+
+
+class Records(Tabled, list):
     """A list of records, one after the other."""
 
     def columns(self) -> dict[str, list[Any]]:
@@ -41,21 +55,9 @@ class Records(list):
         keys = list(dict.fromkeys(key for row in rows for key in row))
         return {key: [row.get(key) for row in rows] for key in keys}
 
-    def to_frame(self) -> Any:
-        """A pandas.DataFrame of columns(). Raises MissingPackage where pandas is not installed."""
-        return frame(self.columns())
-
-    def _repr_html_(self) -> str:
-        return table(self.columns())
-
 
 def records(values: Optional[Iterable[dict]], kind: type[Record] = Record) -> Records:
     return Records(kind.of(value) for value in values or ())
-
-
-def frame(columns: dict[str, Any]) -> Any:
-    """A pandas.DataFrame of these columns."""
-    return needed("pandas", "A data frame").DataFrame(columns)
 
 
 def needed(package: str, purpose: str, module: str = "") -> Any:
@@ -70,8 +72,6 @@ def needed(package: str, purpose: str, module: str = "") -> Any:
 
 def table(columns: dict[str, Any]) -> str:
     """These columns as a table for a notebook; numbers to five digits."""
-    from html import escape
-
     head = "".join(f"<th>{escape(str(key))}</th>" for key in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td>{escape(_short(value))}</td>" for value in row) + "</tr>"

@@ -13,7 +13,7 @@ import warnings
 from typing import Any, Optional, Union
 
 from . import _plots
-from ._base import PathLike, framed, text_of
+from ._base import Paged, PathLike, text_of
 from ._measured import Machine
 from ._records import Records, records
 from ._run import run
@@ -22,7 +22,7 @@ _FACTORS = ("machine", "effects", "used_on", "surface", "spacing", "jitter_mm", 
 """Columns of results.csv."""
 
 
-class Sweep:
+class Sweep(Paged):
     """The results of a sweep.
 
     name, question  as its specification has them
@@ -46,21 +46,13 @@ class Sweep:
         """results.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
         return self.results.to_frame()
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the tool's error over the number of points, a line for each level; returns the axes."""
-        return _plots.sweep(self.errors, ax)
+    plot = _plots.sweep
 
     def __len__(self) -> int:
         return len(self.results)
 
     def __repr__(self) -> str:
         return f"<chaintrue.Sweep {self.name!r}: {len(self)} cells>"
-
-    def _page(self, source: str) -> str:
-        return self._page_text
-
-    def _repr_html_(self) -> str:
-        return framed(self._page_text)
 
 
 def sweep(

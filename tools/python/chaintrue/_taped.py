@@ -9,14 +9,14 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from . import _plots
-from ._base import Filed, PathLike, from_file, rows, same_count, sources_of, told
-from ._contents import Readings, add_visits, distance_of
+from ._base import Filed, Listed, PathLike, from_file, sources_of
+from ._contents import PLACE, Readings, add, add_visits, distance_of, entries_of
 from ._measured import Machine, machine_in
 
 _LENGTHS = ("tl_mm", "tr_mm", "bl_mm", "br_mm")
 
 
-class Belts(Filed):
+class Belts(Listed):
     """What a router on four belts measured by itself (docs/formats/belts.md).
 
     lengths    (n, 4) array, mm: top left, top right, bottom left, bottom right belt as printed
@@ -38,15 +38,14 @@ class Belts(Filed):
         machine: Any = None,
         name: str = "",
     ):
-        points = [dict(zip(_LENGTHS, row)) for row in rows(lengths, "lengths", 4).tolist()]
-        add_visits(points, commanded, order, "lengths")
+        points = entries_of(lengths, "lengths", _LENGTHS)
+        add_visits(points, "lengths", commanded, order)
         stated = dict(machine.to_dict()["machine"] if isinstance(machine, Belts) else machine or {})
         if anchors is not None:
-            wide = 3 if numpy.ndim(anchors) == 2 and numpy.shape(anchors)[1] == 3 else 2
-            placed = rows(anchors, "anchors", wide).tolist()
-            same_count({"belts": 4, "anchors": len(placed)})
-            keys = ("x_mm", "y_mm", "z_mm")
-            stated["anchors"] = {length[:2]: dict(zip(keys, at)) for length, at in zip(_LENGTHS, placed)}
+            keys = (*PLACE, "z_mm") if numpy.shape(anchors)[1:] == (3,) else PLACE
+            stated["anchors"] = {length[:2]: {} for length in _LENGTHS}
+            placed = [*stated["anchors"].values()]
+            add(placed, "belts", entries_of(anchors, "anchors", keys), "anchors")
         contents = {
             "name": name,
             "machine": stated or None,
@@ -58,20 +57,15 @@ class Belts(Filed):
     @property
     def lengths(self) -> NDArray[numpy.float64]:
         """(n, 4) array, mm: top left, top right, bottom left, bottom right belt as printed."""
-        return numpy.array([[point[key] for key in _LENGTHS] for point in self._contents["points"]])
-
-    def __len__(self) -> int:
-        return len(self._contents["points"])
+        return self._columns(*_LENGTHS)
 
     def _facts(self) -> dict[str, Any]:
         return {"places": len(self), "taped distances": len(self._contents.get("distances", []))}
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the anchors and the commanded places; returns the axes."""
-        return _plots.belts(self._contents, ax)
+    plot = _plots.belts
 
 
-class Holes(Filed):
+class Holes(Listed):
     """Holes that the machine drilled, and a tape's distances (docs/formats/holes.md).
 
     commanded  (n, 2) array, mm: where the controller was told to drill
@@ -88,6 +82,8 @@ class Holes(Filed):
     few        a few distances, which only check a map
     """
 
+    _list = "holes"
+
     def __init__(
         self,
         commanded: ArrayLike,
@@ -103,12 +99,9 @@ class Holes(Filed):
         readings: Readings = (),
         few: bool = False,
     ):
-        places = rows(commanded, "commanded")
-        named = None if names is None else list(names)
-        same_count({"holes": len(places), "names": None if named is None else len(named)})
-        holes = [{"x_mm": x, "y_mm": y} for x, y in places.tolist()]
-        for number, hole in enumerate(holes if named is not None else ()):
-            hole["name"] = named[number]
+        holes = entries_of(commanded, "commanded", PLACE)
+        if names is not None:
+            add(holes, "holes", [{"name": name} for name in names], "names")
         contents = {
             "name": name,
             "machine": _machine_of(machine),
@@ -130,21 +123,16 @@ class Holes(Filed):
     @property
     def commanded(self) -> NDArray[numpy.float64]:
         """(n, 2) array, mm: the commanded places of the holes."""
-        return numpy.array([(hole["x_mm"], hole["y_mm"]) for hole in self._contents["holes"]])
+        return self._columns(*PLACE)
 
     @property
     def _are_of_belts(self) -> bool:
         return "anchors" in self._contents.get("machine", {})
 
-    def __len__(self) -> int:
-        return len(self._contents["holes"])
-
     def _facts(self) -> dict[str, Any]:
         return {"holes": len(self), "distances": len(self._contents["distances"])}
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the holes and the distances between them; returns the axes."""
-        return _plots.holes(self._contents, ax)
+    plot = _plots.holes
 
 
 def _machine_of(machine: Optional[Filed]) -> Optional[dict[str, Any]]:
@@ -158,9 +146,9 @@ def read_holes(path: PathLike, machine: Optional[Machine] = None, few: bool = Fa
 
     few  a few distances, which only check a map
     """
-    return told(Holes, from_file(Holes, path, machine, few), machine)
+    return from_file(Holes, path, machine, few)
 
 
 def read_belts(path: PathLike) -> Belts:
     """The Belts of a chaintrue_belts file."""
-    return told(Belts, from_file(Belts, path))
+    return from_file(Belts, path)

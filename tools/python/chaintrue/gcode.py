@@ -71,9 +71,7 @@ class Compensated:
         """Writes the program atomically."""
         _core.write(os.fspath(path), self.text.encode("utf-8", "surrogateescape"))
 
-    def plot(self, ax: Any = None) -> Any:
-        """Plots the path with arrows of the correction; returns the axes."""
-        return _plots.path(self.pieces, ax)
+    plot = _plots.path
 
     def _facts(self) -> dict[str, Any]:
         facts = {
