@@ -208,9 +208,9 @@ def _told(kind: type[Filed], text: str, assumed: list[str], sources: Sources) ->
     return kind._of(text, sources)
 
 
-def sources_of(*things: Optional[Filed]) -> list[tuple[str, str]]:
-    """The files of all objects, each once."""
-    return list(dict.fromkeys(source for thing in things if thing is not None for source in thing._sources))
+def sources_of(*things: Any) -> list[tuple[str, str]]:
+    """The files of all objects that have any, each once."""
+    return list(dict.fromkeys(source for thing in things for source in getattr(thing, "_sources", ())))
 
 
 def facts_table(title: str, facts: dict[str, Any]) -> str:

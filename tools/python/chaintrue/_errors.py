@@ -42,11 +42,8 @@ class InputError(ValueError):
     problems: list[Problem]
 
     def __init__(self, message: str, problems: list[tuple[str, str, str, str, str]] = ()):
-        super().__init__(message, list(problems))
+        super().__init__(message)
         self.problems = [Problem(*problem) for problem in problems]
-
-    def __str__(self) -> str:
-        return self.args[0]
 
 
 class Failure(RuntimeError):
@@ -60,12 +57,9 @@ class Failure(RuntimeError):
     reason: str
 
     def __init__(self, sentence: str, reason: str = ""):
-        super().__init__(sentence, reason)
+        super().__init__(sentence)
         self.sentence = sentence
         self.reason = reason
-
-    def __str__(self) -> str:
-        return self.sentence
 
 
 class GcodeError(Failure):
@@ -78,7 +72,6 @@ class GcodeError(Failure):
 
     def __init__(self, sentence: str, problems: list[tuple[int, int, str, str]] = ()):
         super().__init__(sentence, "bad_program")
-        self.args = (sentence, list(problems))
         self.problems = [GcodeProblem(*problem) for problem in problems]
 
 

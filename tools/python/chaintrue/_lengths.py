@@ -76,15 +76,11 @@ class Lengths(Tabled):
 
     def columns(self) -> dict[str, list[Any]]:
         """A list for each column of to_frame(), None where there is no answer."""
-        count = len(self.names)
-        lengths, sigma = self.lengths.reshape(-1, count), self.sigma.reshape(-1, 2)
-        places = self.points.reshape(-1, 2)
-        columns = {"x_mm": places[:, 0].tolist(), "y_mm": places[:, 1].tolist()}
-        columns |= {f"{name}_mm": lengths[:, i].tolist() for i, name in enumerate(self.names)}
-        columns |= {f"{self.names[i]}_sigma_mm": sigma[:, i].tolist() for i in (0, 1)}
-        columns["tool_sigma_mm"] = self.tool_sigma.reshape(-1).tolist()
-        columns["status"] = numpy.reshape(self.status, -1).tolist()
-        return columns
+        columns = {f"{axis}_mm": self.points[..., i] for i, axis in enumerate("xy")}
+        columns |= {f"{name}_mm": self.lengths[..., i] for i, name in enumerate(self.names)}
+        columns |= {f"{name}_sigma_mm": self.sigma[..., i] for i, name in enumerate(self.names[:2])}
+        columns |= {"tool_sigma_mm": self.tool_sigma, "status": self.status}
+        return {name: numpy.ma.reshape(column, -1).tolist() for name, column in columns.items()}
 
     plot = _plots.lengths
 

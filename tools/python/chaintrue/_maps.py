@@ -143,6 +143,11 @@ def _is_bed(frame: str) -> bool:
     return one_of(frame, "frame", ("marks", "bed")) == "bed"
 
 
+def things_of(measured: Union[Measured, Iterable[Measured]]) -> list[Measured]:
+    """A list also of a single one."""
+    return [measured] if isinstance(measured, (Grid, Holes, Belts)) else list(measured)
+
+
 def sorted_out(measured: Iterable[Measured], who: str) -> tuple[list[Any], list[Any], list[Any]]:
     """The grids, the holes and the belts among them, or TypeError."""
     found: dict[type, list[Any]] = {Grid: [], Holes: [], Belts: []}
@@ -186,8 +191,7 @@ def fit(
              built on those that make it better on points left out: its notes say which
     accept_class  take the links if links and tape cannot be distinguished
     """
-    one = isinstance(measured, (Grid, Holes, Belts))
-    things = [measured] if one else list(measured)
+    things = things_of(measured)
     _, holes, belts = sorted_out(things, "fit")
     words = ["fit", *inputs(things)]
     if one_of(surface, "surface", ("residual", "direct")) == "direct":

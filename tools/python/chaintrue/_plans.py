@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 from . import _core, _plots
 from ._base import PathLike, facts_table, in_words, one_of
 from ._diagnosis import Diagnosis
-from ._maps import Map, Measured, sorted_out
-from ._measured import Grid, Machine
+from ._maps import Map, Measured, sorted_out, things_of
+from ._measured import Machine
 from ._records import Records, records
 from ._run import run
-from ._taped import Belts, Holes
 
 
 _USUAL_DEPTH_MM = 3.0
@@ -162,8 +161,7 @@ def plan(
 def _plan_after(measured: Any, found: Diagnosis) -> Plan:
     if isinstance(measured, (Machine, Map)):
         raise TypeError("after a diagnosis a plan is of what was diagnosed: Grids, Holes or Belts")
-    one = isinstance(measured, (Grid, Holes, Belts))
-    grids, holes, belts = sorted_out([measured] if one else measured, "plan")
+    grids, holes, belts = sorted_out(things_of(measured), "plan")
     if belts and (len(belts) > 1 or grids or holes):
         raise ValueError("Belts are diagnosed by themselves, one at a time")
     texts = [thing._text for thing in (*grids, *holes, *belts)]

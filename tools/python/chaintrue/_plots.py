@@ -132,10 +132,9 @@ def probabilities(of: Any, ax: Any = None) -> Any:
     """Plots the most probable hypotheses, the first on top; returns the axes."""
     axes = _axes(ax)
     shown = sorted(of.hypotheses, key=lambda one: one["probability"], reverse=True)[:_MOST_BARS]
-    names = [_name(one) for one in shown]
-    axes.barh(range(len(shown)), [one["probability"] for one in shown], color=AFTER)
-    axes.set_yticks(range(len(shown)))
-    axes.set_yticklabels([name.replace("_", " ") for name in names])
+    rows = range(len(shown))
+    axes.barh(rows, [one["probability"] for one in shown], color=AFTER)
+    axes.set_yticks(rows, [_name(one) for one in shown])
     axes.invert_yaxis()
     axes.set_xlabel("probability")
     return axes
@@ -145,7 +144,7 @@ def _name(hypothesis: dict[str, Any]) -> str:
     """Its cause, or what has changed, the side, and the number of a bad point, from 1."""
     words = [hypothesis.get(key) for key in ("effect", "what", "side")]
     number = str(hypothesis["point"] + 1) if "point" in hypothesis else ""
-    return " ".join(filter(None, [*words, number]))
+    return " ".join(filter(None, [*words, number])).replace("_", " ")
 
 
 def plan(of: Any, ax: Any = None) -> Any:
@@ -180,7 +179,6 @@ def sweep(of: Any, ax: Any = None) -> Any:
     for (factor, level), line in lines.items():
         if factor in several:
             axes.plot(*zip(*sorted(line)), marker="o", label=f"{factor} {level}")
-    axes.set_xlabel("points")
-    axes.set_ylabel("error of the tool, rms, mm")
+    axes.set(xlabel="points", ylabel="error of the tool, rms, mm")
     axes.legend()
     return axes

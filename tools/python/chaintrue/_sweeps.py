@@ -71,9 +71,7 @@ def sweep(
     with tempfile.TemporaryDirectory(prefix="chaintrue-") as scratch:
         place = pathlib.Path(scratch) if folder is None else pathlib.Path(folder)
         place.mkdir(parents=True, exist_ok=True)
-        path = specification
-        if isinstance(specification, dict):
-            path = _written(specification, place)
+        path = _written(specification, place) if isinstance(specification, dict) else specification
         words = ["sweep", os.fspath(path), "-o", str(place), "--resume", "--threads", str(threads)]
         *assumed, _, _ = run(*words)[2].splitlines()
         for sentence in assumed:
@@ -108,14 +106,14 @@ def _written(contents: dict[str, Any], folder: pathlib.Path) -> pathlib.Path:
     machines = [dict(level) for level in contents.get("machines", [])]
     files: dict[str, str] = {}
     for number, level in enumerate(machines):
-        for key, file_key in (("machine", "machine_file"), ("stated", "stated_file")):
+        for key in ("machine", "stated"):
+            file_key = f"{key}_file"
             if isinstance(level.get(key), Machine):
                 level[file_key] = f"{key}{number}.json"
                 files[level[file_key]] = json.dumps(level.pop(key).to_dict())
             elif file_key in level:
                 level[file_key] = str(pathlib.Path(level[file_key]).resolve())
-    kept = {k: v for k, v in contents.items() if k not in ("file_type", "format_version")}
-    files["sweep.json"] = text_of({**kept, "machines": machines}, "chaintrue_sweep")
+    files["sweep.json"] = text_of({**contents, "machines": machines}, "chaintrue_sweep")
     for name, text in files.items():
         path = folder / name
         if path.exists() and path.read_text(encoding="utf-8") != text:

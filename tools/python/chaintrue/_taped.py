@@ -40,7 +40,7 @@ class Belts(Listed):
     ):
         points = entries_of(lengths, "lengths", _LENGTHS)
         add_visits(points, "lengths", commanded, order)
-        stated = dict(machine.to_dict()["machine"] if isinstance(machine, Belts) else machine or {})
+        stated = dict(_machine_of(machine) or {})
         if anchors is not None:
             keys = (*PLACE, "z_mm") if numpy.shape(anchors)[1:] == (3,) else PLACE
             stated["anchors"] = {length[:2]: {} for length in _LENGTHS}
@@ -52,7 +52,7 @@ class Belts(Listed):
             "points": points,
             "distances": [distance_of(one) for one in distances] or None,
         }
-        self._become(contents, sources_of(machine if isinstance(machine, Belts) else None))
+        self._become(contents, sources_of(machine))
 
     @property
     def lengths(self) -> NDArray[numpy.float64]:
@@ -135,10 +135,11 @@ class Holes(Listed):
     plot = _plots.holes
 
 
-def _machine_of(machine: Optional[Filed]) -> Optional[dict[str, Any]]:
-    if machine is None:
-        return None
-    return machine.to_dict()["machine"] if isinstance(machine, Belts) else machine.to_dict()
+def _machine_of(machine: Any) -> Optional[dict[str, Any]]:
+    """The "machine" entry, from a Machine, from other Belts or as it stands in a file."""
+    if isinstance(machine, Belts):
+        return machine.to_dict()["machine"]
+    return machine.to_dict() if isinstance(machine, Machine) else machine
 
 
 def read_holes(path: PathLike, machine: Optional[Machine] = None, few: bool = False) -> Holes:

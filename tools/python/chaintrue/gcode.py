@@ -26,7 +26,7 @@ import dataclasses
 import json
 import os
 import pathlib
-from typing import Any, Optional, Union
+from typing import Any, Callable, Optional, Union
 
 import numpy
 from numpy.typing import NDArray
@@ -169,18 +169,24 @@ def verify(
 
 
 _OUTPUT = "output.nc"
-_FLAGS = {
-    "keep_rapids_whole": "--keep-rapids-whole",
-    "home_is_zero": "--home-is-zero",
-    "skip_deletable": "--block-delete",
-    "tools_have_no_diameter": "--tools-have-no-diameter",
+_FRAMES = ("marks", "bed")
+_CONTROLLERS = ("maslow_classic", "holey", "fluidnc_wallplotter", "ideal", "maslow4")
+_OPTIONS: dict[str, Callable[[Any], Any]] = {
+    "tolerance_mm": str,
+    "decimals": str,
+    "largest_correction_mm": str,
+    "steepest_correction": str,
+    "frame": lambda word: one_of(word, "frame", _FRAMES),
+    "controller": lambda word: one_of(word, "controller", _CONTROLLERS),
+    "home": lambda place: ",".join(map(str, place)),
+    "machine": os.fspath,
+    "settings": os.fspath,
+    "keep_rapids_whole": bool,
+    "home_is_zero": bool,
+    "skip_deletable": bool,
+    "tools_have_no_diameter": bool,
 }
-_CHOICES = {
-    "frame": ("marks", "bed"),
-    "controller": ("maslow_classic", "holey", "fluidnc_wallplotter", "ideal", "maslow4"),
-}
-_NUMBERS = ("tolerance_mm", "decimals", "largest_correction_mm", "steepest_correction")
-_OTHERS = ("home", "machine", "settings")
+"""How the command's option of the same name is written; True and False of one without a value."""
 
 
 def _words(calibration: Union[Map, Anchors], options: dict[str, Any]) -> list[Union[str, File]]:
@@ -188,17 +194,12 @@ def _words(calibration: Union[Map, Anchors], options: dict[str, Any]) -> list[Un
     if not isinstance(calibration, (Map, Anchors)):
         raise TypeError(f"programs are compensated with a Map or Anchors, not {calibration!r}")
     words: list[Union[str, File]] = ["--map", calibration._file]
-    known = (*_NUMBERS, *_CHOICES, *_OTHERS, *_FLAGS)
     for name, value in options.items():
-        if name not in known:
-            raise TypeError(f"there is no option {name}, but {', '.join(known)}")
-        if name in _FLAGS:
-            words += [_FLAGS[name]] * bool(value)
-            continue
-        if name in _CHOICES:
-            one_of(value, name, _CHOICES[name])
-        text = ",".join(map(str, value)) if name == "home" else os.fspath(value) if name in _OTHERS else str(value)
-        words.append(f"--{name.replace('_', '-')}={text}")
+        if name not in _OPTIONS:
+            raise TypeError(f"there is no option {name}, but {', '.join(_OPTIONS)}")
+        written = _OPTIONS[name](value)
+        word = "--block-delete" if name == "skip_deletable" else f"--{name.replace('_', '-')}"
+        words += [word] * written if isinstance(written, bool) else [f"{word}={written}"]
     return words
 
 

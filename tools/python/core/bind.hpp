@@ -8,29 +8,14 @@
 /// no answer, which Python masks.
 #pragma once
 
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
-#include <string>
-#include <vector>
-
-#include "grid/files/holes_file.hpp"
 
 namespace chaintrue::python {
 
 namespace py = pybind11;
 using namespace py::literals;  // NOLINT(google-build-using-namespace): "key"_a
 
-using Pairs = py::array_t<double, py::array::c_style | py::array::forcecast>;
-/// (n, columns), without an answer yet: NaN.
-[[nodiscard]] Pairs new_rows(std::size_t count, std::size_t columns = 2);
-
-/// Texts of chaintrue_grid, chaintrue_holes and chaintrue_belts files, grids first.
-using Texts = std::vector<std::string>;
-/// As written by this module: a few points or distances are enough for a check.
-[[nodiscard]] grid::MeasuredGrid grid_of(const std::string& text);
-[[nodiscard]] grid::files::ReadHoles holes_of(const std::string& text);
 /// From here on files::InputError, cli::Failed and cli::GcodeRefused arrive in Python as the exceptions of
 /// chaintrue/_errors.py.
 void translate_failures();

@@ -12,22 +12,20 @@ void raise(const char* name, const Arguments&... arguments) {
   PyErr_SetObject(type.ptr(), type(arguments...).ptr());
 }
 
-py::list problems_of(const grid::files::InputError& error) {
-  py::list problems;
-  for (const grid::files::InputProblem& problem : error.problems()) {
-    problems.append(py::make_tuple(
-        problem.file, problem.place, problem.value, problem.expected, problem.message()));
-  }
-  return problems;
+py::tuple fields_of(const grid::files::InputProblem& problem) {
+  return py::make_tuple(
+      problem.file, problem.place, problem.value, problem.expected, problem.message());
 }
 
-py::list problems_of(const cli::GcodeRefused& failure) {
-  py::list problems;
-  for (const gcode::Problem& problem : failure.problems) {
-    problems.append(py::make_tuple(
-        problem.place.line, problem.place.column, gcode::name(problem.name), problem.sentence));
-  }
-  return problems;
+py::tuple fields_of(const gcode::Problem& problem) {
+  return py::make_tuple(
+      problem.place.line, problem.place.column, gcode::name(problem.name), problem.sentence);
+}
+
+py::list list_of(const auto& problems) {
+  py::list fields;
+  for (const auto& problem : problems) fields.append(fields_of(problem));
+  return fields;
 }
 
 }  // namespace
@@ -38,11 +36,11 @@ void translate_failures() {
     try {
       std::rethrow_exception(thrown);
     } catch (const grid::files::InputError& error) {
-      raise("InputError", std::string(error.what()), problems_of(error));
+      raise("InputError", error.what(), list_of(error.problems()));
     } catch (const cli::GcodeRefused& failure) {
-      raise("GcodeError", std::string(failure.what()), problems_of(failure));
+      raise("GcodeError", failure.what(), list_of(failure.problems));
     } catch (const cli::Failed& failed) {
-      raise("Failure", std::string(failed.what()), failed.reason());
+      raise("Failure", failed.what(), failed.reason());
     }
   });
 }

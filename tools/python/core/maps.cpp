@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Maps of two chains and anchors of four belts, asked with arrays.
-#include <algorithm>
+#include <pybind11/eigen.h>
+
+#include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/anchors_file.hpp"
@@ -20,20 +24,24 @@ namespace {
 namespace files = grid::files;
 using files::FittedAnchors;
 
-py::dict query(const grid::LengthMap& map, const Pairs& points) {
-  const auto count = static_cast<std::size_t>(points.shape(0));
+/// A row for each place; NaN where there is no answer.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+py::dict query(const grid::LengthMap& map, const Rows& points) {
   const auto names = map.length_names();
-  Pairs lengths = new_rows(count, names.size()), sigma = new_rows(count), tool = new_rows(count, 1);
+  const Eigen::Index count = points.rows(), wide = static_cast<Eigen::Index>(names.size());
+  Rows lengths = Rows::Constant(count, wide, kNone), sigma = Rows::Constant(count, 2, kNone);
+  Eigen::VectorXd tool = Eigen::VectorXd::Constant(count, kNone);
   std::vector<std::string> status, why;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto answer = map.query({points.data()[2 * i], points.data()[2 * i + 1]});
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto answer = map.query({points(i, 0), points(i, 1)});
     status.emplace_back(grid::name(answer ? answer->status : grid::MapStatus::outside));
     why.push_back(answer ? std::string() : answer.error().sentence());
     if (!answer) continue;
-    std::copy_n(answer->lengths_mm.data(), names.size(), lengths.mutable_data() + names.size() * i);
-    sigma.mutable_data()[2 * i] = answer->sigma.left_mm;
-    sigma.mutable_data()[2 * i + 1] = answer->sigma.right_mm;
-    if (answer->tool_sigma_mm) tool.mutable_data()[i] = *answer->tool_sigma_mm;
+    lengths.row(i) = answer->lengths_mm.transpose();
+    sigma.row(i) << answer->sigma.left_mm, answer->sigma.right_mm;
+    tool[i] = answer->tool_sigma_mm.value_or(kNone);
   }
   return py::dict("names"_a = std::vector<std::string>(names.begin(), names.end()),
                   "lengths"_a = lengths,
@@ -43,14 +51,11 @@ py::dict query(const grid::LengthMap& map, const Pairs& points) {
                   "why"_a = why);
 }
 
-Pairs inverse(const grid::LengthMap& map, const Pairs& lengths) {
-  const auto count = static_cast<std::size_t>(lengths.shape(0));
-  Pairs points = new_rows(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto tool = map.tool({lengths.data()[2 * i], lengths.data()[2 * i + 1]});
-    if (!tool) continue;
-    points.mutable_data()[2 * i] = tool->x_mm;
-    points.mutable_data()[2 * i + 1] = tool->y_mm;
+Rows inverse(const grid::LengthMap& map, const Rows& lengths) {
+  Rows points = Rows::Constant(lengths.rows(), 2, kNone);
+  for (Eigen::Index i = 0; i < lengths.rows(); ++i) {
+    if (const auto tool = map.tool({lengths(i, 0), lengths(i, 1)}))
+      points.row(i) << tool->x_mm, tool->y_mm;
   }
   return points;
 }
@@ -77,7 +82,7 @@ class Answering {
   }
 
   template <class Ask>
-  auto ask(Ask asked, const Pairs& pairs, bool bed) const {
+  auto ask(Ask asked, const Rows& pairs, bool bed) const {
     if (belts_) return asked(*belts_, pairs);
     if (bed && map_->machine() == nullptr)
       throw cli::Failed(
@@ -108,10 +113,10 @@ void add_maps(py::module_& module) {
       .def("sentence", &Answering::sentence)
       .def("machine", &Answering::machine)
       .def("query",
-           [](const Answering& map, const Pairs& points, bool bed) {
+           [](const Answering& map, const Rows& points, bool bed) {
              return map.ask(query, points, bed);
            })
-      .def("inverse", [](const Answering& map, const Pairs& lengths, bool bed) {
+      .def("inverse", [](const Answering& map, const Rows& lengths, bool bed) {
         return map.ask(inverse, lengths, bed);
       });
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Reads files, and checks texts like files.
-#include <algorithm>
-#include <limits>
-#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
-#include "grid/files/file_type.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/grid_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/sources.hpp"
@@ -53,16 +53,12 @@ py::tuple parse(const std::string& kind,
     const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
     return answer(files::write_machine(read.machine), read.warnings);
   }
-  if (kind == "map") {
-    const grid::CompensationMap map = files::parse_map(text, file);
-    return answer(files::write_map(map, files::made_by_of(text, file)), {});
-  }
-  if (kind == "anchors") {
-    const files::FittedAnchors anchors = files::parse_anchors(text, file);
-    return answer(files::write_anchors(anchors, files::made_by_of(text, file)), {});
-  }
-  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file);
-  return answer(files::write_diagnosis(found, files::made_by_of(text, file)), {});
+  const auto result = [&](auto parsed, auto written) {
+    return answer(written(parsed(text, file), files::made_by_of(text, file)), {});
+  };
+  if (kind == "map") return result(files::parse_map, files::write_map);
+  if (kind == "anchors") return result(files::parse_anchors, files::write_anchors);
+  return result(files::parse_diagnosis, files::write_diagnosis);
 }
 
 /// As above for a file, with the files that were read for it.
@@ -82,20 +78,6 @@ py::tuple read(const std::string& kind,
 
 }  // namespace
 
-Pairs new_rows(std::size_t count, std::size_t columns) {
-  Pairs rows({static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(columns)});
-  std::fill_n(rows.mutable_data(), count * columns, std::numeric_limits<double>::quiet_NaN());
-  return rows;
-}
-
-grid::MeasuredGrid grid_of(const std::string& text) {
-  return files::parse_grid(text, "", {.few = true}).grid;
-}
-
-files::ReadHoles holes_of(const std::string& text) {
-  return files::parse_holes(text, "", {.few = true});
-}
-
 void add_measured(py::module_& module) {
   module.def("parse", parse);
   module.def("read", read);
@@ -103,11 +85,7 @@ void add_measured(py::module_& module) {
     files::write_whole_file(path, text);
   });
   module.def("format_version", [](const std::string& file_type) {
-    const auto* const format =
-        std::find_if(std::begin(files::kFormats), std::end(files::kFormats), [&](const auto* one) {
-          return one->file_type == file_type;
-        });
-    return std::string((*format)->version);
+    return files::format_of(file_type)->version;
   });
 }
 

@@ -3,36 +3,47 @@
 /// What to measure after a diagnosis, for a CSV and for a JSON file.
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/file_type.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/plan_after.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {
+
+namespace files = grid::files;
+
 namespace {
+
+/// Texts of files that this module wrote: a few points or distances are enough.
+using Texts = std::vector<std::string>;
 
 std::optional<cli::FollowUpTexts> follow_up(const grid::diagnosis::Diagnosis& found,
                                             const Texts& texts) {
-  if (grid::files::kind_of(texts.front(), "") == grid::files::FileKind::belts)
-    return cli::follow_up_texts(found, grid::files::parse_belts(texts.front(), "").belts);
   std::vector<grid::MeasuredGrid> grids;
   std::vector<grid::MeasuredHoles> sets;
   for (const std::string& text : texts) {
-    if (grid::files::kind_of(text, "") == grid::files::FileKind::grid) {
-      grids.push_back(grid_of(text));
+    const files::FileKind kind = files::kind_of(text, "");
+    if (kind == files::FileKind::belts)
+      return cli::follow_up_texts(found, files::parse_belts(text, "").belts);
+    if (kind == files::FileKind::grid) {
+      grids.push_back(files::parse_grid(text, "", {.few = true}).grid);
     } else {
-      sets.push_back(holes_of(text).holes);
+      sets.push_back(files::parse_holes(text, "", {.few = true}).holes);
     }
   }
   return cli::follow_up_texts(found, grids, sets);
 }
 
 py::dict plan_after(const std::string& diagnosis, const Texts& texts) {
-  const grid::diagnosis::Diagnosis found = grid::files::parse_diagnosis(diagnosis, "");
+  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(diagnosis, "");
   const std::optional<cli::FollowUpTexts> plan = follow_up(found, texts);
   if (!plan) {
     throw std::invalid_argument(

@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the cells of a notebook one after the other, without Jupyter, and prints what each shows.
 
-    run_notebook.py NOTEBOOK...     1 where a cell fails, with its number and the error
+    run_notebook.py NOTEBOOK...     where a cell fails, the error shows its number
 """
 
 import ast
 import json
 import pathlib
 import sys
-import traceback
 
 
 def cells(path):
@@ -47,15 +46,6 @@ def run(path):
     return names
 
 
-def main(paths):
-    for path in paths:
-        try:
-            run(path)
-        except Exception:
-            traceback.print_exc()
-            return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    for notebook in sys.argv[1:]:
+        run(notebook)

@@ -3,6 +3,7 @@
 
 import pathlib
 
+import numpy
 import pytest
 
 import chaintrue
@@ -19,6 +20,19 @@ def grid():
 @pytest.fixture(scope="session")
 def calibration(grid):
     return chaintrue.fit(grid)
+
+
+@pytest.fixture(scope="session")
+def new_points():
+    """Of the same machine: for a check."""
+    return chaintrue.read_grid(FIXTURES / "grids" / "five_new_points.json", few=True)
+
+
+def read_anew(grid, lengths, **others):
+    """The grid with other readings, as precise as those of the fixtures."""
+    return chaintrue.Grid(
+        grid.marks, lengths, machine=grid.machine, length_noise_mm=0.2, position_noise_mm=0.3, **others
+    )
 
 
 @pytest.fixture(scope="session")
@@ -47,24 +61,14 @@ def diagnosis(grid):
 
 
 @pytest.fixture(scope="session")
-def worn_diagnosis(grid, calibration, machine):
+def worn_diagnosis(grid):
     """Of the grid's marks with the left chain's links 0.3 % longer: readings of a machine that is as
     stated otherwise, and noise of the fixture's size from a printed seed."""
-    import numpy
-
     seed = 20
     print(f"seed {seed}")
     noise = numpy.random.default_rng(seed)
     lengths = grid.lengths.copy()
     lengths[:, 0] /= 1.003
     lengths += noise.normal(0.0, 0.05, lengths.shape)
-    worn = chaintrue.Grid(
-        grid.marks,
-        lengths,
-        order=grid.order,
-        machine=machine,
-        length_noise_mm=0.2,
-        position_noise_mm=0.3,
-        name="a worn chain",
-    )
+    worn = read_anew(grid, lengths, order=grid.order, name="a worn chain")
     return chaintrue.diagnose(worn, gain=False)

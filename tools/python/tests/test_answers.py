@@ -25,6 +25,7 @@ def test_a_raster_keeps_its_shape(calibration):
     x, y = numpy.meshgrid([-500.0, 0.0, 500.0], [-200.0, 200.0])
     raster = numpy.stack([x, y], axis=-1)
     answer = calibration.query(raster)
+    assert answer.lengths.shape == answer.sigma.shape == (2, 3, 2)
     assert answer.left.shape == answer.tool_sigma.shape == answer.status.shape == (2, 3)
     flat = calibration.query(raster.reshape(-1, 2))
     assert numpy.array_equal(answer.lengths.reshape(-1, 2), flat.lengths)
@@ -47,11 +48,12 @@ def test_arrays_have_names(calibration, anchors):
 
 def test_what_has_no_answer_says_why_and_stays_masked(calibration):
     answer = calibration.query([[0.0, 0.0], [0.0, 20000.0]])
-    assert answer.why[0] == "" and answer.why[1]
+    assert answer.why[0] == "" and answer.why[1] and answer.status[1] == "outside"
     assert answer.columns()["left_mm"][1] is None
-    back = calibration.inverse(answer)
-    assert back.mask.tolist() == [[False, False], [True, True]]
-    assert numpy.isfinite(back.data).all()
+    for masked in (answer.lengths, calibration.inverse(answer)):
+        assert masked.mask.tolist() == [[False, False], [True, True]]
+        assert numpy.isfinite(masked.data).all()
+    assert calibration.inverse([[10.0, 10.0]]).mask.all()
 
 
 def test_the_functions_are_the_methods(calibration, anchors):
@@ -95,7 +97,7 @@ def test_causes_are_records(worn_diagnosis):
 
 def test_several_files_are_one_fit(grid, holes, calibration):
     joint = chaintrue.fit([grid, holes])
-    assert joint.accuracy != calibration.accuracy
+    assert joint.accuracy != calibration.accuracy != chaintrue.fit(holes).accuracy
     with pytest.raises(TypeError, match="Grids, Holes and Belts"):
         chaintrue.fit([grid, "holes.json"])
     with pytest.raises(TypeError):

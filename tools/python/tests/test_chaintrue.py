@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Python module against files, arrays and itself."""
 
-import doctest
 import inspect
 import json
 import warnings
@@ -25,40 +24,24 @@ def test_a_grid_is_what_its_file_says(grid):
     assert grid.lengths[3].tolist() == [points[3]["left_mm"], points[3]["right_mm"]]
 
 
-def test_a_grid_of_arrays_gives_the_same_map(grid, calibration):
-    noise = grid.to_dict().get("noise", {})
+def test_a_grid_of_arrays_is_the_file(grid):
+    noise = grid.to_dict()["noise"]
     again = chaintrue.Grid(
         grid.marks,
         grid.lengths,
         order=grid.order,
         machine=grid.machine,
-        length_noise_mm=noise.get("length_mm"),
-        position_noise_mm=noise.get("position_mm"),
-        noise_dof=noise.get("dof", 15.0),
+        length_noise_mm=noise["length_mm"],
+        position_noise_mm=noise["position_mm"],
+        noise_dof=noise["dof"],
         name=grid.name,
     )
-    assert chaintrue.fit(again).to_dict()["points"] == calibration.to_dict()["points"]
+    assert again == grid
 
 
-def test_a_query_has_shapes_and_an_inverse(calibration):
-    points = numpy.array([[100.0, 200.0], [-1000.0, -450.0], [0.0, 0.0]])
-    answer = chaintrue.query(calibration, points)
-    assert answer.lengths.shape == answer.sigma.shape == (3, 2)
-    assert answer.tool_sigma.shape == answer.status.shape == (3,)
-    # The numbers of docs/cut.md, to the last digit.
-    assert [f"{length:.6f}" for length in answer.lengths[0]] == ["1678.789218", "1510.239393"]
-    assert answer.status[0] == "inside"
-    # Newton's steps end at 1e-9 mm; on the bed the tool moves at most ten times as far as the
-    # chains.
-    assert numpy.abs(chaintrue.inverse(calibration, answer.lengths) - points).max() < 1e-8
-
-
-def test_outside_is_masked_and_no_number(calibration):
-    answer = chaintrue.query(calibration, [[0.0, 0.0], [0.0, 20000.0]])
-    assert answer.lengths.mask.tolist() == [[False, False], [True, True]]
-    assert answer.status[1] == "outside"
-    assert numpy.isfinite(answer.lengths.data).all()
-    assert chaintrue.inverse(calibration, [[10.0, 10.0]]).mask.all()
+def test_a_query_gives_the_numbers_of_docs_cut(calibration):
+    answer = chaintrue.query(calibration, [100.0, 200.0])
+    assert [f"{length:.6f}" for length in answer.lengths] == ["1678.789218", "1510.239393"]
 
 
 @pytest.mark.parametrize(
@@ -76,21 +59,8 @@ def test_files_and_objects_are_the_same(tmp_path, calibration, diagnosis):
         assert read(path).to_dict() == thing.to_dict()
 
 
-def test_a_diagnosis_answers(diagnosis):
-    assert diagnosis.verdict == diagnosis.to_dict()["verdict"]
-    assert diagnosis.sentence
-    assert isinstance(diagnosis.causes, list)
-
-
-def test_holes_are_fitted_too():
-    fitted = chaintrue.fit(chaintrue.read_holes(FIXTURES / "holes" / "nine_holes.json"))
-    assert chaintrue.query(fitted, [[0.0, 0.0]]).lengths.shape == (1, 2)
-
-
-def test_a_map_is_built_on_the_causes_that_are_found():
-    grid = chaintrue.read_grid(FIXTURES / "grids" / "seven_by_four.json")
-    plain, own = chaintrue.fit(grid, plain=True), chaintrue.fit(grid)
-    assert len(own.notes) > len(plain.notes)
+def test_a_map_is_built_on_the_causes_that_are_found(grid, calibration):
+    assert len(calibration.notes) > len(chaintrue.fit(grid, plain=True).notes)
     with pytest.raises(ValueError):
         chaintrue.fit(grid, plain=True, accept_class=True)
     with pytest.raises(ValueError):
@@ -111,14 +81,6 @@ def test_bad_input_is_told_whole():
     with pytest.raises(chaintrue.InputError, match="/points/0/x_mm") as told:
         chaintrue.read_grid(FIXTURES / "bad" / "grid_bad_values.json")
     assert "/points/1/left_mm" in str(told.value)
-    with pytest.raises(chaintrue.InputError):
-        chaintrue.Grid([[0.0, 0.0]] * 9, [[1.0, 1.0]] * 9)
-
-
-def test_what_cannot_be_done_is_a_sentence(grid):
-    without = chaintrue.Grid(grid.marks, grid.lengths)
-    with pytest.raises(chaintrue.Failure, match="machine"):
-        chaintrue.fit(without)
 
 
 def test_what_was_assumed_is_a_warning():
@@ -131,4 +93,3 @@ def test_what_was_assumed_is_a_warning():
 def test_everything_is_explained():
     for name in chaintrue.__all__:
         assert inspect.getdoc(getattr(chaintrue, name)), name
-    assert doctest.DocTestParser().get_examples(chaintrue.__doc__) == []

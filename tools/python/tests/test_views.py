@@ -20,11 +20,10 @@ OTHERS = ("answer", "check", "plan", "program", "sweep")
 
 
 @pytest.fixture(scope="module")
-def things(request, calibration, machine):
-    new = chaintrue.read_grid(FIXTURES / "grids" / "five_new_points.json", few=True)
+def things(request, calibration, machine, new_points):
     made = {
         "answer": calibration.query([[0.0, 0.0], [0.0, 9e3]]),
-        "check": chaintrue.check(calibration, new),
+        "check": chaintrue.check(calibration, new_points),
         "plan": chaintrue.plan(machine, 12),
         "program": chaintrue.gcode.compensate(FIXTURES / "gcode" / "bracket.nc", calibration),
         "sweep": chaintrue.sweep(FIXTURES / "sweeps" / "quick.json"),
@@ -55,14 +54,16 @@ def test_what_has_a_file_is_equal_by_it(things, name):
     assert type(thing).from_dict(thing.to_dict()) == thing
 
 
-@pytest.mark.parametrize("error", ["input", "failure", "gcode", "package"])
-def test_errors_can_be_pickled(error):
-    made = {
-        "input": chaintrue.InputError("bad", [("a.json", "/x", "1", "2", "a.json: /x: found 1, expected 2")]),
-        "failure": chaintrue.Failure("no", "no_machine"),
-        "gcode": chaintrue.GcodeError("line 1", [(1, 0, "bad_arc", "an arc")]),
-        "package": chaintrue.MissingPackage("pandas", "A data frame"),
-    }[error]
+@pytest.mark.parametrize(
+    "made",
+    [
+        chaintrue.InputError("bad", [("a.json", "/x", "1", "2", "a.json: /x: found 1, expected 2")]),
+        chaintrue.Failure("no", "no_machine"),
+        chaintrue.GcodeError("line 1", [(1, 0, "bad_arc", "an arc")]),
+        chaintrue.MissingPackage("pandas", "A data frame"),
+    ],
+)
+def test_errors_can_be_pickled(made):
     again = pickle.loads(pickle.dumps(made))
     assert str(again) == str(made) and vars(again) == vars(made)
 
@@ -143,21 +144,21 @@ def test_with_matplotlib_axes_are_made(things, monkeypatch):
 
 
 TABLES = {
-    "causes": lambda things, worn: (worn.causes, worn.causes.columns()),
-    "diagnosis": lambda things, worn: (worn, worn.causes.columns()),
-    "answer": lambda things, worn: (things["answer"], things["answer"].columns()),
-    "check": lambda things, worn: (things["check"], things["check"].residuals.columns()),
-    "plan": lambda things, worn: (things["plan"], things["plan"].to_records().columns()),
-    "sweep": lambda things, worn: (things["sweep"], things["sweep"].results.columns()),
+    "diagnosis": lambda found: found.causes,
+    "answer": lambda answer: answer,
+    "check": lambda check: check.residuals,
+    "plan": lambda plan: plan.to_records(),
+    "sweep": lambda sweep: sweep.results,
 }
 
 
-@pytest.mark.parametrize("table", TABLES)
-def test_a_data_frame_has_the_columns(things, worn_diagnosis, monkeypatch, table):
+@pytest.mark.parametrize("name", TABLES)
+def test_a_data_frame_has_the_columns(things, worn_diagnosis, monkeypatch, name):
     pandas = types.ModuleType("pandas")
     pandas.DataFrame = lambda columns: ("frame", columns)
     monkeypatch.setitem(sys.modules, "pandas", pandas)
-    thing, columns = TABLES[table](things, worn_diagnosis)
+    thing = worn_diagnosis if name == "diagnosis" else things[name]
+    columns = TABLES[name](thing).columns()
     assert thing.to_frame() == ("frame", columns)
     assert len({len(column) for column in columns.values()}) == 1 and all(columns.values())
     monkeypatch.setitem(sys.modules, "pandas", None)
