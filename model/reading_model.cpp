@@ -65,8 +65,8 @@ std::vector<MechanismParameter> stated_parameters(const Machine& machine) {
 
 Eigen::VectorXd values_of(const Machine& machine) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(kMachineSettings.size()));
-  for (std::size_t i = 0; i < kMachineSettings.size(); ++i)
-    values[static_cast<Eigen::Index>(i)] = stated_value(machine, kMachineSettings[i]);
+  Eigen::Index i = 0;
+  for (const Setting setting : kMachineSettings) values[i++] = stated_value(machine, setting);
   return values;
 }
 
@@ -112,10 +112,9 @@ std::shared_ptr<const Mechanism> ReadingModel::rebuild(const Eigen::VectorXd& va
                                                        std::vector<AppliedEffect> applied) const {
   Machine changed = machine_;
   changed.effects = std::move(applied);
-  for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
-    changed =
-        with_setting(std::move(changed), kMachineSettings[i], values[static_cast<Eigen::Index>(i)]);
-  }
+  Eigen::Index i = 0;
+  for (const Setting setting : kMachineSettings)
+    changed = with_setting(std::move(changed), setting, values[i++]);
   return std::shared_ptr<const Mechanism>(new ReadingModel(changed, model_, stated()));
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 /// A coordinate of an anchor that is fixed by the choice of the frame.
 struct Coordinate {
+  Eigen::Index parameter;
   std::string_view name;
   Belt belt;
   double Anchor::*member;
@@ -17,11 +18,11 @@ struct Coordinate {
 };
 
 constexpr std::array kCoordinates = {
-    Coordinate{"tl_x_mm", Belt::tl, &Anchor::x_mm, 0},
-    Coordinate{"tl_y_mm", Belt::tl, &Anchor::y_mm, 1},
-    Coordinate{"tr_x_mm", Belt::tr, &Anchor::x_mm, 0},
-    Coordinate{"tr_y_mm", Belt::tr, &Anchor::y_mm, 1},
-    Coordinate{"br_x_mm", Belt::br, &Anchor::x_mm, 0},
+    Coordinate{0, "tl_x_mm", Belt::tl, &Anchor::x_mm, 0},
+    Coordinate{1, "tl_y_mm", Belt::tl, &Anchor::y_mm, 1},
+    Coordinate{2, "tr_x_mm", Belt::tr, &Anchor::x_mm, 0},
+    Coordinate{3, "tr_y_mm", Belt::tr, &Anchor::y_mm, 1},
+    Coordinate{4, "br_x_mm", Belt::br, &Anchor::x_mm, 0},
 };
 
 constexpr std::array<std::string_view, 4> kBeltLengths = {"tl", "tr", "bl", "br"};
@@ -50,10 +51,9 @@ std::vector<MechanismParameter> stated_parameters(const BeltMachine& machine,
 
 Eigen::VectorXd stated_values(const BeltMachine& machine, std::size_t parameters) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters));
-  for (std::size_t i = 0; machine.anchors_known && i < kCoordinates.size(); ++i) {
-    const Coordinate& own = kCoordinates[i];
-    values[static_cast<Eigen::Index>(i)] = machine.anchors[own.belt].*own.member;
-  }
+  if (!machine.anchors_known) return values;
+  for (const Coordinate& own : kCoordinates)
+    values[own.parameter] = machine.anchors[own.belt].*own.member;
   return values;
 }
 
@@ -100,9 +100,8 @@ MechanismExtent BeltMechanism::extent() const {
 std::shared_ptr<const Mechanism> BeltMechanism::rebuild(const Eigen::VectorXd& values,
                                                         std::vector<AppliedEffect> applied) const {
   BeltMachine changed = machine_;
-  for (std::size_t i = 0; i < kCoordinates.size(); ++i)
-    changed.anchors[kCoordinates[i].belt].*kCoordinates[i].member =
-        values[static_cast<Eigen::Index>(i)];
+  for (const Coordinate& own : kCoordinates)
+    changed.anchors[own.belt].*own.member = values[own.parameter];
   changed.anchors_known = machine_.anchors_known || values != this->values();
   return std::shared_ptr<const Mechanism>(
       new BeltMechanism(std::move(changed), stated(), values, std::move(applied)));
@@ -114,9 +113,8 @@ std::vector<FixedPoint> BeltMechanism::fixed_points() const {
     const Anchor& anchor = machine_.anchors[belt];
     FixedPoint point{
         name(belt), {anchor.x_mm, anchor.y_mm}, Eigen::Matrix2Xd::Zero(2, values().size())};
-    for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
-      if (kCoordinates[i].belt == belt)
-        point.by_parameter(kCoordinates[i].axis, static_cast<Eigen::Index>(i)) = 1.0;
+    for (const Coordinate& own : kCoordinates) {
+      if (own.belt == belt) point.by_parameter(own.axis, own.parameter) = 1.0;
     }
     points.push_back(std::move(point));
   }
@@ -161,10 +159,9 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
     result.lengths_mm[row] = printed->value;
     for (const Belt anchor : kBelts)
       result.by_position.row(row) -= belts::by_anchor(*printed, anchor);
-    for (std::size_t i = 0; all && i < kCoordinates.size(); ++i) {
-      result.by_parameter(row, static_cast<Eigen::Index>(i)) =
-          belts::by_anchor(*printed, kCoordinates[i].belt)[kCoordinates[i].axis];
-    }
+    if (!all) continue;
+    for (const Coordinate& own : kCoordinates)
+      result.by_parameter(row, own.parameter) = belts::by_anchor(*printed, own.belt)[own.axis];
   }
   return result;
 }
@@ -214,10 +211,11 @@ std::vector<MechanismChange> BeltMechanism::possible_changes() const {
   for (const Belt belt : {Belt::tl, Belt::tr, Belt::br}) {
     MechanismChange moved{
         Change::anchor, std::string(name(belt)), false, (prior.motors + prior.pitch) / 3.0};
-    for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
-      if (kCoordinates[i].belt != belt) continue;
-      moved.quantities.push_back(
-          {.kind = ChangedQuantity::Kind::parameter, .parameter = i, .sigma = kAnchorShiftMm});
+    for (const Coordinate& own : kCoordinates) {
+      if (own.belt != belt) continue;
+      moved.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
+                                  .parameter = static_cast<std::size_t>(own.parameter),
+                                  .sigma = kAnchorShiftMm});
     }
     changes.push_back(std::move(moved));
   }

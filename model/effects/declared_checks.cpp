@@ -157,10 +157,10 @@ std::string keys_of(ActsOn acts_on) {
   return acts_on == ActsOn::chain ? "\"adds_mm\" or \"elongation\"" : "\"adds_mm\"";
 }
 
-bool acts_along(const Declaration& own, EffectSide axis) {
-  return own.sides.empty() || std::any_of(own.sides.begin(), own.sides.end(), [&](EffectSide side) {
-           return side == axis || side == EffectSide::both || side == EffectSide::none;
-         });
+bool states(const Declaration& own, EffectSide axis) {
+  return std::any_of(own.sides.begin(), own.sides.end(), [axis](EffectSide side) {
+    return side == axis || side == EffectSide::both;
+  });
 }
 
 /// Checks which formulas are stated; true if these can be parsed.
@@ -188,13 +188,12 @@ bool check_keys(const Declaration& own, Problems& problems) {
   }
   for (const auto& [axis, text, key] : {std::tuple{EffectSide::x, &own.adds_x_mm, "/adds_x_mm"},
                                         {EffectSide::y, &own.adds_y_mm, "/adds_y_mm"}}) {
-    const bool wanted =
-        paper && std::any_of(own.sides.begin(), own.sides.end(), [axis = axis](EffectSide side) {
-          return side == axis || side == EffectSide::both;
-        });
-    if (wanted && text->empty())
+    if (!paper) continue;
+    if (states(own, axis) && text->empty())
       problems.push_back({key, "", fmt::format("a formula: it acts along {}", name(axis))});
-    if (paper && !text->empty() && !acts_along(own, axis))
+    const bool may_act =
+        own.sides.empty() || states(own, axis) || states(own, EffectSide::none);
+    if (!text->empty() && !may_act)
       problems.push_back({key, *text, fmt::format("no formula, or the side {}", name(axis))});
   }
   return problems.size() == before;

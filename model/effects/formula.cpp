@@ -2,6 +2,7 @@
 #include "model/effects/formula.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,12 +39,6 @@ std::size_t number_length(std::string_view text) {
   return end;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
-  return list;
-}
-
 struct Operand {
   FormulaUnit unit;
   /// Consists of numbers alone, so it takes the unit of the term to which it is added.
@@ -53,8 +48,6 @@ struct Operand {
 };
 
 Operand number_of(double value) { return {{}, true, value}; }
-
-std::string words_of(const Operand& operand) { return words(operand.unit); }
 
 }  // namespace
 
@@ -264,8 +257,9 @@ class FormulaParser {
     known.insert(known.end(), {"mm", "N", "pi"});
     stop(offset,
          word,
-         is_function(word) ? fmt::format("a bracket after {}, as in {}(...)", word, word)
-                           : "a name that this formula may use: " + joined(known));
+         find_function(word) != nullptr
+             ? fmt::format("a bracket after {}, as in {}(...)", word, word)
+             : fmt::format("a name that this formula may use: {}", fmt::join(known, ", ")));
   }
 
   struct Function {
@@ -288,14 +282,13 @@ class FormulaParser {
         kFunctions.begin(), kFunctions.end(), [&](const Function& f) { return f.name == word; });
     return found == kFunctions.end() ? nullptr : &*found;
   }
-  static bool is_function(std::string_view word) { return find_function(word) != nullptr; }
 
   void call(const std::string& word, std::size_t offset) {
     const Function* function = find_function(word);
     if (function == nullptr) {
       std::vector<std::string> known;
       for (const Function& one : kFunctions) known.emplace_back(one.name);
-      stop(offset, word + "(", "one of the functions " + joined(known));
+      stop(offset, word + "(", fmt::format("one of the functions {}", fmt::join(known, ", ")));
     }
     std::size_t arguments = 0;
     if (!take(')')) {
@@ -325,7 +318,7 @@ class FormulaParser {
     if (of_number && !(own.unit == FormulaUnit{})) {
       stop(
           offset,
-          fmt::format("{} of {}", word, words_of(own)),
+          fmt::format("{} of {}", word, words(own.unit)),
           fmt::format(
               "{} of a plain number; divide by a quantity with the same unit, as in {}(x / (100 * "
               "mm))", word, word));
@@ -358,7 +351,7 @@ class FormulaParser {
     } else {
       if (!a.bare && !b.bare && !(a.unit == b.unit)) {
         stop(offset,
-             fmt::format("{} together with {}", words_of(a), words_of(b)),
+             fmt::format("{} together with {}", words(a.unit), words(b.unit)),
              "two values with the same unit");
       }
       result.unit = a.bare ? b.unit : a.unit;
@@ -368,11 +361,11 @@ class FormulaParser {
 
   static FormulaUnit raised(const Operand& a, const Operand& b, std::size_t offset) {
     if (!(b.unit == FormulaUnit{}))
-      stop(offset, fmt::format("a power of {}", words_of(b)), "a number after ^");
+      stop(offset, fmt::format("a power of {}", words(b.unit)), "a number after ^");
     if (a.unit == FormulaUnit{}) return {};
     if (!b.constant) {
       stop(offset,
-           fmt::format("{} to a power that varies", words_of(a)),
+           fmt::format("{} to a power that varies", words(a.unit)),
            "a plain number after ^, so that the unit is known");
     }
     return {a.unit.mm * *b.constant, a.unit.n * *b.constant};

@@ -24,9 +24,8 @@ auto settings_of(Machine& machine) {
 
 Eigen::VectorXd values_of(const PlotterMachine& machine) {
   Eigen::VectorXd values(kPlotterParameters);
-  const auto settings = settings_of(machine);
-  for (std::size_t i = 0; i < settings.size(); ++i)
-    values[static_cast<Eigen::Index>(i)] = *settings[i];
+  Eigen::Index i = 0;
+  for (const double* setting : settings_of(machine)) values[i++] = *setting;
   return values;
 }
 
@@ -73,9 +72,8 @@ MechanismExtent PlotterMechanism::extent() const {
 std::shared_ptr<const Mechanism> PlotterMechanism::rebuild(
     const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const {
   PlotterMachine changed = machine_;
-  const auto settings = settings_of(changed);
-  for (std::size_t i = 0; i < settings.size(); ++i)
-    *settings[i] = values[static_cast<Eigen::Index>(i)];
+  Eigen::Index i = 0;
+  for (double* setting : settings_of(changed)) *setting = values[i++];
   return std::shared_ptr<const Mechanism>(
       new PlotterMechanism(std::move(changed), stated(), std::move(applied)));
 }
