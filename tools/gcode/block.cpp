@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -139,16 +141,12 @@ bool holds_moves(std::string_view text) {
 }
 
 bool Block::has_axes() const {
-  for (const char axis : kAxes) {
-    if (has(axis)) return true;
-  }
-  return false;
+  return grid::any_of(kAxes, [this](char axis) { return has(axis); });
 }
 
 bool Block::has_z_alone() const {
-  return has('z') && std::none_of(kAxes.begin(), kAxes.end(), [this](char axis) {
-           return axis != 'z' && has(axis);
-         });
+  return has('z') &&
+         grid::none_of(kAxes, [this](char axis) { return axis != 'z' && has(axis); });
 }
 
 void Block::clear(std::size_t line_number) {

@@ -24,10 +24,6 @@ constexpr int kExactFirst = 2000;
 /// A circle keeps its shape even if the tolerance would allow a point.
 constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
-bool stays(const Move& move) {
-  return !move.arc && move.from.x_mm == move.to.x_mm && move.from.y_mm == move.to.y_mm;
-}
-
 int sign(double value, int otherwise) { return value > 0.0 ? 1 : value < 0.0 ? -1 : otherwise; }
 
 }  // namespace
@@ -64,10 +60,9 @@ Corrected<model::BedPoint> Compensator::command(model::BedPoint target) {
 Curve Compensator::curve(const Move& move, ChainDirections directions) {
   return [this, &move, directions](double t) -> Corrected<PathSample> {
     const Point target = at(move, t);
-    const model::BedPoint place{target.x_mm, target.y_mm};
     const auto command = options_.has_play()
-                             ? corrector_.command(place, options_.half_play_mm, directions)
-                             : this->command(place);
+                             ? corrector_.command(target, options_.half_play_mm, directions)
+                             : this->command(target);
     if (!command) return tl::unexpected(command.error());
     return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };
@@ -79,10 +74,8 @@ ChainDirections Compensator::directions_at(const Move& move,
                                            ChainDirections otherwise) const {
   const double step = std::min(1.0, 0.01 / std::max(length_mm(move), 0.01));
   const double from = std::clamp(t, 0.0, 1.0 - step);
-  const Point a = at(move, from);
-  const Point b = at(move, from + step);
-  const auto before = corrector_.map().lengths({a.x_mm, a.y_mm});
-  const auto behind = corrector_.map().lengths({b.x_mm, b.y_mm});
+  const auto before = corrector_.map().lengths(at(move, from));
+  const auto behind = corrector_.map().lengths(at(move, from + step));
   if (!before || !behind) return otherwise;
   return {sign(behind->left_mm - before->left_mm, otherwise.left),
           sign(behind->right_mm - before->right_mm, otherwise.right)};
@@ -96,10 +89,7 @@ void Compensator::piece(
   const std::optional<PathSample>& here = limits_.here();
   const bool known = here && !options_.has_play() && from == 0.0 && here->target == move.from;
   const auto start = known ? PathSample{0.0, here->target, here->command} : commands(from);
-  if (!start) {
-    limits_.object(move, start.error(), at(move, from));
-    return;
-  }
+  if (!start) return limits_.object(move, start.error(), at(move, from));
   // While the play is taken up, the chains move and the tool stays.
   if (options_.has_play() && here && directions != directions_) visit(*start);
   directions_ = directions;
@@ -107,10 +97,7 @@ void Compensator::piece(
   const bool whole = move.kind == MoveKind::rapid && options_.keep_rapids_whole;
   if (whole || (!move.arc && length <= segmenter_.unchecked_mm())) {
     const auto end = commands(to);
-    if (!end) {
-      limits_.object(move, end.error(), at(move, to));
-      return;
-    }
+    if (!end) return limits_.object(move, end.error(), at(move, to));
     return visit(*end);
   }
   const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
@@ -133,10 +120,7 @@ void Compensator::along(const Move& move, double feed) {
     // The tool's position before the first move is unknown, and so are the directions of its
     // chains: only the end of that move is compensated, as if both chains had been paid out.
     const auto end = curve(move, directions_)(1.0);
-    if (!end) {
-      limits_.object(move, end.error(), move.to);
-      return;
-    }
+    if (!end) return limits_.object(move, end.error(), move.to);
     return limits_.command(move, feed, *end);
   }
   if (!options_.has_play()) return piece(move, feed, 0.0, 1.0, {});

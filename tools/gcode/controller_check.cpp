@@ -66,8 +66,7 @@ void ControllerCheck::arc(const Move& move) {
   if (cuts_straight(firmware_, arc.start_radius_mm, sweep)) {
     add(Kind::straight_arc, move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
   }
-  const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
-  if (upright && !knows_code(firmware_, g::plane_zx)) add(Kind::upright_arc, move.line);
+  if (arc.is_upright() && !knows_code(firmware_, g::plane_zx)) add(Kind::upright_arc, move.line);
   if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) add(Kind::arc_turns, move.line);
 }
 

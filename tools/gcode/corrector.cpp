@@ -12,44 +12,27 @@
 namespace chaintrue::gcode {
 namespace {
 
-CorrectionReason reason_of(grid::MapReason reason) {
-  switch (reason) {
-    case grid::MapReason::outside_map:
-      return CorrectionReason::outside_map;
-    case grid::MapReason::unreachable:
-      return CorrectionReason::unreachable;
-    case grid::MapReason::not_converged:
-      break;
-  }
-  return CorrectionReason::not_converged;
-}
-
 bool finite(model::BedPoint point) {
   return std::isfinite(point.x_mm) && std::isfinite(point.y_mm);
-}
-
-}  // namespace
-
-CorrectionFailure correction_failure(const grid::MapFailure& failure) {
-  return CorrectionFailure(reason_of(failure.reason)).because_of(failure.cause);
 }
 
 CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why) {
   return CorrectionFailure(CorrectionReason::controller).because_of(model::sentence_of(why.reason));
 }
 
+}  // namespace
+
+CorrectionFailure correction_failure(const grid::MapFailure& failure) {
+  return CorrectionFailure(static_cast<CorrectionReason>(failure.reason)).because_of(failure.cause);
+}
+
 std::string_view sentence_of(CorrectionReason reason) {
-  switch (reason) {
-    case CorrectionReason::outside_map:
-      return "is outside the map";
-    case CorrectionReason::unreachable:
-      return "cannot be reached by the machine";
-    case CorrectionReason::not_converged:
-      return "cannot be found in the map, because the iteration did not converge";
-    case CorrectionReason::controller:
-      break;
-  }
-  return "cannot be reached by the controller's own kinematics";
+  constexpr std::string_view kSentences[] = {
+      "is outside the map",
+      "cannot be reached by the machine",
+      "cannot be found in the map, because the iteration did not converge",
+      "cannot be reached by the controller's own kinematics"};
+  return kSentences[static_cast<std::size_t>(reason)];
 }
 
 model::ChainLengths half_play_mm(const model::Machine& machine) {
@@ -67,10 +50,6 @@ model::ChainLengths half_play_mm(const model::Machine& machine) {
   return half;
 }
 
-Corrected<model::BedPoint> Corrector::command(model::BedPoint target) const {
-  return command(target, {}, {});
-}
-
 Corrected<model::BedPoint> Corrector::command(model::BedPoint target,
                                               model::ChainLengths half_play_mm,
                                               ChainDirections directions) const {
@@ -79,19 +58,13 @@ Corrected<model::BedPoint> Corrector::command(model::BedPoint target,
   lengths->left_mm += directions.left * half_play_mm.left_mm;
   lengths->right_mm += directions.right * half_play_mm.right_mm;
   const auto result = kinematics_.command(*lengths);
-  if (!result) {
-    return tl::unexpected(out_of_controllers_reach(result.error()));
-  }
+  if (!result) return tl::unexpected(out_of_controllers_reach(result.error()));
   if (!finite(*result)) return tl::unexpected(CorrectionReason::controller);
   return *result;
 }
 
 Corrected<model::ChainLengths> Corrector::paid_out(model::BedPoint command) const {
-  const auto lengths = kinematics_.lengths(command);
-  if (!lengths) {
-    return tl::unexpected(out_of_controllers_reach(lengths.error()));
-  }
-  return *lengths;
+  return kinematics_.lengths(command).map_error(out_of_controllers_reach);
 }
 
 Corrected<model::BedPoint> Corrector::tool(model::BedPoint command) const {
@@ -119,10 +92,11 @@ double Corrector::sampled_curvature_per_mm() const {
                                    area.y_min + height * (k + 0.5) / kRows};
       const auto at_middle = command(middle);
       for (const auto& direction : kDirections) {
-        const auto ahead =
-            command({middle.x_mm + step * direction[0], middle.y_mm + step * direction[1]});
-        const auto behind =
-            command({middle.x_mm - step * direction[0], middle.y_mm - step * direction[1]});
+        const auto beside = [&](double way) {
+          return command({middle.x_mm + way * direction[0], middle.y_mm + way * direction[1]});
+        };
+        const auto ahead = beside(step);
+        const auto behind = beside(-step);
         if (!at_middle || !ahead || !behind) continue;
         const double x = ahead->x_mm - 2.0 * at_middle->x_mm + behind->x_mm;
         const double y = ahead->y_mm - 2.0 * at_middle->y_mm + behind->y_mm;

@@ -22,12 +22,15 @@
 
 namespace chaintrue::gcode {
 
+/// The map's reasons, and the controller's.
 enum class CorrectionReason {
   outside_map,
   unreachable,  ///< the machine cannot hold the tool there
   not_converged,
   controller,  ///< out of reach of the controller's own kinematics
 };
+static_assert(static_cast<int>(CorrectionReason::not_converged) ==
+              static_cast<int>(grid::MapReason::not_converged));
 /// A clause: "is outside the map", ...
 [[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
 /// For `unreachable` and `controller` with the cause, if known.
@@ -35,7 +38,6 @@ using CorrectionFailure = Failure<CorrectionReason>;
 template <class T>
 using Corrected = tl::expected<T, CorrectionFailure>;
 [[nodiscard]] CorrectionFailure correction_failure(const grid::MapFailure& failure);
-[[nodiscard]] CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why);
 
 /// Factor by which a sampled curvature may be too small.
 inline constexpr double kCurvatureSafety = 2.0;
@@ -58,11 +60,10 @@ class Corrector {
             const Firmware& firmware)
       : map_(map), kinematics_(kinematics), firmware_(firmware) {}
 
-  [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target) const;
   /// With half the play added in the chains' directions of motion.
   [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target,
-                                                   model::ChainLengths half_play_mm,
-                                                   ChainDirections directions) const;
+                                                   model::ChainLengths half_play_mm = {},
+                                                   ChainDirections directions = {}) const;
   [[nodiscard]] Corrected<model::BedPoint> tool(model::BedPoint command) const;
   [[nodiscard]] Corrected<model::ChainLengths> paid_out(model::BedPoint command) const;
 

@@ -23,23 +23,38 @@ bool is_harmless(char c) {
          std::string_view(" ._,+=:-").find(c) != std::string_view::npos;
 }
 
-std::string comment(std::string text, std::size_t longest) {
+std::string comment(std::string text) {
   for (char& c : text) {
     if (!is_harmless(c)) c = '_';
   }
-  return "(" + text.substr(0, longest - 2) + ")";
+  return "(" + text.substr(0, kMaxOutputLine - 2) + ")";
+}
+
+bool is_marked(std::string_view comment) {
+  std::size_t found = 0;
+  for (const char wanted : kMarker) {
+    if (wanted == ' ') continue;
+    while (found < comment.size() && (comment[found] == ' ' || comment[found] == '\t')) ++found;
+    if (found == comment.size() || lower(comment[found]) != wanted) return false;
+    ++found;
+  }
+  return true;
 }
 
 /// Marlin's MAX_CMD_SIZE, with its end.
 constexpr std::size_t kMaxPlotterLine = 95;
 
+/// Without zeros at the end of a decimal fraction.
+std::string without_zeros(std::string fraction) {
+  fraction.erase(fraction.find_last_not_of('0') + 1);
+  if (fraction.ends_with('.')) fraction.pop_back();
+  return fraction;
+}
+
 /// Three decimals; more only if a slow feed needs them for six digits.
 std::string feed_text(double feed) {
   const int digits_before = static_cast<int>(std::floor(std::log10(feed))) + 1;
-  std::string text = fmt::format("{:.{}f}", feed, std::clamp(6 - digits_before, 3, 20));
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
+  return without_zeros(fmt::format("{:.{}f}", feed, std::clamp(6 - digits_before, 3, 20)));
 }
 
 /// Truncates without splitting a UTF-8 character.
@@ -54,13 +69,12 @@ std::size_t cut(std::string_view text, std::size_t most) {
 
 }  // namespace
 
-std::vector<std::string> comments_of(const grid::Provenance& made_by, std::size_t longest) {
+std::vector<std::string> comments_of(const grid::Provenance& made_by) {
   std::vector<std::string> lines = {
-      comment(fmt::format("chaintrue {}, {}", made_by.version, made_by.verb), longest)};
-  for (const std::string& option : made_by.options)
-    lines.push_back(comment("option " + option, longest));
+      comment(fmt::format("chaintrue {}, {}", made_by.version, made_by.verb))};
+  for (const std::string& option : made_by.options) lines.push_back(comment("option " + option));
   for (const grid::SourceFile& file : made_by.inputs) {
-    lines.push_back(comment("from " + file.name, longest));
+    lines.push_back(comment("from " + file.name));
     lines.push_back("(" + std::string(kHashHead) + file.sha256.substr(0, kHashDigits) + ")");
   }
   return lines;
@@ -80,17 +94,6 @@ std::vector<std::string> hashes_in_head(LineSource program) {
   return hashes;
 }
 
-bool is_marked(std::string_view comment) {
-  std::size_t found = 0;
-  for (const char wanted : kMarker) {
-    if (wanted == ' ') continue;
-    while (found < comment.size() && (comment[found] == ' ' || comment[found] == '\t')) ++found;
-    if (found == comment.size() || lower(comment[found]) != wanted) return false;
-    ++found;
-  }
-  return true;
-}
-
 void refuse_compensated(const Comment& comment) {
   if (!is_marked(comment.text)) return;
   refuse(already_compensated,
@@ -99,28 +102,22 @@ void refuse_compensated(const Comment& comment) {
 }
 
 Emitter::Emitter(ByteSink out, int decimals, bool semicolons)
-    : out_(std::move(out)), decimals_(decimals), semicolons_(semicolons), per_mm_(1) {
+    : out_(std::move(out)),
+      decimals_(decimals),
+      semicolons_(semicolons),
+      per_mm_(std::pow(10.0, decimals)) {
   if (decimals < 1 || decimals > 6) {
     throw grid::precondition("an output has 1 to 6 decimals, not {}", decimals);
   }
-  for (int i = 0; i < decimals; ++i) per_mm_ *= 10;
 }
 
-std::int64_t Emitter::rounded(double value_mm) const {
-  return std::llround(value_mm * static_cast<double>(per_mm_));
-}
+std::int64_t Emitter::rounded(double value_mm) const { return std::llround(value_mm * per_mm_); }
 
-void Emitter::append(std::string& text, char letter, std::int64_t count) const {
-  const std::int64_t whole = std::abs(count) / per_mm_;
-  std::int64_t rest = std::abs(count) % per_mm_;
-  fmt::format_to(std::back_inserter(text), " {}{}{}", letter, count < 0 ? "-" : "", whole);
-  if (rest == 0) return;
-  int digits = decimals_;
-  while (rest % 10 == 0) {
-    rest /= 10;
-    --digits;
-  }
-  fmt::format_to(std::back_inserter(text), ".{:0{}}", rest, digits);
+/// Of units of the last decimal.
+std::string Emitter::number(std::int64_t count) const {
+  std::string digits = fmt::format("{:0{}}", std::abs(count), decimals_ + 1);
+  digits.insert(digits.size() - static_cast<std::size_t>(decimals_), 1, '.');
+  return (count < 0 ? "-" : "") + without_zeros(std::move(digits));
 }
 
 void Emitter::put_line(std::string_view text) {
@@ -147,46 +144,37 @@ void Emitter::header(const std::vector<std::string>& comments) {
   put_line(semicolons_ ? "G90" : "G21 G90");
 }
 
-void Emitter::command(const Move& move,
-                      std::optional<model::BedPoint> xy,
-                      std::optional<double> z_mm,
-                      double feed_mm_per_min) {
+void Emitter::command(const Move& move, Point place, double feed_mm_per_min, bool has_xy) {
   const bool rapid = move.kind == MoveKind::rapid;
   constexpr double kLargestMm = 1e8;
   constexpr double kSlowest = 1e-12;
-  const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
-  if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
+  const auto is_usable = [](double value) { return std::fabs(value) < kLargestMm; };
+  if (!is_usable(place.x_mm) || !is_usable(place.y_mm) || !is_usable(place.z_mm) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
     refuse(not_emittable,
            {move.line},
            "a coordinate or feed rate of this move is not a usable number");
   }
-  text_.assign(rapid ? "G0" : "G1");
-  bool moves = false;
-  if (xy) {
-    const std::int64_t x = rounded(xy->x_mm);
-    const std::int64_t y = rounded(xy->y_mm);
-    if (x != x_ || y != y_) {
-      append(text_, 'X', x);
-      append(text_, 'Y', y);
-      x_ = x;
-      y_ = y;
-      moves = true;
-    }
+  text_ = rapid ? "G0" : "G1";
+  const std::size_t bare = text_.size();
+  const auto to = std::back_inserter(text_);
+  const std::int64_t x = rounded(place.x_mm);
+  const std::int64_t y = rounded(place.y_mm);
+  const std::int64_t z = rounded(place.z_mm);
+  if (has_xy && (x != x_ || y != y_)) {
+    fmt::format_to(to, " X{} Y{}", number(x), number(y));
+    x_ = x;
+    y_ = y;
   }
-  if (z_mm) {
-    const std::int64_t z = rounded(*z_mm);
-    if (z != z_) {
-      append(text_, 'Z', z);
-      z_ = z;
-      moves = true;
-    }
+  if (move.names_z && z != z_) {
+    fmt::format_to(to, " Z{}", number(z));
+    z_ = z;
   }
-  if (!moves) return;
+  if (text_.size() == bare) return;
   if (!rapid) {
     std::string feed = feed_text(feed_mm_per_min);
     if (feed != feed_) {
-      fmt::format_to(std::back_inserter(text_), " F{}", feed);
+      fmt::format_to(to, " F{}", feed);
       feed_ = std::move(feed);
     }
   }

@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "grid/provenance.hpp"
-#include "model/coordinates.hpp"
 #include "tools/gcode/events.hpp"
 #include "tools/gcode/line_source.hpp"
 
@@ -29,10 +28,9 @@ namespace chaintrue::gcode {
 /// The whole hash does not fit into a line.
 inline constexpr std::size_t kHashDigits = 32;
 
-/// At most `longest` characters a line. Characters that a controller might act on in a comment are
-/// replaced by _.
-[[nodiscard]] std::vector<std::string> comments_of(const grid::Provenance& made_by,
-                                                   std::size_t longest);
+/// At most kMaxOutputLine characters a line. Characters that a controller might act on in a comment
+/// are replaced by _.
+[[nodiscard]] std::vector<std::string> comments_of(const grid::Provenance& made_by);
 
 /// The beginnings of the hashes in the comments at the beginning of a program; none if it has no
 /// such comments or cannot be read.
@@ -46,10 +44,8 @@ inline constexpr std::size_t kMaxOutputLine = 60;
 /// change of the tool and at the end, so that a file without its head, or the part of one tool alone,
 /// is still known.
 inline constexpr std::string_view kMarker = "compensated by chaintrue";
-/// Whether a comment begins with these words, regardless of capitals and blanks that a sender has
-/// changed.
-[[nodiscard]] bool is_marked(std::string_view comment);
-/// Refuses a marked comment (already_compensated).
+/// Refuses a comment that begins with these words, regardless of capitals and blanks that a sender
+/// has changed (already_compensated).
 void refuse_compensated(const Comment& comment);
 
 class Emitter {
@@ -60,12 +56,10 @@ class Emitter {
 
   /// Comments of the head, one per line; then the modes.
   void header(const std::vector<std::string>& comments);
-  /// One straight command. XY is empty for a move only in Z, z if the height does not change. A
-  /// command that changes nothing after rounding is left out.
-  void command(const Move& move,
-               std::optional<model::BedPoint> xy,
-               std::optional<double> z_mm,
-               double feed_mm_per_min);
+  /// One straight command, with Z if the move names it. A command that changes nothing after
+  /// rounding is left out.
+  /// \param has_xy false for a move in Z alone.
+  void command(const Move& move, Point place, double feed_mm_per_min, bool has_xy = true);
   void word(const PassedWord& word);
   void comment(const Comment& comment);
   void end(std::string_view word);
@@ -76,12 +70,12 @@ class Emitter {
   void put_mark();
   void flush_word();
   std::int64_t rounded(double value_mm) const;
-  void append(std::string& text, char letter, std::int64_t count) const;
+  std::string number(std::int64_t count) const;
 
   ByteSink out_;
   int decimals_;
   bool semicolons_;
-  std::int64_t per_mm_;
+  double per_mm_;
   std::optional<std::int64_t> x_;
   std::optional<std::int64_t> y_;
   std::optional<std::int64_t> z_;

@@ -15,9 +15,7 @@ std::string_view name(MoveKind kind) {
 }
 
 std::string name(Code code) {
-  std::string name = fmt::format("{}{}", code.letter, code.tenths / 10);
-  if (code.tenths % 10 != 0) name += fmt::format(".{}", code.tenths % 10);
-  return name;
+  return fmt::format("{}{:g}", code.letter, code.tenths / 10.0);
 }
 
 void Findings::add(Problem problem) {

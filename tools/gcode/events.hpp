@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/coordinates.hpp"
 #include "tools/gcode/problem.hpp"
 
 namespace chaintrue::gcode {
@@ -23,6 +24,8 @@ struct Point {
   double y_mm = 0.0;
   double z_mm = 0.0;
   friend bool operator==(const Point&, const Point&) = default;
+  /// Without its height.
+  operator model::BedPoint() const { return {x_mm, y_mm}; }
 };
 
 enum class MoveKind { rapid, feed, arc, probe };
@@ -46,6 +49,9 @@ struct Arc {
   double end_height_mm = 0.0;
   /// Signed count of started turns, as in the G-code: G2 -1, G3 P2 +2.
   int turns = 0;
+
+  /// Of G18 or G19.
+  [[nodiscard]] bool is_upright() const { return first.z_mm != 0.0 || second.z_mm != 0.0; }
 };
 
 enum class FeedMode { per_minute, inverse_time };

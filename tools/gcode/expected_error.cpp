@@ -53,7 +53,7 @@ CutPlaces::Square& CutPlaces::square_at(At at, std::size_t line) {
 }
 
 void CutPlaces::add(std::size_t line, const Point& from, const Point& to) {
-  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm);
+  const double length = level_mm(to - from);
   const double pieces = std::max(1.0, std::ceil(length / kSquareMm));
   for (double i = 0.5; i < pieces; i += 1.0) {
     const Point place = between(from, to, i / pieces);

@@ -3,8 +3,12 @@
 /// The table of controllers.
 #include "tools/gcode/firmware.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -12,103 +16,83 @@ namespace {
 constexpr const char* kIgnores = "ignores";
 constexpr const char* kStops = "stops with an error at";
 
-constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 380, 400, 900, 910};
-constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300, 1060, 1070};
-constexpr int kFluidNcG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281, 300,
-                             301, 382, 383, 384, 385, 386, 387, 388, 389, 400, 431, 490, 530, 540,
-                             550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
-constexpr int kFluidNcM[] = {
-    0, 10, 20, 30, 40, 50, 60, 70, 71, 80, 81, 90, 300, 620, 630, 640, 650, 670, 680};
+// The codes that they implement, each between blanks.
+constexpr const char* kMaslowCodes =
+    " G0 G1 G2 G3 G4 G10 G20 G21 G38 G40 G90 G91 M0 M1 M2 M3 M4 M5 M6 M30 M106 M107 ";
+constexpr const char* kFluidNcCodes =
+    " G0 G1 G2 G3 G4 G10 G17 G18 G19 G20 G21 G28 G28.1 G30 G30.1 G38.2 G38.3 G38.4 G38.5 G38.6 "
+    "G38.7 G38.8 G38.9 G40 G43.1 G49 G53 G54 G55 G56 G57 G58 G59 G61 G80 G90 G91 G91.1 G92 "
+    "G92.1 G93 G94 M0 M1 M2 M3 M4 M5 M6 M7 M7.1 M8 M8.1 M9 M30 M62 M63 M64 M65 M67 M68 ";
+constexpr const char* kMarlinCodes =
+    " G0 G1 G2 G3 G4 G28 G90 G91 G92 M0 M1 M17 M18 M20 M21 M22 M23 M24 M25 M28 M29 M82 M83 M84 "
+    "M85 M92 M106 M107 M110 M114 M115 M117 M118 M119 M200 M201 M203 M204 M205 M206 M210 M211 "
+    "M220 M280 M300 M400 M410 M500 M501 M502 M503 M665 ";
 
-constexpr int kMarlinG[] = {0, 10, 20, 30, 40, 280, 900, 910, 920};
-constexpr int kMarlinM[] = {0,    10,   170,  180,  200,  210,  220,  230,  240,  250,  280,
-                            290,  820,  830,  840,  850,  920,  1060, 1070, 1100, 1140, 1150,
-                            1170, 1180, 1190, 2000, 2010, 2030, 2040, 2050, 2060, 2100, 2110,
-                            2200, 2800, 3000, 4000, 4100, 5000, 5010, 5020, 5030, 6650};
-
-constexpr CodeSet kMaslowCodes{kMaslowG, kMaslowM};
-constexpr CodeSet kFluidNcCodes{kFluidNcG, kFluidNcM};
-constexpr CodeSet kMarlinCodes{kMarlinG, kMarlinM};
-
-constexpr Firmware maslow(model::ControllerKind kind, const char* name) {
-  return {.kind = kind,
-          .name = name,
+constexpr Firmware maslow(const char* name) {
+  return {.name = name,
           .single_precision = true,
           .tick_s = 0.01,
-          .codes = &kMaslowCodes,
+          .codes = kMaslowCodes,
           .clamps_to_bed = true,
           .planned_moves = 1,
           .unknown = kIgnores,
           .arcs = ArcRule::maslow};
 }
 
-constexpr Firmware kFirmwares[] = {
-    {.kind = model::ControllerKind::ideal, .name = "ideal", .tool_lengths = true},
-    maslow(model::ControllerKind::maslow_classic, "maslow_classic"),
-    maslow(model::ControllerKind::holey, "holey"),
-    {.kind = model::ControllerKind::fluidnc_wallplotter,
-     .name = "fluidnc_wallplotter",
+constexpr Firmware fluidnc(const char* name,
+                           double piece_mm,
+                           bool pieces_at_most,
+                           bool phantom_moves) {
+  return {.name = name,
+          .single_precision = true,
+          .chain_linear_piece_mm = piece_mm,
+          .pieces_at_most = pieces_at_most,
+          .codes = kFluidNcCodes,
+          .planned_moves = 16,
+          .acceleration_mm_per_s2 = 25.0,
+          .unknown = kStops,
+          .arcs = ArcRule::grbl,
+          .phantom_moves = phantom_moves};
+}
+
+constexpr Firmware kFluidNc = fluidnc("fluidnc_wallplotter", 10.0, false, true);
+constexpr Firmware kFourBelts = fluidnc("maslow4", 5.0, true, false);
+
+/// In the order of model::ControllerKind.
+constexpr Firmware kFirmwares[] = {{.name = "ideal", .tool_lengths = true},
+                                   maslow("maslow_classic"),
+                                   maslow("holey"),
+                                   kFluidNc};
+
+/// In the order of model::PlotterFirmware.
+constexpr Firmware kPlotters[] = {
+    kFluidNc,
+    {.name = "marlin",
      .single_precision = true,
-     .chain_linear_piece_mm = 10.0,
-     .codes = &kFluidNcCodes,
+     .pieces_per_second = 5.0,
+     .first_feed_mm_per_min = 1500.0,
+     .codes = kMarlinCodes,
      .planned_moves = 16,
-     .acceleration_mm_per_s2 = 25.0,
-     .unknown = kStops,
-     .arcs = ArcRule::grbl,
-     .phantom_moves = true},
+     .unknown = kIgnores,
+     .semicolon_comments = true},
+    {.name = "polargraph",
+     .single_precision = true,
+     .chain_linear_piece_mm = 2.0,
+     .pieces_at_most = true,
+     .reads_gcode = false},
+    {.name = "mural", .chain_linear_piece_mm = 1.0, .pieces_at_most = true, .reads_gcode = false},
 };
-
-constexpr Firmware kFourBelts{.kind = model::ControllerKind::fluidnc_wallplotter,
-                              .name = "maslow4",
-                              .single_precision = true,
-                              .chain_linear_piece_mm = 5.0,
-                              .pieces_at_most = true,
-                              .codes = &kFluidNcCodes,
-                              .planned_moves = 16,
-                              .acceleration_mm_per_s2 = 25.0,
-                              .unknown = kStops,
-                              .arcs = ArcRule::grbl};
-
-constexpr Firmware kMarlin{.name = "marlin",
-                           .single_precision = true,
-                           .pieces_per_second = 5.0,
-                           .first_feed_mm_per_min = 1500.0,
-                           .codes = &kMarlinCodes,
-                           .planned_moves = 16,
-                           .unknown = kIgnores,
-                           .semicolon_comments = true};
-
-constexpr Firmware kMural{
-    .name = "mural", .chain_linear_piece_mm = 1.0, .pieces_at_most = true, .reads_gcode = false};
-
-constexpr Firmware kPolargraph{.name = "polargraph",
-                               .single_precision = true,
-                               .chain_linear_piece_mm = 2.0,
-                               .pieces_at_most = true,
-                               .reads_gcode = false};
 
 }  // namespace
 
 const Firmware& firmware(model::ControllerKind kind) {
-  return *std::find_if(std::begin(kFirmwares),
-                       std::end(kFirmwares) - 1,
-                       [&](const Firmware& candidate) { return candidate.kind == kind; });
+  return kFirmwares[static_cast<std::size_t>(kind)];
 }
 
 const Firmware& firmware_of_four_belts() { return kFourBelts; }
 
 const Firmware& firmware(model::PlotterFirmware plotter) {
-  switch (plotter) {
-    case model::PlotterFirmware::fluidnc:
-      return firmware(model::ControllerKind::fluidnc_wallplotter);
-    case model::PlotterFirmware::marlin:
-      return kMarlin;
-    case model::PlotterFirmware::polargraph:
-      return kPolargraph;
-    case model::PlotterFirmware::mural:
-      break;
-  }
-  return kMural;
+  return kPlotters[static_cast<std::size_t>(plotter)];
 }
 
 bool is_chain_linear(const Firmware& firmware) {
@@ -130,9 +114,8 @@ Code taken_for(const Firmware& firmware, Code code) {
 }
 
 bool knows_code(const Firmware& firmware, Code code) {
-  if (firmware.codes == nullptr) return true;
-  const auto tenths = code.letter == 'G' ? firmware.codes->g : firmware.codes->m;
-  return std::find(tenths.begin(), tenths.end(), taken_for(firmware, code).tenths) != tenths.end();
+  const std::string word = fmt::format(" {} ", name(taken_for(firmware, code)));
+  return firmware.codes.empty() || firmware.codes.find(word) != std::string_view::npos;
 }
 
 std::optional<ClampBox> clamp_box(const model::Machine& machine) {
@@ -144,22 +127,24 @@ std::optional<ClampBox> clamp_box(const model::Machine& machine) {
 
 CommandWay::CommandWay(const Firmware& firmware,
                        const model::ControllerKinematics& kinematics,
-                       model::BedPoint from,
-                       model::BedPoint to,
+                       Point from,
+                       Point to,
                        double feed_mm_per_min,
                        double doubt_mm)
     : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
   if (!is_chain_linear(firmware)) return;
-  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) - doubt_mm;
+  const double length = level_mm(to - from) - doubt_mm;
   pieces_ = static_cast<int>(std::min(pieces_of(firmware, length, feed_mm_per_min), 1e6));
 }
 
-std::optional<model::BedPoint> CommandWay::at(double t) {
-  if (!is_chain_linear(firmware_)) return on_line(t);
+std::optional<Point> CommandWay::at(double t) {
+  const Point place = between(from_, to_, t);
+  if (!is_chain_linear(firmware_)) return place;
   const int piece = std::min(static_cast<int>(t * pieces_), pieces_ - 1);
   if (piece != piece_) {
     const auto lengths = [&](int end) -> std::optional<model::ChainLengths> {
-      const auto found = kinematics_.lengths(on_line(static_cast<double>(end) / pieces_));
+      const auto found =
+          kinematics_.lengths(between(from_, to_, static_cast<double>(end) / pieces_));
       return found ? std::optional(*found) : std::nullopt;
     };
     start_ = piece == piece_ + 1 && piece_ >= 0 ? end_ : lengths(piece);
@@ -171,7 +156,8 @@ std::optional<model::BedPoint> CommandWay::at(double t) {
   const auto command =
       kinematics_.command({start_->left_mm + u * (end_->left_mm - start_->left_mm),
                            start_->right_mm + u * (end_->right_mm - start_->right_mm)});
-  return command ? std::optional(*command) : std::nullopt;
+  if (!command) return std::nullopt;
+  return Point{command->x_mm, command->y_mm, place.z_mm};
 }
 
 }  // namespace chaintrue::gcode

@@ -53,7 +53,7 @@
 
 #include <functional>
 #include <optional>
-#include <span>
+#include <string_view>
 
 #include "model/controllers/payout.hpp"
 #include "model/machine.hpp"
@@ -62,17 +62,10 @@
 
 namespace chaintrue::gcode {
 
-/// The codes that a firmware implements, in tenths.
-struct CodeSet {
-  std::span<const int> g;
-  std::span<const int> m;
-};
-
 /// How arcs are cut.
 enum class ArcRule { exact, maslow, grbl };
 
 struct Firmware {
-  model::ControllerKind kind = model::ControllerKind::ideal;
   const char* name = "ideal";
   bool single_precision = false;
   /// A new position every tick; 0: continuous.
@@ -85,7 +78,8 @@ struct Firmware {
   double pieces_per_second = 0.0;
   /// The feed until a program states one.
   double first_feed_mm_per_min = 0.0;
-  const CodeSet* codes = nullptr;  ///< null: every code
+  /// The codes that it implements, each between blanks; empty: every code.
+  std::string_view codes;
   /// Targets outside half the set bed are clamped without a message.
   bool clamps_to_bed = false;
   /// Implements G43 H. The others ignore it or stop.
@@ -105,11 +99,11 @@ struct Firmware {
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
-/// The firmware of a Maslow 4. Its kind is that of FluidNC, on which it is based and whose codes it
-/// has; its kinematics are in model/belts/belt_controller.hpp.
+/// The firmware of a Maslow 4: FluidNC, on which it is based, with other kinematics
+/// (model/belts/belt_controller.hpp).
 [[nodiscard]] const Firmware& firmware_of_four_belts();
 
-/// That of a V-plotter. Its kind is FluidNC's or unused.
+/// That of a V-plotter.
 [[nodiscard]] const Firmware& firmware(model::PlotterFirmware plotter);
 
 /// Whether it interpolates chain lengths, in pieces of a command.
@@ -149,8 +143,8 @@ class CommandWay {
   /// controller's pieces are counted.
   CommandWay(const Firmware& firmware,
              const model::ControllerKinematics& kinematics,
-             model::BedPoint from,
-             model::BedPoint to,
+             Point from,
+             Point to,
              double feed_mm_per_min,
              double doubt_mm = 0.0);
 
@@ -159,17 +153,13 @@ class CommandWay {
   /// The commanded point that is equivalent to the controller's position at the fraction t: on the
   /// line, or, if it interpolates chain lengths, the point with the same lengths. Empty if its own
   /// kinematics fail.
-  [[nodiscard]] std::optional<model::BedPoint> at(double t);
+  [[nodiscard]] std::optional<Point> at(double t);
 
  private:
-  [[nodiscard]] model::BedPoint on_line(double t) const {
-    return {from_.x_mm + t * (to_.x_mm - from_.x_mm), from_.y_mm + t * (to_.y_mm - from_.y_mm)};
-  }
-
   const Firmware& firmware_;
   const model::ControllerKinematics& kinematics_;
-  model::BedPoint from_;
-  model::BedPoint to_;
+  Point from_;
+  Point to_;
   int pieces_ = 1;
   int piece_ = -1;  // whose ends are computed
   std::optional<model::ChainLengths> start_;

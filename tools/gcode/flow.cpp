@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -60,22 +62,18 @@ const Flow::Word Flow::kWords[] = {
 };
 
 Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
-  ControlLine control;
+  std::string label;
   ValueReader reader(line, interpreter_.parameters(), at + 1);
   if (reader.peek() == '<') {
-    auto name = reader.angle_name();
-    control.label = fmt::format("<{}>", name);
+    label = fmt::format("<{}>", reader.angle_name());
   } else {
     const auto number = reader.integer();
     if (number < 0) refuse(bad_flow, line.place(at), "an O number must not be negative");
-    control.label = fmt::format("{}", number);
+    label = fmt::format("{}", number);
   }
-  for (std::size_t i = 0; i < std::size(kWords); ++i) {
-    if (!reader.accept(kWords[i].text)) continue;
-    if (kWords[i].text.empty() && !reader.done()) break;
-    control.keyword = static_cast<Keyword>(i);
-    control.rest = reader.at();
-    return control;
+  for (const Word& word : kWords) {
+    if (!reader.accept(word.keyword) || (word.keyword.empty() && !reader.done())) continue;
+    return {word, std::move(label), reader.at()};
   }
   refuse(bad_flow,
          reader.place(),
@@ -85,7 +83,7 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
 
 void Flow::control(const CleanLine& line, std::size_t at) {
   const ControlLine control = parse(line, at);
-  (this->*kWords[static_cast<std::size_t>(control.keyword)].execute)(line, control);
+  (this->*control.execute)(line, control);
 }
 
 /// A body for M98.
@@ -101,7 +99,7 @@ double Flow::value(const CleanLine& line, std::size_t at) const {
 }
 
 std::optional<Flow::Found> Flow::find(const std::string& label,
-                                      std::initializer_list<Keyword> keywords) {
+                                      std::initializer_list<std::string_view> keywords) {
   int depth = 0;
   SourceLine raw;
   while (next(raw)) {
@@ -113,19 +111,19 @@ std::optional<Flow::Found> Flow::find(const std::string& label,
       return parse(found_line_, at);
     });
     if (!control || !*control || (*control)->label != label) continue;
-    const Keyword keyword = (*control)->keyword;
-    const bool wanted = std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
-    if (depth == 0 && wanted) return Found{std::move(**control), line_start_};
+    const std::string_view keyword = (*control)->keyword;
+    if (depth == 0 && grid::contains(keywords, keyword))
+      return Found{std::move(**control), line_start_};
     // The same label again, nested: allowed by controllers other than LinuxCNC.
-    if (keyword == Keyword::if_ || keyword == Keyword::repeat) ++depth;
-    if (keyword == Keyword::endif || keyword == Keyword::endrepeat) --depth;
+    if (keyword == "if" || keyword == "repeat") ++depth;
+    if (keyword == "endif" || keyword == "endrepeat") --depth;
     depth = std::max(depth, 0);
   }
   return std::nullopt;
 }
 
 Flow::Found Flow::skip_to(const std::string& label,
-                          std::initializer_list<Keyword> keywords,
+                          std::initializer_list<std::string_view> keywords,
                           Place from) {
   auto found = find(label, keywords);
   if (found) return std::move(*found);
@@ -136,13 +134,13 @@ void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
   const auto [known, fresh] = defined_at_.emplace(control.label, line.number);
   if (!fresh && known->second != line.number) {
     refuse(bad_flow,
-           line.place(0),
+           line,
            "the subroutine o{} is already defined on line {}",
            control.label,
            known->second);
   }
   bodies_.insert_or_assign(control.label, source_.position());
-  skip_to(control.label, {Keyword::endsub}, line.place(0));
+  skip_to(control.label, {"endsub"}, line);
 }
 
 /// Searches to the end of the file, then from its beginning.
@@ -151,10 +149,10 @@ LineSource::Position Flow::find_body(const std::string& label, Place place) {
   const LineSource::Position here = source_.position();
   for (const LineSource::Position from : {here, LineSource::Position{}}) {
     source_.seek(from);
-    const auto found = find(label, {Keyword::sub, Keyword::program});
+    const auto found = find(label, {"sub", ""});
     if (!found) continue;
     const LineSource::Position body = source_.position();
-    if (found->control.keyword == Keyword::sub) defined_at_.emplace(label, body.lines_before);
+    if (found->control.keyword == "sub") defined_at_.emplace(label, body.lines_before);
     bodies_.emplace(label, body);
     source_.seek(here);
     return body;
@@ -188,18 +186,18 @@ void Flow::call(const CleanLine& line, const ControlLine& control) {
     arguments.push_back(reader.bracketed());
   }
   if (arguments.size() > 30)
-    refuse(bad_flow, line.place(0), "a subroutine takes at most 30 arguments");
+    refuse(bad_flow, line, "a subroutine takes at most 30 arguments");
   OpenCall open;
   open.label = control.label;
   open.return_to = source_.position();
-  open.body = find_body(control.label, line.place(0));
-  push_call(std::move(open), line.place(0));
+  open.body = find_body(control.label, line);
+  push_call(std::move(open), line);
   interpreter_.parameters().enter(arguments);
 }
 
 void Flow::return_from(const CleanLine& line, const ControlLine& control) {
   if (calls_.empty() || calls_.back().program || calls_.back().label != control.label) {
-    refuse(bad_flow, line.place(0), "the subroutine o{} has not been called", control.label);
+    refuse(bad_flow, line, "the subroutine o{} has not been called", control.label);
   }
   const bool returns = control.rest < line.text.size();
   const double result = returns ? value(line, control.rest) : 0.0;

@@ -35,35 +35,21 @@ class Flow {
   void finish(Place place) const;
 
  private:
-  /// In the order of kWords.
-  enum class Keyword {
-    endsub,
-    sub,
-    call,
-    return_,
-    endwhile,
-    while_,
-    do_,
-    elseif,
-    else_,
-    endif,
-    if_,
-    break_,
-    continue_,
-    endrepeat,
-    repeat,
-    program,
+  struct ControlLine;
+  struct Word {
+    std::string_view keyword;  // empty for the number of a program
+    void (Flow::*execute)(const CleanLine&, const ControlLine&);
   };
-  struct ControlLine {
+  static const Word kWords[];
+  struct ControlLine : Word {
     std::string label;
-    Keyword keyword = Keyword::program;
     std::size_t rest = 0;  // where the arguments begin
   };
   struct OpenBlock {
     std::string label;
-    Keyword kind = Keyword::if_;  // if_, while_, do_ or repeat
-    LineSource::Position start;   // of the line that a loop returns to
-    long remaining = 0;           // repeat only
+    std::string_view kind;       // if, while, do or repeat
+    LineSource::Position start;  // of the line that a loop returns to
+    long remaining = 0;          // repeat only
     std::size_t line = 0;
   };
   struct OpenCall {
@@ -74,12 +60,6 @@ class Flow {
     bool program = false;    // M98, without arguments
     std::size_t blocks = 0;  // open when it was called
   };
-
-  struct Word {
-    std::string_view text;
-    void (Flow::*execute)(const CleanLine&, const ControlLine&);
-  };
-  static const Word kWords[];
 
   ControlLine parse(const CleanLine& line, std::size_t at) const;
   void name_program(const CleanLine& line, const ControlLine& control);
@@ -99,13 +79,18 @@ class Flow {
     ControlLine control;
     LineSource::Position before;
   };
-  std::optional<Found> find(const std::string& label, std::initializer_list<Keyword> keywords);
+  std::optional<Found> find(const std::string& label,
+                            std::initializer_list<std::string_view> keywords);
   /// The same, but required.
-  Found skip_to(const std::string& label, std::initializer_list<Keyword> keywords, Place from);
+  Found skip_to(const std::string& label,
+                std::initializer_list<std::string_view> keywords,
+                Place from);
   void open_block(OpenBlock block, Place place);
   void push_call(OpenCall call, Place place);
   void pop_call();
   OpenBlock* innermost(const std::string& label);
+  /// Closes this block and those inside it.
+  void close(const OpenBlock* block);
   std::size_t floor() const { return calls_.empty() ? 0 : calls_.back().blocks; }
 
   LineSource& source_;

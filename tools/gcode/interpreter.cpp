@@ -13,10 +13,10 @@
 namespace chaintrue::gcode {
 
 Interpreter::Interpreter(const Dialect& dialect, const Block& block, Sink& sink)
-    : dialect_(dialect), block_(block), sink_(sink) {
-  parameters_.follow([this](int index) { return state_by_number(index); },
-                     [this](std::string_view name) { return state_by_name(name); });
-}
+    : dialect_(dialect),
+      block_(block),
+      sink_(sink),
+      parameters_([this](std::string_view name) { return state(name); }) {}
 
 void Interpreter::step(Place place) {
   if (++steps_ <= dialect_.step_budget) return;
@@ -88,7 +88,7 @@ void Interpreter::pass_line(const std::vector<CommentText>& texts,
   sink_.word(passed);
 }
 
-AfterBlock Interpreter::execute(const std::vector<CommentText>& texts) {
+void Interpreter::execute(const std::vector<CommentText>& texts) {
   note_deletable();
   for (const KnownCode* code : block_.codes) {
     if (code != nullptr) sink_.code(block_.line, *code);
@@ -110,7 +110,6 @@ AfterBlock Interpreter::execute(const std::vector<CommentText>& texts) {
     }
     move(motion);
   }
-  return after();
 }
 
 /// The motion of this block, or -1.
@@ -143,7 +142,7 @@ int Interpreter::motion_to_be() const {
 void Interpreter::check_assignments() const {
   for (const Assignment& assignment : block_.assignments) {
     const bool fixed = assignment.index != 0 ? !parameters_.writable(assignment.index)
-                                             : state_by_name(assignment.name).has_value();
+                                             : state(assignment.name).has_value();
     if (fixed) refuse(bad_parameter, assignment.place, "this parameter can only be read");
   }
 }
@@ -263,30 +262,6 @@ void Interpreter::set_modes() {
   if (block_.is(g::no_motion)) modes_.motion = g::no_motion;
   if (const KnownCode* retract = block_.code(Group::retract))
     modes_.retract_to_r = retract->tenths == g::retract_to_r;
-}
-
-AfterBlock Interpreter::after() const {
-  AfterBlock result;
-  if (const KnownCode* flow = block_.code(Group::flow)) {
-    if (*flow == m(99)) {
-      result.flow = AfterBlock::Flow::leave_program;
-      return result;
-    }
-    if (!block_.has('p')) refuse(missing_word, block_, "M98 needs a program number as P");
-    result.flow = AfterBlock::Flow::call_program;
-    result.program = std::lround(block_.value('p'));
-    result.repeats = std::lround(block_.find('l').value_or(1.0));
-    return result;
-  }
-  const KnownCode* stop = block_.code(Group::stop);
-  if (stop == nullptr) return result;
-  if (*stop == m(2) || *stop == m(30)) {
-    result.flow = AfterBlock::Flow::end;
-    result.end_word = *stop == m(2) ? "M2" : "M30";
-    return result;
-  }
-  pass(*stop);
-  return result;
 }
 
 }  // namespace chaintrue::gcode

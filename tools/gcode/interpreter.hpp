@@ -11,11 +11,11 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <set>
 #include <vector>
 
-#include "tools/gcode/arc_words.hpp"
 #include "tools/gcode/block.hpp"
 #include "tools/gcode/events.hpp"
 #include "tools/gcode/value_reader.hpp"
@@ -44,20 +44,8 @@ struct Dialect {
 /// X, Y, Z in mm, A, B, C in degrees.
 using Axes = std::array<double, 6>;
 
-/// Of a coordinate system about Z.
-struct Turn {
-  double cosine = 1.0;
-  double sine = 0.0;
-};
-
-/// The action of the program after a block.
-struct AfterBlock {
-  enum class Flow { next, end, call_program, leave_program };
-  Flow flow = Flow::next;
-  std::string_view end_word;  ///< of Flow::end
-  long program = 0;           ///< of M98
-  long repeats = 1;
-};
+/// Of a coordinate system about Z: cosine and sine.
+using Turn = std::complex<double>;
 
 class Interpreter {
  public:
@@ -66,10 +54,12 @@ class Interpreter {
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
 
-  [[nodiscard]] AfterBlock execute(const std::vector<CommentText>& comments);
+  void execute(const std::vector<CommentText>& comments);
 
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
+  /// A code and its words, unchanged.
+  void pass(Code code, std::string_view words = {}) const;
   /// A plotter's own code, or M0 with a text, which is passed on unchanged.
   void pass_line(const std::vector<CommentText>& comments, Code code, std::string_view words);
   /// Notes on the program as a whole, at its end.
@@ -103,7 +93,7 @@ class Interpreter {
     Axes origin{};
     Axes offset{};
     double rotation_deg = 0.0;
-    Turn turn;
+    Turn turn = 1.0;
   };
   struct Sticky {
     int plane = g::plane_xy;
@@ -120,7 +110,6 @@ class Interpreter {
   int motion_to_be() const;
   void set_feed(int motion);
   void set_modes();
-  AfterBlock after() const;
   void assign();
   /// Remarks of one name are made once a program.
   /// At the block.
@@ -139,7 +128,6 @@ class Interpreter {
   void pass_words();
   void dwell();
   void tool_length();
-  void pass(Code code, std::string_view words = {}) const;
   /// With the words of the block that belong to it, lengths in mm of a unit.
   void pass_with_words(const KnownCode& code, double unit = 1.0) const;
 
@@ -151,9 +139,7 @@ class Interpreter {
   void set_system();
   void set_offset();
   void cancel_offset(bool forget);
-  void restore_offset();
   void go_home(int first_parameter);
-  void note_home(const char* sentence);
   void store_home(int first_parameter);
   void needs_known_z() const;
   void refresh_frame();
@@ -172,12 +158,14 @@ class Interpreter {
   void polar(Axes& program) const;
   void run(Move move, const Axes& machine);
   void straight(MoveKind kind, const Axes& machine);
-  void arc(bool clockwise);
   void probe();
   [[nodiscard]] double length(char letter) const { return block_.value(letter) * mm_per_unit(); }
   [[nodiscard]] double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
   [[nodiscard]] Point on_sheet(const Axes& machine) const;
   [[nodiscard]] Move basic_move(MoveKind kind, const Axes& to) const;
+
+  // interpreter_arcs.cpp
+  void arc(bool clockwise);
 
   // interpreter_cycles.cpp
   void cycle(int motion);
@@ -186,8 +174,8 @@ class Interpreter {
   [[nodiscard]] std::string system_name() const;
   /// In the program's units.
   [[nodiscard]] Axes position() const;
-  [[nodiscard]] std::optional<double> state_by_number(int index) const;
-  [[nodiscard]] std::optional<double> state_by_name(std::string_view name) const;
+  /// Of a predefined name (#<_x> ..).
+  [[nodiscard]] std::optional<double> state(std::string_view name) const;
 
   Dialect dialect_;
   const Block& block_;
@@ -199,7 +187,7 @@ class Interpreter {
   Axes machine_{};  ///< the machine's position
   std::uint64_t steps_ = 0;
   std::size_t call_level_ = 0;
-  bool home_known_[2] = {false, false};
+  std::set<int> known_homes_;  ///< by their first parameter
   std::set<std::string_view> noted_;
   bool units_stated_ = false;
   bool placed_[2] = {false, false};  ///< the program has stated X, Y

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// G0, G1, G2, G3 and probing: from words to moves in the machine frame.
+/// G0, G1 and probing: from words to moves in the machine frame.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
@@ -12,15 +11,12 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// More turns than this are a typing error.
-constexpr double kMostTurns = 1000.0;
-
 void name_axes(const Block& block, Move& move) {
   const bool changes_xy = move.to.x_mm != move.from.x_mm || move.to.y_mm != move.from.y_mm;
   move.names_xy = changes_xy || move.arc || block.has('x') || block.has('y') || block.has_polar();
   // An arc in G18 or G19 changes height even if it returns to it.
-  const bool upright = move.arc && (move.arc->first.z_mm != 0.0 || move.arc->second.z_mm != 0.0);
-  move.names_z = move.to.z_mm != move.from.z_mm || block.has('z') || upright;
+  move.names_z =
+      move.to.z_mm != move.from.z_mm || block.has('z') || (move.arc && move.arc->is_upright());
 }
 
 }  // namespace
@@ -50,9 +46,10 @@ void Interpreter::move(int motion) {
       modes_.motion = motion;
       if (block_.is(g::machine_frame)) {
         if (block_.has_z_alone()) return machine_height(motion);
-        note_home(
-            "G53 with X or Y moves in machine coordinates, whose position on the sheet is unknown; "
-            "write sheet coordinates without G53, and put G53 with Z on a separate line");
+        note("home_assumed",
+             "G53 with X or Y moves in machine coordinates, whose position on the sheet is "
+             "unknown; write sheet coordinates without G53, and put G53 with Z on a separate line",
+             unknown_home);
       }
       const auto machine = target();
       return straight(motion == g::rapid ? MoveKind::rapid : MoveKind::feed, machine);
@@ -190,76 +187,6 @@ void Interpreter::probe() {
   z_is_machine_ = false;
   for (int i = 0; i < 3; ++i)
     parameters_.set(parameter::kProbe + i, machine_[static_cast<std::size_t>(i)]);
-}
-
-void Interpreter::arc(bool clockwise) {
-  double count = 1.0;
-  if (block_.has('p')) {
-    count = block_.value('p');
-    if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
-      refuse(bad_arc,
-             block_.place('p'),
-             "P, the number of turns, must be a whole number from 1 to {}",
-             kMostTurns);
-    }
-  }
-  if (block_.is(g::machine_frame)) {
-    refuse(bad_word_value, block_, "G53 needs G0 or G1");
-  }
-  if (z_unknown_ && modes_.plane != g::plane_xy) {
-    refuse(unsupported_code,
-           block_,
-           "after probing, G53, G28 or G30 the start of an upright arc (G18, G19) is known only to "
-           "the machine");
-  }
-  const auto machine = target();
-  const Axes start = to_program(machine_);
-  const Axes end = to_program(machine);
-  const PlaneAxes plane = plane_axes(modes_.plane);
-  ArcRequest request;
-  request.start = {start[plane.first], start[plane.second]};
-  request.end = {end[plane.first], end[plane.second]};
-  request.first_axis = kAxisLetters[plane.first];
-  request.second_axis = kAxisLetters[plane.second];
-  request.normal_axis = kAxisLetters[plane.normal];
-  request.turns = static_cast<int>(clockwise ? -count : count);
-  request.absolute_centre = modes_.absolute_centres;
-  request.mm_per_unit = mm_per_unit();
-  // LinuxCNC reads absolute centres in the program's frame, including offsets.
-  const auto found = attempt([&] { return circle_of(request, block_); });
-  if (!found) {
-    if (!sink_.goes_on_after(found.error())) throw Refusal(found.error());
-    machine_ = machine;
-    return;
-  }
-
-  const auto direction = [&](std::size_t axis) {
-    if (axis == 0) return Point{frame_.turn.cosine, frame_.turn.sine, 0.0};
-    if (axis == 1) return Point{-frame_.turn.sine, frame_.turn.cosine, 0.0};
-    return Point{0.0, 0.0, 1.0};
-  };
-  Axes centre = start;
-  centre[plane.first] = found->centre.first_mm;
-  centre[plane.second] = found->centre.second_mm;
-  Arc arc;
-  arc.centre = on_sheet(to_machine(centre));
-  arc.first = direction(plane.first);
-  arc.second = direction(plane.second);
-  arc.start_radius_mm = found->start_radius_mm;
-  arc.end_radius_mm = found->end_radius_mm;
-  arc.start_angle_rad = found->start_angle_rad;
-  arc.sweep_rad = found->sweep_rad;
-  arc.turns = request.turns;
-  arc.end_height_mm = end[plane.normal] - start[plane.normal];
-  constexpr double kHalfTurnRad = std::numbers::pi * (1.0 + 1e-6);
-  const double sweep = std::fabs(arc.sweep_rad);
-  if (sweep < 2.0 * kHalfTurnRad - 1e-3) {
-    ++arcs_;
-    if (sweep > kHalfTurnRad && long_arcs_++ == 0) first_long_arc_ = block_.line;
-  }
-  Move move = basic_move(MoveKind::arc, machine);
-  move.arc = arc;
-  run(move, machine);
 }
 
 }  // namespace chaintrue::gcode

@@ -18,19 +18,12 @@ namespace {
 int first_parameter(int system) { return parameter::kFirstSystem + 20 * (system - 1); }
 int rotation_parameter(int system) { return first_parameter(system) + 9; }
 
-Turn turn(double degrees) {
-  if (degrees == 0.0) return {};
-  const double angle = degrees * std::numbers::pi / 180.0;
-  return {std::cos(angle), std::sin(angle)};
-}
-
-Turn back(Turn by) { return {by.cosine, -by.sine}; }
+Turn turn(double degrees) { return std::polar(1.0, degrees * std::numbers::pi / 180.0); }
 
 Axes rotated(Axes axes, Turn by) {
-  const double x = axes[0];
-  const double y = axes[1];
-  axes[0] = x * by.cosine - y * by.sine;
-  axes[1] = x * by.sine + y * by.cosine;
+  const Turn place = by * Turn(axes[0], axes[1]);
+  axes[0] = place.real();
+  axes[1] = place.imag();
   return axes;
 }
 
@@ -51,7 +44,7 @@ Axes Interpreter::to_machine(const Axes& program) const {
 }
 
 Axes Interpreter::to_program(const Axes& machine) const {
-  return rotated(machine - frame_.origin, back(frame_.turn)) - frame_.offset;
+  return rotated(machine - frame_.origin, std::conj(frame_.turn)) - frame_.offset;
 }
 
 Axes Interpreter::stored(int first) const {
@@ -101,7 +94,9 @@ void Interpreter::once() {
     case g::offset_off:
       return cancel_offset(false);
     case g::offset_restore:
-      return restore_offset();
+      parameters_.set(parameter::kOffsetOn, 1.0);
+      frame_.offset = stored(parameter::kOffset);
+      return;
     default:
       return;
   }
@@ -142,7 +137,7 @@ void Interpreter::set_system() {
   Axes origin = stored(first_parameter(system));
   const Turn by = turn(parameters_.stored(rotation_parameter(system)));
   // The machine's position in that system.
-  const Axes here = rotated(machine_ - origin, back(by));
+  const Axes here = rotated(machine_ - origin, std::conj(by));
   // The change of the origin, in the system's directions, with which the machine's position has the
   // given coordinates.
   Axes shift{};
@@ -189,23 +184,16 @@ void Interpreter::cancel_offset(bool forget) {
   for (int i = 0; i < 9; ++i) parameters_.set(parameter::kOffset + i, 0.0);
 }
 
-void Interpreter::restore_offset() {
-  parameters_.set(parameter::kOffsetOn, 1.0);
-  frame_.offset = stored(parameter::kOffset);
-}
-
 void Interpreter::store_home(int first) {
   store(first, machine_);
-  home_known_[first == parameter::kHome ? 0 : 1] = true;
+  known_homes_.insert(first);
 }
-
-void Interpreter::note_home(const char* sentence) { note("home_assumed", sentence, unknown_home); }
 
 /// Through the point of the axis words, then home with those axes; with all if none is given.
 void Interpreter::go_home(int first) {
   const auto through = target();
   moves_ = true;
-  if (!dialect_.home_is_zero && !home_known_[first == parameter::kHome ? 0 : 1]) {
+  if (!dialect_.home_is_zero && !known_homes_.contains(first)) {
     const Code code = first == parameter::kHome ? g::home : g::second_home;
     if (block_.has_z_alone()) {
       // In whole nanometres, which the rounding of offsets and inches leaves alone.
@@ -213,9 +201,10 @@ void Interpreter::go_home(int first) {
       const std::string word = (modes_.incremental ? "G91 " : "") + name(code) + " Z";
       return pass_height(with_value(word, z_mm), code);
     }
-    note_home(
-        "the position of G28 and G30 is stored in the machine, so where it is on the sheet is "
-        "unknown; write sheet coordinates, and leave X and Y out of the retract (G28 G91 Z0)");
+    note("home_assumed",
+         "the position of G28 and G30 is stored in the machine, so where it is on the sheet is "
+         "unknown; write sheet coordinates, and leave X and Y out of the retract (G28 G91 Z0)",
+         unknown_home);
   }
   placed_[0] = placed_[1] = true;
   straight(MoveKind::rapid, through);

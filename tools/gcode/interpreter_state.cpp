@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The interpreter's state as parameters (#5400 .., #<_x> ..) and in words.
+/// The interpreter's state as parameters (#<_x> ..) and in words.
 #include <fmt/format.h>
 
 #include <utility>
@@ -15,13 +15,7 @@ Axes Interpreter::position() const {
   return place;
 }
 
-std::optional<double> Interpreter::state_by_number(int index) const {
-  if (index == 5400) return static_cast<double>(modes_.tool);
-  const auto axis = static_cast<std::size_t>(index - parameter::kPosition);
-  return axis < Axes{}.size() ? std::optional(position()[axis]) : std::nullopt;
-}
-
-std::optional<double> Interpreter::state_by_name(std::string_view name) const {
+std::optional<double> Interpreter::state(std::string_view name) const {
   if (!name.starts_with('_')) return std::nullopt;
   const Axes here = position();
   const bool per_minute = modes_.feed_mode == FeedMode::per_minute;

@@ -78,8 +78,6 @@ void check_complete(const Block& block, const KnownCode& code) {
   }
 }
 
-long whole(double value) { return std::lround(value); }
-
 }  // namespace
 
 void Interpreter::check_words(int motion) const {
@@ -130,7 +128,7 @@ void Interpreter::pass_words() {
     sink_.word({block_.line, with_value("S", modes_.spindle_rpm)});
   }
   if (block_.has('t')) {
-    modes_.selected_tool = whole(block_.value('t'));
+    modes_.selected_tool = std::lround(block_.value('t'));
     sink_.word({block_.line, fmt::format("T{}", modes_.selected_tool)});
   }
   if (const KnownCode* output = block_.code(Group::output)) {
@@ -139,7 +137,7 @@ void Interpreter::pass_words() {
   }
   if (const KnownCode* tool = block_.code(Group::tool)) {
     check_complete(block_, *tool);
-    modes_.tool = *tool == m(61) ? whole(block_.value('q')) : modes_.selected_tool;
+    modes_.tool = *tool == m(61) ? std::lround(block_.value('q')) : modes_.selected_tool;
     pass_with_words(*tool);
   }
   if (const KnownCode* spindle = block_.code(Group::spindle)) {

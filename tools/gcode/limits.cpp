@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "tools/gcode/block.hpp"
 
 namespace chaintrue::gcode {
@@ -39,11 +40,11 @@ Limits::Limits(const Corrector& corrector, const CompensateOptions& options, Byt
 
 void Limits::header(double home_x_mm, double home_y_mm) {
   std::vector<std::string> lines;
-  if (options_.made_by) lines = comments_of(*options_.made_by, kMaxOutputLine);
+  if (options_.made_by) lines = comments_of(*options_.made_by);
   lines.push_back(fmt::format(
       "(controller {}, tolerance {} mm)", corrector_.firmware().name, options_.tolerance_mm));
   lines.push_back(fmt::format("(home was X{} Y{})", home_x_mm, home_y_mm));
-  for (const std::string& line : settings_lines(options_.settings)) lines.push_back(line);
+  grid::append_all(lines, settings_lines(options_.settings));
   emitter_.header(lines);
 }
 
@@ -58,17 +59,14 @@ void Limits::command(const Move& move, double feed_mm_per_min, const PathSample&
   if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
   here_ = sample;
   if (!hold()) return;
-  emitter_.command(move,
-                   model::BedPoint{sample.command.x_mm, sample.command.y_mm},
-                   move.names_z ? std::optional(sample.target.z_mm) : std::nullopt,
-                   feed_mm_per_min);
+  emitter_.command(move, sample.command, feed_mm_per_min);
 }
 
 void Limits::height(const Move& move, double feed_mm_per_min) {
   if (!hold()) return;
   if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
   if (length_mm(move) == 0.0 && move.feed.mode == FeedMode::inverse_time) return;
-  emitter_.command(move, std::nullopt, move.to.z_mm, feed_mm_per_min);
+  emitter_.command(move, move.to, feed_mm_per_min, false);
   if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
 }
 
@@ -111,9 +109,8 @@ void Limits::object(const Move& move, const CorrectionFailure& failure, Point pl
 
 /// Checks a sample against the limits.
 void Limits::examine(const Move& move, const PathSample& sample) {
-  const double dx = sample.command.x_mm - sample.target.x_mm;
-  const double dy = sample.command.y_mm - sample.target.y_mm;
-  const double size = std::hypot(dx, dy);
+  const Point correction = sample.command - sample.target;
+  const double size = level_mm(correction);
   if (size > summary_.largest_correction_mm) {
     summary_.largest_correction_mm = size;
     summary_.largest_correction_line = move.line;
@@ -144,12 +141,9 @@ void Limits::examine(const Move& move, const PathSample& sample) {
     }
   }
   if (here_) {
-    const double way = std::hypot(sample.target.x_mm - here_->target.x_mm,
-                                  sample.target.y_mm - here_->target.y_mm);
+    const double way = level_mm(sample.target - here_->target);
     if (way >= kSlopeBaseMm && !options_.has_play()) {
-      const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
-                                      dy - (here_->command.y_mm - here_->target.y_mm)) /
-                           way;
+      const double slope = level_mm(correction - (here_->command - here_->target)) / way;
       summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
       if (slope > options_.steepest_correction) {
         object_to(correction_too_steep,
@@ -161,8 +155,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
       }
     }
   }
-  if (corrector_.map().status({sample.target.x_mm, sample.target.y_mm}) >=
-      grid::MapStatus::extrapolated) {
+  if (corrector_.map().status(sample.target) >= grid::MapStatus::extrapolated) {
     findings_.add(Note{move.line,
                        "extrapolated",
                        fmt::format("{} is outside the measured points; the correction there is "

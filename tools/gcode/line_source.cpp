@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <optional>
 #include <sstream>
 
 namespace chaintrue::gcode {
@@ -34,7 +33,7 @@ class Cleaner {
       if (c == '(') {
         parenthesis();
       } else if (c == ';') {
-        line_.comments.push_back({std::string(raw_.substr(at_ + 1)), at_ + 1, true});
+        line_.comments.push_back({std::string(raw_.substr(at_ + 1)), true});
         break;
       } else if (c == '*' && depth_ == 0) {
         checksum();
@@ -57,8 +56,7 @@ class Cleaner {
     if (raw_[close] == '(') {
       refuse(bad_comment, {line_.number, close + 1}, "a comment opens inside a comment");
     }
-    line_.comments.push_back(
-        {std::string(raw_.substr(open + 1, close - open - 1)), open + 1, false});
+    line_.comments.push_back({std::string(raw_.substr(open + 1, close - open - 1)), false});
     at_ = close + 1;
   }
 
@@ -121,10 +119,6 @@ std::size_t past_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-LineSource::LineSource(std::unique_ptr<std::istream> stream) : stream_(std::move(stream)) {
-  seek({});
-}
-
 Result<LineSource> LineSource::from_file(const std::string& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   // A folder can be opened but not read.
@@ -140,8 +134,8 @@ LineSource LineSource::from_text(std::string text) {
   return LineSource(std::make_unique<std::istringstream>(std::move(text), std::ios::binary));
 }
 
-bool LineSource::refill() {
-  if (exhausted_) return false;
+/// Drops what was read, and reads on.
+void LineSource::refill() {
   buffer_.erase(0, begin_);
   buffer_offset_ += begin_;
   begin_ = 0;
@@ -151,44 +145,37 @@ bool LineSource::refill() {
   const auto got = static_cast<std::size_t>(stream_->gcount());
   buffer_.resize(kept + got);
   exhausted_ = got < kWindow;
-  return got > 0;
 }
 
 bool LineSource::next(SourceLine& line) {
-  std::size_t end = begin_;
-  for (;;) {
-    while (end < buffer_.size() && buffer_[end] != '\n' && buffer_[end] != '\r') {
-      if (buffer_[end] == '\0') {
-        refuse(not_text,
-               {lines_before_ + 1, end - begin_ + 1},
-               "there is a zero byte, so the file is not plain text (UTF-16, or not G-code)");
-      }
-      ++end;
-    }
-    // Some editors write CR CR LF: a run of CRs before an LF is one end of line.
-    const std::size_t after = std::min(buffer_.find_first_not_of('\r', end), buffer_.size());
-    if (after < buffer_.size() || exhausted_) break;
-    const std::size_t length = end - begin_;
-    if (length > kMaxLineLength || after - end > kMaxLineLength) break;
-    refill();
-    end = begin_ + length;
+  // The longest line that is allowed, and its end, are in the buffer as a whole.
+  if (buffer_.size() - begin_ < 2 * kMaxLineLength && !exhausted_) refill();
+  if (begin_ == buffer_.size()) return false;
+  const auto first = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_);
+  const auto last =
+      std::find_if(first, buffer_.end(), [](char c) { return c == '\n' || c == '\r'; });
+  line.text = std::string_view(buffer_).substr(begin_, static_cast<std::size_t>(last - first));
+  line.number = ++lines_before_;
+  if (const std::size_t zero = line.text.find('\0'); zero != std::string_view::npos) {
+    refuse(not_text,
+           {line.number, zero + 1},
+           "there is a zero byte, so the file is not plain text (UTF-16, or not G-code)");
   }
-  if (end - begin_ > kMaxLineLength) {
+  if (line.text.size() > kMaxLineLength) {
     refuse(line_too_long,
-           {lines_before_ + 1, 0},
+           {line.number},
            "the line is longer than {} characters: the line ends are lost, or this is "
            "not a program",
            kMaxLineLength);
   }
-  if (end == buffer_.size() && end == begin_) return false;
-  line.text = std::string_view(buffer_).substr(begin_, end - begin_);
-  line.number = ++lines_before_;
-  if (end < buffer_.size()) {
-    const std::size_t after = std::min(buffer_.find_first_not_of('\r', end), buffer_.size());
-    end = after < buffer_.size() && buffer_[after] == '\n' ? after + 1 : end + 1;
-  }
-  begin_ = end;
-  if (listener_) listener_(buffer_offset_ + begin_);
+  begin_ += line.text.size();
+  // Some editors write CR CR LF: a run of CRs before an LF is one end of line.
+  const std::size_t after = std::min(buffer_.find_first_not_of('\r', begin_), buffer_.size());
+  const bool has_line_feed = after < buffer_.size() && buffer_[after] == '\n';
+  begin_ = has_line_feed ? after + 1 : std::min(begin_ + 1, buffer_.size());
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (line.number == 1 && line.text.starts_with(kByteOrderMark)) line.text.remove_prefix(3);
+  if (listener_) listener_(position().offset);
   return true;
 }
 
@@ -198,20 +185,14 @@ LineSource::Position LineSource::position() const {
 
 void LineSource::seek(Position position) {
   lines_before_ = position.lines_before;
-  if (position.offset >= buffer_offset_ && position.offset <= buffer_offset_ + buffer_.size() &&
-      !buffer_.empty()) {
-    begin_ = static_cast<std::size_t>(position.offset - buffer_offset_);
-    return;
+  if (position.offset < buffer_offset_ || position.offset > buffer_offset_ + buffer_.size()) {
+    stream_->clear();
+    stream_->seekg(static_cast<std::streamoff>(position.offset));
+    buffer_.clear();
+    buffer_offset_ = position.offset;
+    exhausted_ = false;
   }
-  stream_->clear();
-  stream_->seekg(static_cast<std::streamoff>(position.offset));
-  buffer_.clear();
-  begin_ = 0;
-  buffer_offset_ = position.offset;
-  exhausted_ = false;
-  refill();
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (position.offset == 0 && std::string_view(buffer_).substr(0, 3) == kByteOrderMark) begin_ = 3;
+  begin_ = static_cast<std::size_t>(position.offset - buffer_offset_);
 }
 
 void clean(std::string_view raw, std::size_t number, CleanLine& line) {

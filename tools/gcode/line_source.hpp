@@ -40,8 +40,8 @@ class LineSource {
     std::size_t lines_before = 0;
   };
 
-  /// \param stream seekable and opened in binary mode.
-  explicit LineSource(std::unique_ptr<std::istream> stream);
+  /// \param stream seekable, at its beginning, and opened in binary mode.
+  explicit LineSource(std::unique_ptr<std::istream> stream) : stream_(std::move(stream)) {}
 
   [[nodiscard]] static Result<LineSource> from_file(const std::string& path);
   [[nodiscard]] static LineSource from_text(std::string text);
@@ -55,7 +55,7 @@ class LineSource {
   void on_line(std::function<void(std::uint64_t)> listener) { listener_ = std::move(listener); }
 
  private:
-  bool refill();
+  void refill();
 
   std::unique_ptr<std::istream> stream_;
   std::string buffer_;
@@ -67,8 +67,7 @@ class LineSource {
 };
 
 struct CommentText {
-  std::string text;  ///< the text between the parentheses or after the semicolon
-  std::size_t column = 0;
+  std::string text;  ///< between the parentheses or after the semicolon
   bool semicolon = false;
 };
 
@@ -79,9 +78,8 @@ struct CleanLine {
   std::vector<CommentText> comments;
   std::size_t number = 0;
 
-  [[nodiscard]] Place place(std::size_t index) const {
-    return {number, index < columns.size() ? columns[index] : 0};
-  }
+  [[nodiscard]] Place place(std::size_t index) const { return {number, columns[index]}; }
+  [[nodiscard]] operator Place() const { return place(0); }
 };
 
 /// A word's letter as messages show it and as the reader knows it; any other character unchanged.

@@ -20,6 +20,8 @@ double distance_mm(Point a, Point b) {
   return std::sqrt(dot(a - b, a - b));
 }
 
+double level_mm(Point way) { return std::hypot(way.x_mm, way.y_mm); }
+
 double nearest_on_line(Point a, Point b, Point p) {
   const double squared = dot(b - a, b - a);
   return squared == 0.0 ? 0.0 : std::clamp(dot(b - a, p - a) / squared, 0.0, 1.0);
@@ -48,6 +50,10 @@ Point at(const Move& move, double t) {
   const double angle = arc.start_angle_rad + t * arc.sweep_rad;
   const double height = arc.start_height_mm + t * (arc.end_height_mm - arc.start_height_mm);
   return in_plane(arc, radius * std::cos(angle), radius * std::sin(angle), height);
+}
+
+bool stays(const Move& move) {
+  return !move.arc && move.from.x_mm == move.to.x_mm && move.from.y_mm == move.to.y_mm;
 }
 
 std::vector<double> bounding_places(const Move& move) {

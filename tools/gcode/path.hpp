@@ -38,6 +38,9 @@ constexpr double dot(Point a, Point b) {
                                    double bow_mm,
                                    double fewest);
 
+/// Whether it is a straight move without X and Y.
+[[nodiscard]] bool stays(const Move& move);
+
 /// Where X, Y or Z turns around, and both ends: t = 0 .. 1 of the places that bound the move.
 [[nodiscard]] std::vector<double> bounding_places(const Move& move);
 
@@ -47,6 +50,8 @@ constexpr double dot(Point a, Point b) {
 [[nodiscard]] double feed_mm_per_min(const Move& move);
 
 [[nodiscard]] double distance_mm(Point a, Point b);
+/// The length of its part in X and Y.
+[[nodiscard]] double level_mm(Point way);
 
 /// Parameter 0 .. 1 of the nearest point on the straight piece from a to b.
 [[nodiscard]] double nearest_on_line(Point a, Point b, Point p);

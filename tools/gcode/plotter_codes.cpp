@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/gcode/plotter_codes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <string_view>
@@ -12,17 +14,17 @@ namespace {
 
 /// M17, M18, M84: motors on and off. M42, M106, M107: a pin, or a fan's output, that a pen hangs on.
 /// M201 to M205: speeds and accelerations. M280: a servo. M300: a sound. M400: wait until moves are done.
-constexpr int kPassedCodes[] = {17, 18, 42, 84, 106, 107, 201, 203, 204, 205, 280, 300, 400};
+constexpr std::string_view kPassedCodes =
+    " M17 M18 M42 M84 M106 M107 M201 M203 M204 M205 M280 M300 M400 ";
 
-bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 bool opens_word(char c) { return c >= 'a' && c <= 'z'; }
 
 /// Digits with at most one point, and a sign before them.
 bool is_plain_number(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  return std::any_of(text.begin(), text.end(), is_decimal) &&
-         std::all_of(text.begin(), text.end(), [](char c) { return is_decimal(c) || c == '.'; }) &&
-         std::count(text.begin(), text.end(), '.') <= 1;
+  std::size_t end = past_digits(text, 0);
+  if (text.substr(end).starts_with('.')) end = past_digits(text, end + 1);
+  return end == text.size() && !text.empty() && text != ".";
 }
 
 bool is_letter(char c) {
@@ -69,10 +71,9 @@ std::optional<PlotterWord> plotter_word(const CleanLine& line, std::size_t at, b
     if (!word) {
       word = {{letter, 10 * number_of(number)}, {}};
       homes = word->code == g::home;
-      const bool is_known = letter == 'M' && std::find(std::begin(kPassedCodes),
-                                                       std::end(kPassedCodes),
-                                                       number_of(number)) != std::end(kPassedCodes);
-      if (!homes && !is_known) return std::nullopt;
+      if (!homes && letter != 'M') return std::nullopt;
+      const std::string code = fmt::format(" {} ", name(word->code));
+      if (!homes && kPassedCodes.find(code) == std::string_view::npos) return std::nullopt;
     } else {
       const bool is_axis = std::string_view("XYZ").find(letter) != std::string_view::npos;
       homes_itself = homes_itself || number.empty();
@@ -97,7 +98,7 @@ std::optional<TextLine> text_line(std::string_view raw, bool of_plotter) {
   if (!shows && !is_prose(text)) return std::nullopt;
   TextLine line{m(number), std::string(text), {}};
   if (semicolon < raw.size())
-    line.comments.push_back({std::string(raw.substr(semicolon + 1)), semicolon + 1, true});
+    line.comments.push_back({std::string(raw.substr(semicolon + 1)), true});
   return line;
 }
 

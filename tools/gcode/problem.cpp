@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace chaintrue::gcode {
 namespace {
 
@@ -30,13 +28,9 @@ std::string_view name(ProblemName problem) { return row(problem).name; }
 ProblemKind kind(ProblemName problem) { return row(problem).kind; }
 
 std::string Problem::message() const {
-  std::string text;
-  auto out = std::back_inserter(text);
-  if (place.line != 0) fmt::format_to(out, "line {}", place.line);
-  if (place.line != 0 && place.column != 0) fmt::format_to(out, ", column {}", place.column);
-  if (place.line != 0) text += ": ";
-  fmt::format_to(out, "{} ({})", sentence, gcode::name(name));
-  return text;
+  const std::string column = place.column != 0 ? fmt::format(", column {}", place.column) : "";
+  const std::string where = place.line != 0 ? fmt::format("line {}{}: ", place.line, column) : "";
+  return fmt::format("{}{} ({})", where, sentence, gcode::name(name));
 }
 
 void refuse(ProblemName problem, Place place, std::string sentence) {

@@ -46,14 +46,11 @@ struct Problem {
 [[nodiscard]] std::string_view name(ProblemName problem);
 [[nodiscard]] ProblemKind kind(ProblemName problem);
 
-class Refusal final : public std::exception {
- public:
-  explicit Refusal(Problem problem) : problem_(std::move(problem)) {}
-  [[nodiscard]] const Problem& problem() const { return problem_; }
-  [[nodiscard]] const char* what() const noexcept override { return problem_.sentence.c_str(); }
+struct Refusal final : std::exception {
+  explicit Refusal(Problem found) : problem(std::move(found)) {}
+  [[nodiscard]] const char* what() const noexcept override { return problem.sentence.c_str(); }
 
- private:
-  Problem problem_;
+  Problem problem;
 };
 
 /// \throws Refusal
@@ -77,7 +74,7 @@ template <class Task>
   try {
     return task();
   } catch (const Refusal& refusal) {
-    return tl::unexpected(refusal.problem());
+    return tl::unexpected(refusal.problem);
   }
 }
 

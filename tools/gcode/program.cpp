@@ -3,6 +3,8 @@
 /// From lines to executed blocks.
 #include "tools/gcode/program.hpp"
 
+#include <cmath>
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -92,7 +94,8 @@ void Program::line(const SourceLine& raw) {
     if (holds_moves(line_.text)) lines_lost(raw.number);
     throw;
   }
-  follow(interpreter_.execute(line_.comments));
+  interpreter_.execute(line_.comments);
+  follow_block();
 }
 
 /// The text is the operator's: a plotter's controller shows it, in other programs it is a message.
@@ -130,17 +133,18 @@ void Program::end(std::size_t line, std::string_view word) {
   sink_.end(line, word);
 }
 
-void Program::follow(const AfterBlock& after) {
-  switch (after.flow) {
-    case AfterBlock::Flow::next:
-      return;
-    case AfterBlock::Flow::end:
-      return end(block_.line, after.end_word);
-    case AfterBlock::Flow::call_program:
-      return flow_.call_program(after.program, after.repeats, block_);
-    case AfterBlock::Flow::leave_program:
-      return flow_.leave_program(block_);
+/// The code of the block that decides what comes next.
+void Program::follow_block() {
+  if (const KnownCode* flow = block_.code(Group::flow)) {
+    if (*flow == m(99)) return flow_.leave_program(block_);
+    if (!block_.has('p')) refuse(missing_word, block_, "M98 needs a program number as P");
+    const double repeats = block_.find('l').value_or(1.0);
+    return flow_.call_program(std::lround(block_.value('p')), std::lround(repeats), block_);
   }
+  const KnownCode* stop = block_.code(Group::stop);
+  if (stop == nullptr) return;
+  if (*stop == m(2) || *stop == m(30)) return end(block_.line, name(*stop));
+  interpreter_.pass(*stop);
 }
 
 Result<ProgramSummary> run_program(LineSource& source, const Dialect& dialect, Sink& sink) {

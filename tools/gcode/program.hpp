@@ -61,12 +61,11 @@ class Program {
   void line_with_text(std::size_t number, const TextLine& text);
   void line_number(std::size_t& at) const;
   void percent(const SourceLine& raw);
-  void follow(const AfterBlock& after);
+  void follow_block();
   void end_of_file();
   void end(std::size_t line, std::string_view word);
-  [[nodiscard]] char peek(std::size_t at) const {
-    return at < line_.text.size() ? line_.text[at] : '\0';
-  }
+  /// Zero at the end.
+  [[nodiscard]] char peek(std::size_t at) const { return line_.text[at]; }
 
   Block block_;
   Interpreter interpreter_;

@@ -37,7 +37,7 @@ class Sampler final : public Sink {
     const double feed = move.kind == MoveKind::rapid ? 0.0 : feed_mm_per_min(move);
     for (double i = 1.0; i <= pieces; i += 1.0) {
       const Point place = at(move, i / pieces);
-      const auto answer = map_.query({place.x_mm, place.y_mm});
+      const auto answer = map_.query(place);
       if (answer) {
         write_({move.line, move.kind, place, *answer, feed});
         continue;
@@ -70,7 +70,8 @@ class Surveyor final : public Sink {
   void move(const Move& move) override {
     count(move);
     if (!move.names_xy) {
-      if (move.names_z) height(move.to.z_mm);
+      if (move.names_z && result.box)
+        include({result.box->least.x_mm, result.box->least.y_mm, move.to.z_mm});
       return;
     }
     for (const double t : bounding_places(move)) {
@@ -102,20 +103,17 @@ class Surveyor final : public Sink {
     result.fastest_mm_per_min = std::max(result.fastest_mm_per_min.value_or(feed), feed);
   }
 
-  void height(double z_mm) {
-    if (!result.box) return;
-    result.box->least.z_mm = std::min(result.box->least.z_mm, z_mm);
-    result.box->most.z_mm = std::max(result.box->most.z_mm, z_mm);
+  void include(Point place) {
+    if (!result.box) result.box = Box{place, place};
+    auto& [least, most] = *result.box;
+    for (const auto axis : {&Point::x_mm, &Point::y_mm, &Point::z_mm}) {
+      least.*axis = std::min(least.*axis, place.*axis);
+      most.*axis = std::max(most.*axis, place.*axis);
+    }
   }
 
   void take(Point place, std::size_t line) {
-    if (!result.box) result.box = Box{place, place};
-    Box& box = *result.box;
-    box.least.x_mm = std::min(box.least.x_mm, place.x_mm);
-    box.least.y_mm = std::min(box.least.y_mm, place.y_mm);
-    box.most.x_mm = std::max(box.most.x_mm, place.x_mm);
-    box.most.y_mm = std::max(box.most.y_mm, place.y_mm);
-    height(place.z_mm);
+    include(place);
     const interp::Rectangle& area = sheet_.area;
     const double beyond = std::max({area.x_min - place.x_mm,
                                     place.x_mm - area.x_max,

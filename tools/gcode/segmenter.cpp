@@ -44,6 +44,35 @@ constexpr double kShortestMm = 0.002;
 /// Half a unit of the last decimal, in X, Y and Z.
 double rounding_mm(int decimals) { return 0.5 * std::sqrt(3.0) * std::pow(10.0, -decimals); }
 
+/// From the controller's path.
+Corrected<double> deviation_from(CommandWay& way,
+                                 bool own_way,
+                                 const Curve& curve,
+                                 const PathSample& a,
+                                 const PathSample& b,
+                                 double length_mm) {
+  int checks = std::max(kFewestChecks,
+                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
+  // Each of the controller's pieces bows: the worst point is in the middle of one, or between two.
+  if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
+  double worst = 0.0;
+  double behind = 0.0;
+  for (int i = own_way ? 1 : 0; i < checks; ++i) {
+    // Unequal spacing otherwise, so that no wave of the surface is missed by all checks.
+    const double share = (i + (own_way ? 0.0 : 0.5 + 0.118 * (i % 3 - 1))) / checks;
+    const auto sample = curve(a.t + share * (b.t - a.t));
+    if (!sample) return tl::unexpected(sample.error());
+    // The tool does not move back along its chord; where the curve does, that counts as deviation.
+    const double u = std::max(behind, nearest_on_line(a.command, b.command, sample->command));
+    behind = u;
+    const auto on_way = way.at(u);
+    if (!on_way) return tl::unexpected(CorrectionReason::controller);
+    worst = std::max(worst, distance_mm(sample->command, *on_way));
+  }
+  // FluidNC sums its pieces in single precision.
+  return own_way ? worst + way.pieces() * kPieceRoundingMm : worst;
+}
+
 }  // namespace
 
 double least_tolerance_mm(int decimals) {
@@ -73,8 +102,8 @@ Corrected<double> Segmenter::deviation_mm(const Curve& curve,
   const auto way = [&](double doubt_mm) {
     return CommandWay(corrector_.firmware(),
                       corrector_.kinematics(),
-                      {a.command.x_mm, a.command.y_mm},
-                      {b.command.x_mm, b.command.y_mm},
+                      a.command,
+                      b.command,
                       feed_mm_per_min,
                       doubt_mm);
   };
@@ -82,43 +111,11 @@ Corrected<double> Segmenter::deviation_mm(const Curve& curve,
   // tolerance: a piece's bow may be on the curve's side of the chord or on the other.
   CommandWay fewer = way(kRoundingMm);
   CommandWay more = way(-kRoundingMm);
-  const auto first = deviation_mm(curve, a, b, length_mm, fewer);
-  if (!first || more.pieces() == fewer.pieces()) return first;
-  const auto second = deviation_mm(curve, a, b, length_mm, more);
-  return second ? std::max(*first, *second) : second;
-}
-
-Corrected<double> Segmenter::deviation_mm(const Curve& curve,
-                                          const PathSample& a,
-                                          const PathSample& b,
-                                          double length_mm,
-                                          CommandWay& way) const {
-  int checks = std::max(kFewestChecks,
-                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   const bool own_way = is_chain_linear(corrector_.firmware());
-  // Each of the controller's pieces bows: the worst point is in the middle of one, or between two.
-  if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
-  double worst = 0.0;
-  double behind = 0.0;
-  for (int i = own_way ? 1 : 0; i < checks; ++i) {
-    // Unequal spacing otherwise, so that no wave of the surface is missed by all checks.
-    const double share = (i + (own_way ? 0.0 : 0.5 + 0.118 * (i % 3 - 1))) / checks;
-    const auto sample = curve(a.t + share * (b.t - a.t));
-    if (!sample) return tl::unexpected(sample.error());
-    // The tool does not move back along its chord; where the curve does, that counts as deviation.
-    const double u = std::max(behind, nearest_on_line(a.command, b.command, sample->command));
-    behind = u;
-    Point on_way = between(a.command, b.command, u);
-    if (own_way) {
-      const auto place = way.at(u);
-      if (!place) return tl::unexpected(CorrectionReason::controller);
-      on_way.x_mm = place->x_mm;
-      on_way.y_mm = place->y_mm;
-    }
-    worst = std::max(worst, distance_mm(sample->command, on_way));
-  }
-  // FluidNC sums its pieces in single precision.
-  return own_way ? worst + way.pieces() * kPieceRoundingMm : worst;
+  const auto first = deviation_from(fewer, own_way, curve, a, b, length_mm);
+  if (!first || more.pieces() == fewer.pieces()) return first;
+  const auto second = deviation_from(more, own_way, curve, a, b, length_mm);
+  return second ? std::max(*first, *second) : second;
 }
 
 Corrected<void> Segmenter::run(const Curve& curve,

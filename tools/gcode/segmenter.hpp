@@ -56,6 +56,7 @@ class Segmenter {
                                     Extent extent,
                                     const std::function<void(const PathSample&)>& visit);
 
+ private:
   /// The largest distance from the curve between two samples to the controller's path between their
   /// commands.
   [[nodiscard]] Corrected<double> deviation_mm(const Curve& curve,
@@ -63,13 +64,6 @@ class Segmenter {
                                                const PathSample& b,
                                                double length_mm,
                                                double feed_mm_per_min) const;
-
- private:
-  [[nodiscard]] Corrected<double> deviation_mm(const Curve& curve,
-                                               const PathSample& a,
-                                               const PathSample& b,
-                                               double length_mm,
-                                               CommandWay& way) const;
 
   const Corrector& corrector_;
   double tolerance_mm_ = 0.0;  // of a chord

@@ -24,8 +24,6 @@ double in_single_precision(double value) {
   return rounded;
 }
 
-double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
-
 [[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
   const bool controller = failure.reason == CorrectionReason::controller;
   refuse(controller ? outside_controller : outside_map,
@@ -49,26 +47,27 @@ Point SimulatedMachine::place(Point command, std::size_t line) {
 }
 
 model::ChainLengths SimulatedMachine::follow(model::ChainLengths motors) {
-  // Both begin paid out.
-  const auto one = [](std::optional<double>& chain, double motor, double half) {
-    chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
-    return *chain;
-  };
-  return {one(left_mm_, motors.left_mm, options_.half_play_mm.left_mm),
-          one(right_mm_, motors.right_mm, options_.half_play_mm.right_mm)};
+  model::ChainLengths chains;
+  for (const model::Side side : model::kSides) {
+    const double least = motors[side] - options_.half_play_mm[side];
+    const double most = motors[side] + options_.half_play_mm[side];
+    // Both begin paid out.
+    chains[side] = std::clamp(chains_mm_[side].value_or(least), least, most);
+    chains_mm_[side] = chains[side];
+  }
+  return chains;
 }
 
 Point SimulatedMachine::tool(Point command, std::size_t line) {
-  const model::BedPoint place{command.x_mm, command.y_mm};
   if (!play_) {
-    if (const auto offset = field_.value(place.x_mm, place.y_mm)) {
-      return Point{place.x_mm + (*offset)[0], place.y_mm + (*offset)[1], command.z_mm};
+    if (const auto offset = field_.value(command.x_mm, command.y_mm)) {
+      return Point{command.x_mm + (*offset)[0], command.y_mm + (*offset)[1], command.z_mm};
     }
-    const auto found = corrector_.tool(place);
+    const auto found = corrector_.tool(command);
     if (!found) no_place(found.error(), command, line);
     return Point{found->x_mm, found->y_mm, command.z_mm};
   }
-  const auto paid = corrector_.paid_out(place);
+  const auto paid = corrector_.paid_out(command);
   if (!paid) no_place(paid.error(), command, line);
   const auto found = corrector_.map().tool(follow(*paid));
   if (!found) no_place(CorrectionReason::outside_map, command, line);
@@ -110,7 +109,7 @@ void SimulatedMachine::run(const Move& move, const Visit& visit) {
 }
 
 bool SimulatedMachine::straight(Point from, Point to, const Move& move, const Visit& visit) {
-  const double length = xy_distance(from, to);
+  const double length = level_mm(to - from);
   if (is_chain_linear(corrector_.firmware()) && length > 0.0) {
     return chain_linear(from, to, move, visit);
   }
@@ -118,8 +117,7 @@ bool SimulatedMachine::straight(Point from, Point to, const Move& move, const Vi
     double step = kPlayStepMm;
     if (!play_) {
       const auto way = [&](double along) {
-        const Point here = between(from, to, std::min(1.0, along / length));
-        return straight_mm(here);
+        return straight_mm(between(from, to, std::min(1.0, along / length)));
       };
       step = way(gone);
       step = std::min(step, std::max(0.25 * step, way(gone + step)));
@@ -134,7 +132,7 @@ bool SimulatedMachine::straight(Point from, Point to, const Move& move, const Vi
 
 /// A whole number of pieces, summed in single precision.
 bool SimulatedMachine::chain_linear(Point from, Point to, const Move& move, const Visit& visit) {
-  const double length = xy_distance(from, to);
+  const double length = level_mm(to - from);
   const double pieces = pieces_of(corrector_.firmware(), length, feed_mm_per_min(move));
   // Quotients, as the firmware computes them.
   const Point way = to - from;
@@ -142,10 +140,10 @@ bool SimulatedMachine::chain_linear(Point from, Point to, const Move& move, cons
   const double looks =
       std::ceil(length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChainMm));
   Point here = from;
-  auto paid = corrector_.paid_out({here.x_mm, here.y_mm});
+  auto paid = corrector_.paid_out(here);
   for (double piece = 1.0; paid && piece <= pieces; piece += 1.0) {
     const Point next = as_read(here + step);
-    const auto arrived = corrector_.paid_out({next.x_mm, next.y_mm});
+    const auto arrived = corrector_.paid_out(next);
     if (!arrived) no_place(arrived.error(), next, move.line);
     for (double look = 1.0; look <= looks; look += 1.0) {
       const double share = look / looks;

@@ -60,8 +60,7 @@ class SimulatedMachine {
   Options options_;
   interp::CheckedField field_;
   bool play_;
-  std::optional<double> left_mm_;  // of the chains after the play
-  std::optional<double> right_mm_;
+  model::PerSide<std::optional<double>> chains_mm_;  // after the play
   double tick_overshoot_mm_ = 0.0;
 };
 

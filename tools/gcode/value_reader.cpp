@@ -18,7 +18,7 @@ constexpr int kDeepest = 32;
 /// LinuxCNC's TOLERANCE_EQUAL.
 constexpr double kEqual = 0.0001;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+using grid::files::is_digit;
 
 struct Function {
   std::string_view name;
@@ -108,33 +108,26 @@ void append_fixed(std::string& text, double value) {
 
 }  // namespace
 
-Parameters::Parameters() : values_(parameter::kCount, 0.0), frames_(1) {
+Parameters::Parameters(State state)
+    : values_(parameter::kCount, 0.0), frames_(1), state_(std::move(state)) {
   values_[parameter::kSystem] = 1.0;
 }
 
-void Parameters::follow(StateByNumber by_number, StateByName by_name) {
-  state_by_number_ = std::move(by_number);
-  state_by_name_ = std::move(by_name);
-}
-
 double Parameters::get(int index) const {
-  if (index >= parameter::kPosition && state_by_number_) {
-    if (const auto value = state_by_number_(index)) return *value;
-  }
-  return stored(index);
+  constexpr std::string_view kPosition[] = {"_x", "_y", "_z", "_a", "_b", "_c"};
+  const auto axis = static_cast<std::size_t>(index - parameter::kPosition);
+  return axis < std::size(kPosition) ? state_(kPosition[axis]).value() : stored(index);
 }
 
 void Parameters::set(int index, double value) { values_[static_cast<std::size_t>(index)] = value; }
 
 bool Parameters::writable(int index) const {
   // 5400 to 5428 are the tool and the position.
-  return exists(index) && (index < 5400 || index > 5428);
+  return index < 5400 || index > 5428;
 }
 
 std::optional<double> Parameters::get(std::string_view name) const {
-  if (state_by_name_) {
-    if (const auto value = state_by_name_(name)) return value;
-  }
+  if (const auto value = state_(name)) return value;
   const Names& names = name.starts_with('_') ? global_ : frames_.back().names;
   const auto found = names.find(name);
   if (found == names.end()) return std::nullopt;
@@ -142,7 +135,7 @@ std::optional<double> Parameters::get(std::string_view name) const {
 }
 
 void Parameters::set(std::string_view name, double value) {
-  if (state_by_name_ && state_by_name_(name)) return;
+  if (state_(name)) return;
   Names& names = name.starts_with('_') ? global_ : frames_.back().names;
   names.insert_or_assign(std::string(name), value);
 }
@@ -161,8 +154,7 @@ void Parameters::leave() {
 }
 
 bool ValueReader::accept(std::string_view text) {
-  if (!std::string_view(line_.text).substr(std::min(at_, line_.text.size())).starts_with(text))
-    return false;
+  if (!std::string_view(line_.text).substr(at_).starts_with(text)) return false;
   at_ += text.size();
   return true;
 }
@@ -181,7 +173,7 @@ double ValueReader::operand() {
   if (c == '#') return parameter();
   if (c == '[') return bracketed();
   if (c == '+' || c == '-') {
-    const char after = at_ + 1 < line_.text.size() ? line_.text[at_ + 1] : '\0';
+    const char after = line_.text[at_ + 1];
     if (after != '\0' && !is_digit(after) && after != '.') {
       ++at_;
       const double value = real();
@@ -296,8 +288,7 @@ double ValueReader::bracketed() {
 double ValueReader::operand_chain(int lowest_precedence) {
   double left = real();
   for (;;) {
-    const Operator* found =
-        operator_at(std::string_view(line_.text).substr(std::min(at_, line_.text.size())));
+    const Operator* found = operator_at(std::string_view(line_.text).substr(at_));
     if (found == nullptr || found->precedence < lowest_precedence) return left;
     const Place start = place();
     at_ += found->name.size();

@@ -45,19 +45,15 @@ inline constexpr int kCount = 5603;
 
 class Parameters {
  public:
-  /// Return the values that depend on the interpreter's state: of a number (5420 ..) or a
-  /// predefined name.
-  using StateByNumber = std::function<std::optional<double>(int)>;
-  using StateByName = std::function<std::optional<double>(std::string_view)>;
+  /// Returns the value of a predefined name, which follows the interpreter's state.
+  using State = std::function<std::optional<double>(std::string_view)>;
 
-  Parameters();
-  void follow(StateByNumber by_number, StateByName by_name);
+  explicit Parameters(State state);
 
   /// \param index 1 .. kCount - 1.
   [[nodiscard]] double get(int index) const;
   void set(int index, double value);
   [[nodiscard]] bool writable(int index) const;
-  [[nodiscard]] static bool exists(int index) { return index > 0 && index < parameter::kCount; }
   /// The stored value, in mm if it is a length; without the interpreter's state.
   [[nodiscard]] double stored(int index) const { return values_[static_cast<std::size_t>(index)]; }
 
@@ -80,8 +76,7 @@ class Parameters {
   std::vector<double> values_;
   Names global_;
   std::vector<Frame> frames_;
-  StateByNumber state_by_number_;
-  StateByName state_by_name_;
+  State state_;
 };
 
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
@@ -94,7 +89,7 @@ class ValueReader {
 
   [[nodiscard]] bool done() const { return at_ >= line_.text.size(); }
   /// The current character, or zero at the end.
-  [[nodiscard]] char peek() const { return done() ? '\0' : line_.text[at_]; }
+  [[nodiscard]] char peek() const { return line_.text[at_]; }
   [[nodiscard]] std::size_t at() const { return at_; }
   [[nodiscard]] Place place() const { return line_.place(at_); }
   void skip(std::size_t count) { at_ += count; }
@@ -119,7 +114,7 @@ class ValueReader {
 
   const CleanLine& line_;
   const Parameters& parameters_;
-  std::size_t at_;
+  std::size_t at_;  // at most the end of the text, where a string has a zero
   int depth_ = 0;
 };
 

@@ -27,8 +27,6 @@ constexpr int kFewestChordsPerTurn = 16;
 /// Shorter commands are rounded too coarsely to determine their stretch.
 constexpr double kLeastStretchedMm = 2.0;
 
-bool same_xy(Point a, Point b) { return a.x_mm == b.x_mm && a.y_mm == b.y_mm; }
-
 /// Start of a program: a position in X and Y, or a cut from the current position.
 bool begins(const Move& move) {
   return move.names_xy || (move.kind != MoveKind::rapid && move.to.z_mm < move.from.z_mm);
@@ -36,6 +34,11 @@ bool begins(const Move& move) {
 
 /// Until X and Y are known only heights are compared.
 Point height_of(Point point) { return {0.0, 0.0, point.z_mm}; }
+
+/// The part of a move that ends at this place.
+PathPiece piece_of(const Move& move, Point to) {
+  return {to, move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
+}
 
 std::string words(Point point) {
   return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", point.x_mm, point.y_mm, point.z_mm);
@@ -63,6 +66,11 @@ SimulatedMachine::Options machine_options(const VerifyOptions& options) {
           kFlatnessShare * options.tolerance_mm,
           kFieldShare * options.tolerance_mm,
           options.rapids_whole};
+}
+
+/// Length of moves that may vanish by rounding.
+double least_run_mm(const VerifyOptions& options) {
+  return std::max(0.2 * options.tolerance_mm, 4.0 * std::pow(10.0, -options.decimals));
 }
 
 class Verification {
@@ -107,7 +115,7 @@ class Verification {
     try {
       return intended_.peek();
     } catch (const Refusal& refusal) {
-      throw VerifyProblem{true, refusal.problem()};
+      throw VerifyProblem{true, refusal.problem};
     }
   }
 
@@ -116,10 +124,7 @@ class Verification {
     for (;;) {
       if (chord_ < chords_) {
         ++chord_;
-        piece = {at(arc_, static_cast<double>(chord_) / chords_),
-                 false,
-                 feed_mm_per_min(arc_),
-                 arc_.line};
+        piece = piece_of(arc_, at(arc_, static_cast<double>(chord_) / chords_));
         return true;
       }
       const ProgramEvent& event = expected();
@@ -128,8 +133,7 @@ class Verification {
       if (!started_) {
         if (begins_here(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
         heights_done_ = begins_here(move);
-        piece = {
-            height_of(move.to), move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
+        piece = piece_of(move, height_of(move.to));
         const bool changes_height = move.from.z_mm != move.to.z_mm;
         if (!heights_done_) intended_.pop();  // which invalidates move
         if (changes_height) return true;
@@ -142,7 +146,7 @@ class Verification {
         intended_.pop();
         continue;
       }
-      piece = {move.to, move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
+      piece = piece_of(move, move.to);
       const bool stays = move.from == move.to;
       intended_.pop();
       if (!stays) return true;
@@ -170,7 +174,7 @@ class Verification {
   /// Both curves start: at the end of a rapid or of the way from home, or at the start of a cut.
   void start(const Move& command) {
     if (command.kind == MoveKind::rapid && command.from.z_mm != command.to.z_mm) {
-      advance({height_of(command.to), true, 0.0, command.line});
+      advance(piece_of(command, height_of(command.to)));
     }
     if (stopped_) return;
     const PathMatcher::Outcome before = matcher_.finish();
@@ -204,12 +208,7 @@ class Verification {
   void execute(const Move& command) {
     if (!started_) {
       if (begins_here(command)) return start(command);
-      if (command.from.z_mm != command.to.z_mm) {
-        advance({height_of(command.to),
-                 command.kind == MoveKind::rapid,
-                 feed_mm_per_min(command),
-                 command.line});
-      }
+      if (command.from.z_mm != command.to.z_mm) advance(piece_of(command, height_of(command.to)));
       return;
     }
     if (command.from == command.to && !command.arc) return;
@@ -367,10 +366,6 @@ class Verification {
 
 }  // namespace
 
-double least_run_mm(const VerifyOptions& options) {
-  return std::max(0.2 * options.tolerance_mm, 4.0 * std::pow(10.0, -options.decimals));
-}
-
 tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
                                                   LineSource& run,
                                                   const Corrector& corrector,
@@ -381,7 +376,7 @@ tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
   } catch (const VerifyProblem& problem) {
     return tl::unexpected(problem);
   } catch (const Refusal& refusal) {
-    return tl::unexpected(VerifyProblem{false, refusal.problem()});
+    return tl::unexpected(VerifyProblem{false, refusal.problem});
   }
 }
 
@@ -404,7 +399,7 @@ Result<Deviation> uncompensated(LineSource& original,
     };
     if (from_nowhere && started) {
       look(machine.place(move.to, move.line), move.to);
-    } else if (started && !(same_xy(move.from, move.to) && !move.arc)) {
+    } else if (started && !stays(move)) {
       machine.run(move, look);
     }
   };

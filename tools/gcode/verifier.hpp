@@ -7,7 +7,7 @@
 /// the tool's track and the intended path have a Frechet distance of at most the tolerance
 /// (path_matcher.hpp), heights included; if the words are the same and at the same positions; if
 /// rapids are rapids, cuts are cuts, and the tool's speed along a cut is the intended one to within
-/// `speed_share`. Moves shorter than least_run_mm() may vanish by rounding.
+/// `speed_share`. Moves of a few units of the last decimal may vanish by rounding.
 ///
 /// Not part of the deviation: the classic controller's last tick, which overshoots every command
 /// along its direction by less than one tick's distance and returns. It is reported separately; it
@@ -81,8 +81,5 @@ struct VerifyProblem {
                                               const Corrector& corrector,
                                               const Dialect& dialect,
                                               const VerifyOptions& options);
-
-/// Length of moves that may vanish by rounding.
-[[nodiscard]] double least_run_mm(const VerifyOptions& options);
 
 }  // namespace chaintrue::gcode

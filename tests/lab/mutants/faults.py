@@ -157,9 +157,9 @@ FAULTS = [
           'anchors + "left_anchor_y"',
           "fluid_?nc"),
     # tools/gcode
-    Fault("long_arc_ignored", "tools/gcode/arc_words.cpp",
-          "(request.turns < 0) == (radius > 0.0)",
-          "request.turns < 0",
+    Fault("long_arc_ignored", "tools/gcode/interpreter_arcs.cpp",
+          "arc.clockwise == (radius > 0.0)",
+          "arc.clockwise",
           "gcode.*(arc|corpus)"),
     Fault("play_of_other_chain", "tools/gcode/corrector.cpp",
           "directions.right * half_play_mm.right_mm",
