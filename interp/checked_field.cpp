@@ -118,12 +118,11 @@ std::optional<CheckedField::Nodes> CheckedField::nodes_around(Level& level,
       const std::int64_t y = row - 1 + k;
       const auto [place, fresh] = level.nodes.try_emplace(key(x, y));
       if (fresh) {
-        const auto exact = evaluate(static_cast<double>(x) * level.spacing,
-                                    static_cast<double>(y) * level.spacing);
-        if (exact) place->second = {*exact, true};
+        place->second = evaluate(static_cast<double>(x) * level.spacing,
+                                 static_cast<double>(y) * level.spacing);
       }
-      known = known && place->second.known;
-      nodes[static_cast<std::size_t>(4 * k + i)] = place->second;
+      known = known && place->second;
+      nodes[static_cast<std::size_t>(4 * k + i)] = place->second.value_or(Value{});
     }
   }
   return known ? std::optional(nodes) : std::nullopt;
@@ -134,7 +133,7 @@ void CheckedField::fill(Level& level, Cell& cell, std::int64_t column, std::int6
   const auto nodes = nodes_around(level, column, row);
   if (!nodes) return;
   const auto at = [&](std::size_t i, std::size_t k) -> const Value& {
-    return (*nodes)[4 * k + i].value;
+    return (*nodes)[4 * k + i];
   };
   for (std::size_t z = 0; z < 2; ++z) {
     std::array<std::array<double, 4>, 4> along;  // powers of u of each row

@@ -49,20 +49,16 @@ class CheckedField {
   [[nodiscard]] double curvature(double x, double y);
 
  private:
-  struct Node {
-    Value value{};
-    bool known = false;
-  };
   enum class State { fresh, interpolates, given_up };
   struct Cell {
     State state = State::fresh;
     double curvature = 0.0;
     std::array<double, 32> powers{};  // of u^i v^j in value k at 8 i + 2 j + k
   };
-  using Nodes = std::array<Node, 16>;
+  using Nodes = std::array<Value, 16>;
   struct Level {
     double spacing;
-    std::unordered_map<std::uint64_t, Node> nodes;
+    std::unordered_map<std::uint64_t, std::optional<Value>> nodes;
     std::unordered_map<std::uint64_t, Cell> cells;
     std::uint64_t last_key = ~std::uint64_t{0};
     Cell* last = nullptr;

@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Cubic spline interpolation along one axis, factored once and applied to any number of lines.
+/// Cubic spline interpolation along one axis, solved once and applied to any number of lines.
 ///
 /// A C2 cubic spline through (x_i, f_i) is fixed by its slopes d_i at the nodes. They solve a
 /// tridiagonal system (C. de Boor, A Practical Guide to Splines, revised edition 2001, chapter IV,
@@ -10,7 +10,8 @@
 ///
 ///     h_i d_{i-1} + 2 (h_{i-1} + h_i) d_i + h_{i-1} d_{i+1} = 3 (h_i q_{i-1} + h_{i-1} q_i) (1)
 ///
-/// with h_i = x_{i+1} - x_i and q_i = (f_{i+1} - f_i) / h_i, and one equation for each end.
+/// with h_i = x_{i+1} - x_i and q_i = (f_{i+1} - f_i) / h_i, and one equation for each end. The
+/// slopes are linear in the values; measured axes have some ten nodes, so that matrix is kept.
 ///
 /// With two nodes every end but a clamped one gives the straight line; with three nodes two
 /// not-a-knot ends give the parabola, as Octave's interp1 does.
@@ -46,13 +47,6 @@ struct HermiteWeights {
   double slope_high;
 };
 
-/// Memory layout of lines: element i of line j is at base[i * step + j * line_step].
-struct LineLayout {
-  std::size_t lines = 1;
-  std::ptrdiff_t step = 1;
-  std::ptrdiff_t line_step = 0;
-};
-
 /// One axis with its ends. Immutable; safe to share between threads.
 ///
 ///     SplineAxis axis({0.0, 1.0, 3.0, 4.0}, {});
@@ -69,37 +63,24 @@ class SplineAxis {
   /// The cell used for x: 0 .. size()-2; the end cells are also used beyond them.
   [[nodiscard]] std::size_t cell(double x) const;
 
-  /// Slopes at the nodes for every line of `values`; both arrays share the layout. The slopes at a
-  /// clamped end are read from `low_slopes` / `high_slopes`, one a line (null: zero).
-  void slopes(const double* values,
-              double* slopes,
-              const LineLayout& layout,
-              const double* low_slopes = nullptr,
-              const double* high_slopes = nullptr) const;
+  /// Slopes at the nodes of the splines through each column of `values`. The slopes at a clamped end
+  /// are given, one a column (empty: zero).
+  [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::Ref<const Eigen::MatrixXd>& values,
+                                       const Eigen::VectorXd& low_slopes = {},
+                                       const Eigen::VectorXd& high_slopes = {}) const;
 
   /// Basis functions of `cell` at x and their derivatives; beyond the cell the cubic continues.
   [[nodiscard]] HermiteWeights weights(std::size_t cell, double x) const;
   [[nodiscard]] HermiteWeights derivative_weights(std::size_t cell, double x) const;
 
-  /// The spline at x as weights on the node values (clamped ends: slope zero). O(size()^2).
+  /// The spline at x as weights on the node values (clamped ends: slope zero).
   [[nodiscard]] Eigen::VectorXd cardinal_weights(double x) const;
 
  private:
-  void factor();
-  void solve_abreast(const double* f,
-                     double* d,
-                     const LineLayout& layout,
-                     const double* low_slopes,
-                     const double* high_slopes) const;
-
   std::vector<double> nodes_;
   AxisEnds ends_;
-  std::vector<double> step_;           // h_i
-  std::vector<double> inverse_step_;   // 1 / h_i
-  std::vector<double> lower_;          // below the diagonal, not divided
-  std::vector<double> upper_;          // above the diagonal, divided by the pivot of its row
-  std::vector<double> inverse_pivot_;  // 1 / pivot after elimination
-  bool straight_line_ = false;
+  /// The slopes are this times the values, followed by the slopes given at the low and the high end.
+  Eigen::MatrixXd solution_;
 };
 
 }  // namespace chaintrue::interp

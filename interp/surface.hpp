@@ -43,13 +43,6 @@ class Surface {
   [[nodiscard]] virtual ValueGradient at(double x, double y) const = 0;
   /// The rectangle that the data cover.
   [[nodiscard]] virtual Rectangle domain() const = 0;
-
- protected:
-  Surface() = default;
-  Surface(const Surface&) = default;
-  Surface(Surface&&) = default;
-  Surface& operator=(const Surface&) = default;
-  Surface& operator=(Surface&&) = default;
 };
 
 }  // namespace chaintrue::interp

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/tensor_spline.hpp"
 
-#include <cmath>
+#include <array>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -20,26 +20,13 @@ void check_edge(const Eigen::VectorXd& slopes, std::size_t expected, const char*
   }
 }
 
-const double* data_or_null(const Eigen::VectorXd& v) { return v.size() == 0 ? nullptr : v.data(); }
-
 // f_xy along an edge y = const from the given f_y there: its slope along x. At the corners the
 // given edge slopes determine it, so a clamped x axis uses a not-a-knot end for it.
 Eigen::VectorXd edge_twist(const SplineAxis& x_axis, const Eigen::VectorXd& y_slopes) {
-  if (y_slopes.size() == 0) {
-    return {};
-  }
-  Eigen::VectorXd twist(y_slopes.size());
-  const AxisEnds ends = x_axis.ends();
-  double low = 0.0;
-  double high = 0.0;
-  if (ends.low == EndCondition::clamped || ends.high == EndCondition::clamped) {
-    const SplineAxis free_axis({x_axis.nodes().begin(), x_axis.nodes().end()}, {});
-    free_axis.slopes(y_slopes.data(), twist.data(), {});
-    low = twist(0);
-    high = twist(twist.size() - 1);
-  }
-  x_axis.slopes(y_slopes.data(), twist.data(), {}, &low, &high);
-  return twist;
+  if (y_slopes.size() == 0) return {};
+  const SplineAxis free_axis({x_axis.nodes().begin(), x_axis.nodes().end()});
+  const Eigen::VectorXd at_corners = free_axis.slopes(y_slopes);
+  return x_axis.slopes(y_slopes, at_corners.head(1), at_corners.tail(1));
 }
 
 }  // namespace
@@ -74,31 +61,14 @@ TensorSpline::TensorSpline(std::shared_ptr<const TensorAxes> axes,
   check_edge(slopes.y_low, nx, "y_low");
   check_edge(slopes.y_high, nx, "y_high");
 
-  nodes_.resize(nx * ny);
-  for (std::size_t iy = 0; iy < ny; ++iy) {
-    for (std::size_t ix = 0; ix < nx; ++ix) {
-      nodes_[iy * nx + ix].f = values(static_cast<Eigen::Index>(ix), static_cast<Eigen::Index>(iy));
-    }
+  const Eigen::MatrixXd fx = x_axis.slopes(values, slopes.x_low, slopes.x_high);
+  const Eigen::MatrixXd fy = y_axis.slopes(values.transpose(), slopes.y_low, slopes.y_high);
+  const Eigen::MatrixXd fxy = y_axis.slopes(
+      fx.transpose(), edge_twist(x_axis, slopes.y_low), edge_twist(x_axis, slopes.y_high));
+  for (Eigen::Index iy = 0; iy < values.cols(); ++iy) {
+    for (Eigen::Index ix = 0; ix < values.rows(); ++ix)
+      nodes_.push_back({values(ix, iy), fx(ix, iy), fy(iy, ix), fxy(iy, ix)});
   }
-  // The four numbers of a node are adjacent: a step along x is one node, along y one row of nodes.
-  constexpr std::ptrdiff_t kNode = sizeof(NodeData) / sizeof(double);
-  const auto row = static_cast<std::ptrdiff_t>(nx) * kNode;
-  const LineLayout along_x{ny, kNode, row};
-  const LineLayout along_y{nx, row, kNode};
-  x_axis.slopes(&nodes_[0].f,
-                &nodes_[0].fx,
-                along_x,
-                data_or_null(slopes.x_low),
-                data_or_null(slopes.x_high));
-  y_axis.slopes(&nodes_[0].f,
-                &nodes_[0].fy,
-                along_y,
-                data_or_null(slopes.y_low),
-                data_or_null(slopes.y_high));
-  const Eigen::VectorXd twist_low = edge_twist(x_axis, slopes.y_low);
-  const Eigen::VectorXd twist_high = edge_twist(x_axis, slopes.y_high);
-  y_axis.slopes(
-      &nodes_[0].fx, &nodes_[0].fxy, along_y, data_or_null(twist_low), data_or_null(twist_high));
 }
 
 ValueGradient TensorSpline::at(double x, double y) const {
@@ -108,26 +78,22 @@ ValueGradient TensorSpline::at(double x, double y) const {
   const HermiteWeights dx = axes_->x.derivative_weights(ix, x);
   const HermiteWeights wy = axes_->y.weights(iy, y);
   const HermiteWeights dy = axes_->y.derivative_weights(iy, y);
-  ValueGradient result;
+  // Along x at the two lines of nodes below and above, then along y.
+  const auto blend = [](const HermiteWeights& w, double low, double high, double d0, double d1) {
+    return w.value_low * low + w.value_high * high + w.slope_low * d0 + w.slope_high * d1;
+  };
+  std::array<double, 2> f, fy, f_dx, fy_dx;
   for (std::size_t j = 0; j < 2; ++j) {
     const NodeData& a = node(ix, iy + j);
     const NodeData& b = node(ix + 1, iy + j);
-    const double f =
-        wx.value_low * a.f + wx.value_high * b.f + wx.slope_low * a.fx + wx.slope_high * b.fx;
-    const double fy =
-        wx.value_low * a.fy + wx.value_high * b.fy + wx.slope_low * a.fxy + wx.slope_high * b.fxy;
-    const double f_dx =
-        dx.value_low * a.f + dx.value_high * b.f + dx.slope_low * a.fx + dx.slope_high * b.fx;
-    const double fy_dx =
-        dx.value_low * a.fy + dx.value_high * b.fy + dx.slope_low * a.fxy + dx.slope_high * b.fxy;
-    const double value_weight = j == 0 ? wy.value_low : wy.value_high;
-    const double slope_weight = j == 0 ? wy.slope_low : wy.slope_high;
-    result.value += value_weight * f + slope_weight * fy;
-    result.dx += value_weight * f_dx + slope_weight * fy_dx;
-    result.dy +=
-        (j == 0 ? dy.value_low : dy.value_high) * f + (j == 0 ? dy.slope_low : dy.slope_high) * fy;
+    f[j] = blend(wx, a.f, b.f, a.fx, b.fx);
+    fy[j] = blend(wx, a.fy, b.fy, a.fxy, b.fxy);
+    f_dx[j] = blend(dx, a.f, b.f, a.fx, b.fx);
+    fy_dx[j] = blend(dx, a.fy, b.fy, a.fxy, b.fxy);
   }
-  return result;
+  return {blend(wy, f[0], f[1], fy[0], fy[1]),
+          blend(wy, f_dx[0], f_dx[1], fy_dx[0], fy_dx[1]),
+          blend(dy, f[0], f[1], fy[0], fy[1])};
 }
 
 double TensorSpline::value(double x, double y) const { return at(x, y).value; }
