@@ -97,14 +97,13 @@ Eigen::MatrixXd solve_slopes(const std::vector<double>& nodes,
 
 }  // namespace
 
-SplineAxis::SplineAxis(std::vector<double> nodes, AxisEnds ends)
-    : nodes_(std::move(nodes)), ends_(ends) {
+SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends)
+    : nodes_(std::move(nodes)) {
   check_nodes(nodes_);
   EndCondition low = effective_end(ends.low, ends, nodes_.size());
   const EndCondition high = effective_end(ends.high, ends, nodes_.size());
   // Both equations are the same; a natural end gives the straight line as well.
-  const bool is_line =
-      nodes_.size() == 2 && low == high && high == EndCondition::parabolic;
+  const bool is_line = nodes_.size() == 2 && low == high && high == EndCondition::parabolic;
   if (is_line) low = EndCondition::natural;
   solution_ = solve_slopes(nodes_, low, high);
 }

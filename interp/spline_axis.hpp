@@ -54,11 +54,10 @@ struct HermiteWeights {
 class SplineAxis {
  public:
   /// Throws std::invalid_argument unless there are at least two finite, strictly increasing nodes.
-  explicit SplineAxis(std::vector<double> nodes, AxisEnds ends = {});
+  explicit SplineAxis(std::vector<double> nodes, const AxisEnds& ends = {});
 
   [[nodiscard]] std::span<const double> nodes() const { return nodes_; }
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
-  [[nodiscard]] AxisEnds ends() const { return ends_; }
 
   /// The cell used for x: 0 .. size()-2; the end cells are also used beyond them.
   [[nodiscard]] std::size_t cell(double x) const;
@@ -78,7 +77,6 @@ class SplineAxis {
 
  private:
   std::vector<double> nodes_;
-  AxisEnds ends_;
   /// The slopes are this times the values, followed by the slopes given at the low and the high end.
   Eigen::MatrixXd solution_;
 };
