@@ -3,8 +3,6 @@
 // usual noise; distances between random holes, each once.
 #include <cmath>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/map/fit.hpp"
@@ -12,6 +10,7 @@
 #include "grid/map/map_check.hpp"
 #include "grid/random.hpp"
 #include "grid/synthetic/generator.hpp"
+#include "grid/synthetic/holes.hpp"
 #include "tools/bench/work.hpp"
 
 namespace {
@@ -32,30 +31,23 @@ grid::MeasuredGrid points(std::int64_t count) {
 
 /// Taped distances between holes cut by a true machine, with usual noise of tape and holes.
 grid::MeasuredHoles distances(std::int64_t count, std::int64_t holes) {
-  constexpr double kHoleMm = 0.3;
-  constexpr double kTapeMm = 0.5;
   constexpr double kNearestMm = 100.0;
   grid::Random random(1, 19);
   grid::MeasuredHoles set;
   set.machine = kMachine;
-  std::vector<std::pair<double, double>> places;
   for (std::int64_t i = 0; i < holes; ++i) {
-    const double x_mm = random.uniform(-1150.0, 1150.0);
-    const double y_mm = random.uniform(-540.0, 540.0);
-    set.holes.push_back({std::to_string(i), {x_mm, y_mm}});
-    places.emplace_back(x_mm + kHoleMm * random.normal(), y_mm + kHoleMm * random.normal());
+    set.holes.push_back(
+        {std::to_string(i), {random.uniform(-1150.0, 1150.0), random.uniform(-540.0, 540.0)}});
   }
   // Each hole to the next, to the one after that, and so on.
-  for (std::size_t step = 1; set.distances.size() < static_cast<std::size_t>(count); ++step) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const std::size_t j = (i + step) % places.size();
-      const double mm =
-          std::hypot(places[i].first - places[j].first, places[i].second - places[j].second);
-      if (mm < kNearestMm || set.distances.size() == static_cast<std::size_t>(count)) continue;
-      set.distances.push_back({.from = i, .to = j, .distance_mm = mm + kTapeMm * random.normal()});
-    }
+  const auto most = static_cast<std::size_t>(count), all = set.holes.size();
+  for (std::size_t pair = 0; set.distances.size() < most; ++pair) {
+    const std::size_t i = pair % all, j = (i + 1 + pair / all) % all;
+    const auto &from = set.holes[i].commanded, &to = set.holes[j].commanded;
+    if (std::hypot(from.x_mm - to.x_mm, from.y_mm - to.y_mm) >= kNearestMm)
+      set.distances.push_back({.from = i, .to = j});
   }
-  return set;
+  return grid::synthetic::simulate_holes(set, {}).value().set;
 }
 
 const auto fit_of_points = [](const benchmark::State& state) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Both chain surfaces of a hanging router, from the wrapped chain's closed form, on grids of
-// columns by rows of nodes. Peers run on the same points in the same process.
+// columns by rows of nodes. Peers run on the same points in the same process; items are points.
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 #include <libalglib/interpolation.h>
 
+#include "grid/random.hpp"
 #include "interp/bspline_basis.hpp"
 #include "interp/reml.hpp"
 #include "interp/spline_pair.hpp"
@@ -40,19 +40,18 @@ struct Samples {
 };
 
 Samples sample(int nx, int ny) {
-  Samples s;
-  for (int i = 0; i < nx; ++i) s.x.push_back(kBed.x_min + kBed.width() * i / (nx - 1));
-  for (int j = 0; j < ny; ++j) s.y.push_back(kBed.y_min + kBed.height() * j / (ny - 1));
-  s.left.resize(nx, ny);
-  s.right.resize(nx, ny);
-  for (int i = 0; i < nx; ++i) {
-    for (int j = 0; j < ny; ++j) {
-      const double x = s.x[static_cast<std::size_t>(i)];
-      const double y = s.y[static_cast<std::size_t>(j)];
-      s.left(i, j) = chain(x, y, -1.0);
-      s.right(i, j) = chain(x, y, 1.0);
-    }
-  }
+  const auto nodes = [](int count, double from, double to) {
+    const Eigen::VectorXd places = Eigen::VectorXd::LinSpaced(count, from, to);
+    return std::vector<double>(places.begin(), places.end());
+  };
+  Samples s{nodes(nx, kBed.x_min, kBed.x_max), nodes(ny, kBed.y_min, kBed.y_max)};
+  const auto surface = [&](double side) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd::NullaryExpr(nx, ny, [&](Eigen::Index i, Eigen::Index j) {
+      return chain(s.x[static_cast<std::size_t>(i)], s.y[static_cast<std::size_t>(j)], side);
+    });
+  };
+  s.left = surface(-1.0);
+  s.right = surface(1.0);
   return s;
 }
 
@@ -62,20 +61,11 @@ SplinePair table(const Samples& s) {
 }
 
 std::vector<PlanePoint> random_points(std::size_t count) {
-  std::mt19937_64 random(1);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  std::vector<PlanePoint> points;
-  for (std::size_t k = 0; k < count; ++k) {
-    points.push_back(
-        {kBed.x_min + kBed.width() * uniform(), kBed.y_min + kBed.height() * uniform()});
-  }
+  chaintrue::grid::Random random(1);
+  std::vector<PlanePoint> points(count);
+  for (PlanePoint& p : points)
+    p = {random.uniform(kBed.x_min, kBed.x_max), random.uniform(kBed.y_min, kBed.y_max)};
   return points;
-}
-
-void per_point(benchmark::State& state, std::size_t points) {
-  state.counters["ns_per_point"] = benchmark::Counter(
-      static_cast<double>(state.iterations()) * static_cast<double>(points) * 1e-9,
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 // A serpentine over the whole bed in steps of 0.5 mm, as a tool moves.
@@ -96,19 +86,21 @@ std::vector<PlanePoint> path_points(std::size_t count) {
   return points;
 }
 
-void value_gradient(benchmark::State& state,
-                    const Samples& samples,
-                    const std::vector<PlanePoint>& points) {
-  const SplinePair surfaces = table(samples);
-  std::vector<PairGradient> results(kBlock);
-  for (auto _ : state) {
-    for (std::size_t first = 0; first < points.size(); first += kBlock) {
-      surfaces.at(std::span(points).subspan(first, kBlock), results);
-      benchmark::DoNotOptimize(results.data());
-      benchmark::ClobberMemory();
-    }
-  }
-  per_point(state, points.size());
+constexpr std::size_t kPoints = 64 * kBlock;
+
+auto value_gradient(const Samples& samples, std::vector<PlanePoint> (*points_of)(std::size_t)) {
+  return [=](const benchmark::State&) {
+    return [surfaces = table(samples),
+            points = points_of(kPoints),
+            results = std::vector<PairGradient>(kBlock)]() mutable {
+      for (std::size_t first = 0; first < points.size(); first += kBlock) {
+        surfaces.at(std::span(points).subspan(first, kBlock), results);
+        benchmark::DoNotOptimize(results.data());
+        benchmark::ClobberMemory();
+      }
+      return results.data();
+    };
+  };
 }
 
 struct AlglibPair {
@@ -118,42 +110,43 @@ struct AlglibPair {
 AlglibPair alglib_pair(const Samples& s) {
   const auto nx = static_cast<alglib::ae_int_t>(s.x.size());
   const auto ny = static_cast<alglib::ae_int_t>(s.y.size());
-  alglib::real_1d_array x, y, f;
+  alglib::real_1d_array x, y;
   x.setcontent(nx, s.x.data());
   y.setcontent(ny, s.y.data());
-  AlglibPair pair;
-  f.setcontent(nx * ny, s.left.data());
-  alglib::spline2dbuildbicubicv(x, nx, y, ny, f, 1, pair.left);
-  f.setcontent(nx * ny, s.right.data());
-  alglib::spline2dbuildbicubicv(x, nx, y, ny, f, 1, pair.right);
-  return pair;
+  const auto surface = [&](const Eigen::MatrixXd& values) {
+    alglib::real_1d_array f;
+    f.setcontent(nx * ny, values.data());
+    alglib::spline2dinterpolant built;
+    alglib::spline2dbuildbicubicv(x, nx, y, ny, f, 1, built);
+    return built;
+  };
+  return {surface(s.left), surface(s.right)};
 }
 
-void alglib_value_gradient(benchmark::State& state, const Samples& samples) {
-  const AlglibPair pair = alglib_pair(samples);
-  const auto points = random_points(4 * kBlock);
-  for (auto _ : state) {
-    for (const PlanePoint& p : points) {
-      double f = 0, fx = 0, fy = 0, fxy = 0;
-      alglib::spline2ddiff(pair.left, p.x, p.y, f, fx, fy, fxy);
-      benchmark::DoNotOptimize(f + fx + fy);
-      alglib::spline2ddiff(pair.right, p.x, p.y, f, fx, fy, fxy);
-      benchmark::DoNotOptimize(f + fx + fy);
-    }
-  }
-  per_point(state, points.size());
+auto alglib_value_gradient(const Samples& samples) {
+  return [=](const benchmark::State&) {
+    return [pair = alglib_pair(samples), points = random_points(kPoints)] {
+      for (const PlanePoint& p : points) {
+        for (const auto* surface : {&pair.left, &pair.right}) {
+          double f = 0, fx = 0, fy = 0, fxy = 0;
+          alglib::spline2ddiff(*surface, p.x, p.y, f, fx, fy, fxy);
+          benchmark::DoNotOptimize(f + fx + fy);
+        }
+      }
+      return points.data();
+    };
+  };
 }
 
 double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
 
 // Two fields under one ridge and eight shared settings, as for a machine's two chains.
-void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
+PenalisedProblem joint_problem(std::size_t count) {
   constexpr Eigen::Index kShared = 8;
   const BsplineBasis basis(kBed, 8, 4);
   const Eigen::Index m = basis.size();
   constexpr double kSigma = 0.3;
-  std::mt19937_64 random(2);
-  std::normal_distribution<double> noise(0.0, kSigma);
+  chaintrue::grid::Random random(2);
   PenalisedProblem problem(2 * m + kShared);
   problem.keeps_rows = true;
   for (const PlanePoint& p : random_points(count)) {
@@ -166,45 +159,41 @@ void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
       }
     }
     problem.add_rows(rows,
-                     Eigen::VectorXd::Constant(2, (smooth(p.x, p.y) + noise(random)) / kSigma));
+                     Eigen::VectorXd::Constant(2, smooth(p.x, p.y) / kSigma + random.normal()));
   }
   problem.ridge = {0, 2 * m};
   problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
-  FitOptions options;
-  options.correct_covariance = corrected;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(fit_penalised(problem, options));
-  }
+  return problem;
 }
 
 const bool registered = [] {
+  using chaintrue::bench::add;
   for (const auto& [nx, ny] :
        std::vector<std::pair<int, int>>{{7, 4}, {7, 5}, {25, 13}, {100, 50}}) {
     const Samples samples = sample(nx, ny);
     const std::string size = fmt::format("/{}x{}", nx, ny);
-    const auto add = [](const std::string& name, auto function) {
-      benchmark::RegisterBenchmark(name.c_str(), function);
+    const auto add_points = [&](const std::string& name, const auto& prepare) {
+      add("surface/" + name + size, prepare, benchmark::kMicrosecond, kPoints);
     };
-    add("surface/value_gradient" + size,
-        [samples](benchmark::State& s) { value_gradient(s, samples, random_points(64 * kBlock)); });
-    add("surface/value_gradient_path" + size,
-        [samples](benchmark::State& s) { value_gradient(s, samples, path_points(64 * kBlock)); });
-    add("surface/alglib/value_gradient" + size,
-        [samples](benchmark::State& s) { alglib_value_gradient(s, samples); });
+    add_points("value_gradient", value_gradient(samples, random_points));
+    add_points("value_gradient_path", value_gradient(samples, path_points));
+    add_points("alglib/value_gradient", alglib_value_gradient(samples));
     const auto measure = [samples](auto build) {
       return [samples, build](const benchmark::State&) {
         return [samples, build] { return build(samples); };
       };
     };
-    chaintrue::bench::add("surface/build" + size, measure(table), benchmark::kNanosecond);
-    chaintrue::bench::add(
-        "surface/alglib/build" + size, measure(alglib_pair), benchmark::kNanosecond);
+    add("surface/build" + size, measure(table), benchmark::kNanosecond);
+    add("surface/alglib/build" + size, measure(alglib_pair), benchmark::kNanosecond);
   }
   for (const bool corrected : {false, true}) {
-    const std::string name =
-        corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points";
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [=](benchmark::State& s) { joint_reml(s, 28, corrected); });
+    add(corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points",
+        [corrected](const benchmark::State&) {
+          FitOptions options;
+          options.correct_covariance = corrected;
+          return [options, problem = joint_problem(28)] { return fit_penalised(problem, options); };
+        },
+        benchmark::kNanosecond);
   }
   return true;
 }();

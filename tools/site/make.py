@@ -86,7 +86,7 @@ class Site:
         )
         body = converter.convert((self.root / path).read_text(encoding="utf-8"))
         found = re.search(r"<h1[^>]*>(.*?)</h1>", body, re.S)
-        self.titles[path] = html.unescape(re.sub(r"<[^>]+>", "", found.group(1))) if found else path
+        self.titles[path] = html.unescape(re.sub(r"<[^>]+>", "", found[1])) if found else path
         # Ids of one page must differ from those of another.
         self.bodies[path] = re.sub(
             r'(<h[1-6] )id="([^"]*)"', lambda m: f'{m[1]}id="{page_id(path)}--{m[2]}"', body

@@ -10,6 +10,7 @@ with hyphens or underscores in it (`hook-offset-mm`, `chain_sag`) counts whole a
 with sections counted from 0, in the order of the documents. tools/site/search.js reads it.
 """
 
+import collections
 import html
 import re
 
@@ -36,8 +37,8 @@ def sections_of(page, title, kind, body):
     for at, heading in enumerate(found):
         end = found[at + 1].start() if at + 1 < len(found) else len(body)
         # The first heading is the document's own: its section is the document.
-        where = page if at == 0 else heading.group(1)
-        yield [where, plain(heading.group(2)).strip(), title, kind], plain(body[heading.end() : end])
+        where = page if at == 0 else heading[1]
+        yield [where, plain(heading[2]).strip(), title, kind], plain(body[heading.end() : end])
 
 
 def search_index(pages):
@@ -45,9 +46,7 @@ def search_index(pages):
     sections, words = [], {}
     for page, title, kind, body in pages:
         for section, text in sections_of(page, title, kind, body):
-            times = {}
-            for word in words_of(text):
-                times[word] = times.get(word, 0) + 1
+            times = collections.Counter(words_of(text))
             for word in words_of(section[1]):
                 times.setdefault(word, 1)
             for word, count in times.items():
