@@ -156,7 +156,7 @@ TEST(Document, KeepsTextCells) {
   Document document{.verdict = {bad}, .remarks = {"r", {Paragraph{bad}}}};
   document.sections = {{bad,
                         {Paragraph{bad},
-                         List{List::Mark::dash, {{bad, {{bad}}}}},
+                         List{List::Mark::number, {{bad, {{bad}}}}},
                          Table{{{bad}}, {{{bad}}}, bad}}}};
   const std::string html = render_html(document);
   EXPECT_THAT(html, Not(HasSubstr("<b>&")));

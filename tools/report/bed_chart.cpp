@@ -14,8 +14,6 @@ namespace {
 /// The longest arrow of a panel spans this share of the bed's width.
 constexpr double kLongestArrow = 0.12;
 
-double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
-
 /// The share of the segment from `from` by `way` up to the first of two borders; 1 if it ends
 /// before.
 double share_within(double from, double way, double low, double high) {
@@ -31,7 +29,37 @@ double shown_of(const Arrow& arrow, const Outline& view, double magnification) {
       share_within(arrow.y_mm, magnification * arrow.dy_mm, view.y_min_mm, view.y_max_mm));
 }
 
+/// The sheet and the marks.
+Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks) {
+  sheet.require_extent();
+  Outline view = sheet;
+  for (const Arrow& mark : marks) view.include(mark.x_mm, mark.y_mm);
+  return view.widened(0.05 * sheet.width_mm());
+}
+
+double length_mm(const Arrow& arrow) { return std::hypot(arrow.dx_mm, arrow.dy_mm); }
+
 }  // namespace
+
+void Outline::include(double x_mm, double y_mm) {
+  x_min_mm = std::min(x_min_mm, x_mm);
+  x_max_mm = std::max(x_max_mm, x_mm);
+  y_min_mm = std::min(y_min_mm, y_mm);
+  y_max_mm = std::max(y_max_mm, y_mm);
+}
+
+Outline Outline::widened(double margin_mm) const {
+  return {x_min_mm - margin_mm, x_max_mm + margin_mm, y_min_mm - margin_mm, y_max_mm + margin_mm};
+}
+
+void Outline::require_extent() const {
+  if (width_mm() > 0.0 && height_mm() > 0.0) return;
+  throw grid::precondition("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
+                           x_min_mm,
+                           x_max_mm,
+                           y_min_mm,
+                           y_max_mm);
+}
 
 double round_down_125(double value) {
   if (!(value > 0.0)) return 0.0;
@@ -42,46 +70,31 @@ double round_down_125(double value) {
   return decade;
 }
 
-Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks) {
-  if (!(width_mm(sheet) > 0.0) || !(sheet.y_max_mm > sheet.y_min_mm)) {
-    throw grid::precondition("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                             sheet.x_min_mm,
-                             sheet.x_max_mm,
-                             sheet.y_min_mm,
-                             sheet.y_max_mm);
-  }
-  Outline view = sheet;
-  for (const Arrow& mark : marks) {
-    view.x_min_mm = std::min(view.x_min_mm, mark.x_mm);
-    view.x_max_mm = std::max(view.x_max_mm, mark.x_mm);
-    view.y_min_mm = std::min(view.y_min_mm, mark.y_mm);
-    view.y_max_mm = std::max(view.y_max_mm, mark.y_mm);
-  }
-  const double margin_mm = 0.05 * width_mm(sheet);
-  return {view.x_min_mm - margin_mm,
-          view.x_max_mm + margin_mm,
-          view.y_min_mm - margin_mm,
-          view.y_max_mm + margin_mm};
+std::vector<Signal> view_signals(const Outline& view,
+                                 const Outline& sheet,
+                                 const std::vector<Signal>& others) {
+  std::vector<Signal> signals = {{"x_min_mm", view.x_min_mm},
+                                 {"x_max_mm", view.x_max_mm},
+                                 {"y_min_mm", view.y_min_mm},
+                                 {"y_max_mm", view.y_max_mm},
+                                 {"sheet_x_min_mm", sheet.x_min_mm},
+                                 {"sheet_x_max_mm", sheet.x_max_mm},
+                                 {"sheet_y_min_mm", sheet.y_min_mm},
+                                 {"sheet_y_max_mm", sheet.y_max_mm}};
+  signals.insert(signals.end(), others.begin(), others.end());
+  return signals;
 }
 
 std::vector<Signal> bed_signals(const Outline& sheet, const std::vector<Arrow>& marks) {
-  const Outline view = view_of(sheet, marks);
-  return {{"x_min_mm", view.x_min_mm},
-          {"x_max_mm", view.x_max_mm},
-          {"y_min_mm", view.y_min_mm},
-          {"y_max_mm", view.y_max_mm},
-          {"sheet_x_min_mm", sheet.x_min_mm},
-          {"sheet_x_max_mm", sheet.x_max_mm},
-          {"sheet_y_min_mm", sheet.y_min_mm},
-          {"sheet_y_max_mm", sheet.y_max_mm}};
+  return view_signals(view_of(sheet, marks), sheet);
 }
 
 double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows) {
   double longest_mm = 0.0;
   for (const Arrow& arrow : arrows) {
-    if (!arrow.is_bad) longest_mm = std::max(longest_mm, std::hypot(arrow.dx_mm, arrow.dy_mm));
+    if (!arrow.is_bad) longest_mm = std::max(longest_mm, length_mm(arrow));
   }
-  return longest_mm > 0.0 ? round_down_125(kLongestArrow * width_mm(sheet) / longest_mm) : 1.0;
+  return longest_mm > 0.0 ? round_down_125(kLongestArrow * sheet.width_mm() / longest_mm) : 1.0;
 }
 
 std::string cut_off_at_frame(const Outline& sheet,
@@ -91,8 +104,7 @@ std::string cut_off_at_frame(const Outline& sheet,
   std::vector<std::string> names;
   for (const Arrow& arrow : arrows) {
     if (shown_of(arrow, view, magnification) == 1.0) continue;
-    names.push_back(
-        fmt::format("{} ({:.2f} mm)", arrow.name, std::hypot(arrow.dx_mm, arrow.dy_mm)));
+    names.push_back(fmt::format("{} ({:.2f} mm)", arrow.name, length_mm(arrow)));
   }
   return names.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(names, ", "));
 }
@@ -101,11 +113,9 @@ Chart arrows_chart(const Outline& sheet,
                    const std::vector<Arrow>& arrows,
                    double magnification,
                    const char* color) {
-  Chart chart{.specification = "bed_arrows"};
   DataTable table{
       "arrows",
-      {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm", "shown"},
-      {}};
+      {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm", "shown"}};
   const Outline view = view_of(sheet, arrows);
   for (const Arrow& arrow : arrows) {
     table.rows.push_back({arrow.name,
@@ -118,15 +128,16 @@ Chart arrows_chart(const Outline& sheet,
                           arrow.noise_y_mm,
                           shown_of(arrow, view, magnification)});
   }
-  chart.data.push_back(std::move(table));
-  chart.signals = bed_signals(sheet, arrows);
-  const double key_mm = round_down_125(kLongestArrow * width_mm(sheet) / magnification);
-  chart.signals.push_back({"magnification", magnification});
-  chart.signals.push_back({"key_mm", key_mm});
-  chart.signals.push_back(
-      {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification)});
-  chart.signals.push_back({"color", std::string(color)});
-  return chart;
+  const double key_mm = round_down_125(kLongestArrow * sheet.width_mm() / magnification);
+  const std::string key = fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification);
+  return {.specification = "bed_arrows",
+          .data = {std::move(table)},
+          .signals = view_signals(view,
+                                  sheet,
+                                  {{"magnification", magnification},
+                                   {"key_mm", key_mm},
+                                   {"key_text", key},
+                                   {"color", std::string(color)}})};
 }
 
 std::vector<ChartRow> arrow_rows(const Outline& sheet,

@@ -3,6 +3,7 @@
 /// Shared by every chart of the bed: its outline, the window around it, and arrows on it.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace chaintrue::report {
 struct ToolVector {
   double x_mm = 0.0;
   double y_mm = 0.0;
+
+  [[nodiscard]] double length_mm() const { return std::hypot(x_mm, y_mm); }
 };
 
 /// The sheet, or its measured part.
@@ -22,6 +25,14 @@ struct Outline {
   double x_max_mm = 0.0;
   double y_min_mm = 0.0;
   double y_max_mm = 0.0;
+
+  [[nodiscard]] double width_mm() const { return x_max_mm - x_min_mm; }
+  [[nodiscard]] double height_mm() const { return y_max_mm - y_min_mm; }
+  void include(double x_mm, double y_mm);
+  /// With a margin on every side.
+  [[nodiscard]] Outline widened(double margin_mm) const;
+  /// \throws std::invalid_argument for one without an extent.
+  void require_extent() const;
 };
 
 /// The colours of every chart, page and sheet, from Okabe and Ito's palette, which is
@@ -50,10 +61,12 @@ struct Arrow {
 /// The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) not above value; 0 for 0.
 [[nodiscard]] double round_down_125(double value);
 
-/// The sheet and the marks, with a margin of 5 % of the sheet's width.
+/// The signals declared by the charts of the bed, and others after them.
+[[nodiscard]] std::vector<Signal> view_signals(const Outline& view,
+                                               const Outline& sheet,
+                                               const std::vector<Signal>& others = {});
+/// The view shows the sheet and the marks, with a margin of 5 % of the sheet's width.
 /// \throws std::invalid_argument for a sheet without an extent.
-[[nodiscard]] Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks);
-/// The signals declared by the charts of the bed.
 [[nodiscard]] std::vector<Signal> bed_signals(const Outline& sheet,
                                               const std::vector<Arrow>& marks);
 

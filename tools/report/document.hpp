@@ -58,7 +58,7 @@ struct Item {
   std::vector<Item> items{};
 };
 struct List {
-  enum class Mark { none, dash, number };
+  enum class Mark { none, number };
   Mark mark = Mark::none;
   std::vector<Item> items{};
 };

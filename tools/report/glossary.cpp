@@ -4,40 +4,11 @@
 #include <utility>
 
 namespace chaintrue::report {
-namespace {
-
-constexpr Term kTerms[] = {
-    {"rms", "root mean square: the typical size of errors of either sign, with large ones weighted "
-            "more"},
-    {"one sigma", "one standard deviation: two of three values are within it, nineteen of twenty "
-                  "within twice as much"},
-    {"mark", "a place on the sheet where the tool or the chains were measured"},
-    {"map", "the true chain lengths for every place on the bed, computed from the marks"},
-    {"uncorrected", "the machine with the settings in force when it was measured"},
-    {"calibrated", "with the settings that fit the readings best"},
-    {"left out",
-     "not used by the fit, one reading or one block of the bed at a time; the error of predicting "
-     "it tests the fit"},
-    {"residual", "the reading minus what was expected"},
-    {"chain zero",
-     "the constant error of a chain's readings due to a wrong zero"},
-    {"noise", "the differences of repeated readings"},
-    {"pitch", "the length of one link, 6.35 mm when it is new"},
-    {"catenary", "the curve in which a chain hangs"},
-    {"extrapolated", "beyond the measured part of the bed"},
-};
-
-}  // namespace
-
-std::span<const Term> terms() { return kTerms; }
 
 Section glossary() {
-  Table table{.columns = {{"Word"}, {"What it means here"}}, .rows = {}, .caption = {}};
-  for (const Term& term : kTerms) table.rows.push_back({{term.word, term.meaning}, false});
-  Section section{"Words", {}};
-  section.is_folded = true;
-  section.blocks.emplace_back(std::move(table));
-  return section;
+  Table table{.columns = {{"Word"}, {"What it means here"}}};
+  for (const Term& term : kTerms) table.rows.push_back({{term.word, term.meaning}});
+  return {.title = "Words", .blocks = {std::move(table)}, .is_folded = true};
 }
 
 }  // namespace chaintrue::report

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 namespace chaintrue::report {
 namespace {
@@ -22,39 +22,12 @@ double overlap(const HoleLabel& a, const HoleLabel& b) {
          std::max(0.0, std::min(a.bottom, b.bottom) - std::max(a.top, b.top));
 }
 
-class Labels {
- public:
-  Labels(const std::vector<DrawnHole>& holes, double left, double right)
-      : holes_(holes), left_(left), right_(right) {
-    for (const DrawnHole& hole : holes) {
-      taken_.push_back(
-          {hole.x - kHoleRadius, hole.x + kHoleRadius, hole.y - kHoleRadius, hole.y + kHoleRadius});
-    }
-  }
-
-  HoleLabel place(std::size_t own) {
-    HoleLabel least{};
-    double least_fault = std::numeric_limits<double>::infinity();
-    for (const bool has_place : {true, false}) {
-      for (const HoleLabel& label : around(holes_[own], has_place)) {
-        const double fault = fault_of(label, own);
-        if (fault >= least_fault) continue;
-        least_fault = fault;
-        least = label;
-        if (fault == 0.0) break;
-      }
-      if (least_fault == 0.0) break;
-    }
-    taken_.push_back(least);
-    return least;
-  }
-
- private:
-  /// Above, below and on either side, those to the right first.
-  static std::vector<HoleLabel> around(const DrawnHole& hole, bool has_place) {
-    constexpr double kGap = 10.0;
+/// With the place, then without: above, below and on either side, those to the right first.
+std::vector<HoleLabel> labels_around(const DrawnHole& hole) {
+  constexpr double kGap = 10.0;
+  std::vector<HoleLabel> labels;
+  for (const bool has_place : {true, false}) {
     const double length = wide(hole, has_place);
-    std::vector<HoleLabel> labels;
     for (const double up : {-kGap, kGap + kHigh, 0.5 * kHigh}) {
       for (const double right : {kGap, -kGap - length, -0.5 * length}) {
         if (up == 0.5 * kHigh && right == -0.5 * length) continue;
@@ -62,29 +35,9 @@ class Labels {
             {hole.x + right, hole.x + right + length, hole.y + up - kHigh, hole.y + up, has_place});
       }
     }
-    return labels;
   }
-
-  /// 0: nearer to its hole than to any other, without overlap, and within the drawing.
-  [[nodiscard]] double fault_of(const HoleLabel& label, std::size_t own) const {
-    // Off the bed it would be cut at the picture's edge.
-    double fault =
-        kHigh * (std::max(0.0, left_ - label.left) + std::max(0.0, label.right - right_));
-    for (const HoleLabel& other : taken_) fault += overlap(label, other);
-    const double own_distance = distance_to(label, holes_[own].x, holes_[own].y);
-    for (std::size_t i = 0; i < holes_.size(); ++i) {
-      const double distance = distance_to(label, holes_[i].x, holes_[i].y);
-      // Clearly nearer: by half as much again.
-      constexpr double kClearly = 1.5;
-      if (i != own) fault += kHigh * std::max(0.0, kClearly * own_distance - distance);
-    }
-    return fault;
-  }
-
-  const std::vector<DrawnHole>& holes_;
-  double left_, right_;
-  std::vector<HoleLabel> taken_;
-};
+  return labels;
+}
 
 }  // namespace
 
@@ -96,10 +49,31 @@ double distance_to(const HoleLabel& label, double x, double y) {
 std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
                                     double left,
                                     double right) {
-  Labels labels(holes, left, right);
-  std::vector<HoleLabel> placed;
-  for (std::size_t i = 0; i < holes.size(); ++i) placed.push_back(labels.place(i));
-  return placed;
+  std::vector<HoleLabel> taken;
+  for (const DrawnHole& hole : holes) {
+    taken.push_back(
+        {hole.x - kHoleRadius, hole.x + kHoleRadius, hole.y - kHoleRadius, hole.y + kHoleRadius});
+  }
+  for (const DrawnHole& hole : holes) {
+    // 0: nearer to its hole than to any other, without overlap, and within the drawing.
+    const auto fault_of = [&](const HoleLabel& label) {
+      // Off the bed it would be cut at the picture's edge.
+      double fault = kHigh * (std::max(0.0, left - label.left) + std::max(0.0, label.right - right));
+      for (const HoleLabel& other : taken) fault += overlap(label, other);
+      // Clearly nearer: by half as much again.
+      const double clear_of = 1.5 * distance_to(label, hole.x, hole.y);
+      for (const DrawnHole& other : holes) {
+        if (&other != &hole)
+          fault += kHigh * std::max(0.0, clear_of - distance_to(label, other.x, other.y));
+      }
+      return fault;
+    };
+    const std::vector<HoleLabel> labels = labels_around(hole);
+    taken.push_back(*std::min_element(labels.begin(), labels.end(), [&](const auto& a, const auto& b) {
+      return fault_of(a) < fault_of(b);
+    }));
+  }
+  return {taken.begin() + static_cast<std::ptrdiff_t>(holes.size()), taken.end()};
 }
 
 }  // namespace chaintrue::report

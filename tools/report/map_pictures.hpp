@@ -65,7 +65,7 @@ struct MapPictures {
   /// Description of the points' `before`.
   std::string before_what{"the machine file as it was"};
   std::optional<ErrorMap> error_map{};
-  /// Rms of the held-out errors, drawn as a line and a ring; 0: computed from the points.
+  /// Rms of the held-out errors, drawn as a line and a ring.
   double held_out_rms_mm = 0.0;
   /// The noise of the readings at the tool; 0: not drawn.
   double noise_floor_mm = 0.0;

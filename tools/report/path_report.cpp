@@ -9,15 +9,11 @@
 #include <array>
 #include <cmath>
 
-#include "grid/precondition.hpp"
-
 namespace chaintrue::report {
 namespace {
 
 /// The largest drawn correction is this share of the path's own extent, so that it is visible.
 constexpr double kDrawnCorrection = 0.05;
-
-double size_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
 
 /// The least width of the view, so that a single hole has its surroundings.
 constexpr double kLeastViewMm = 20.0;
@@ -26,39 +22,30 @@ constexpr double kMargin = 0.08;
 constexpr double kTallest = 0.8;
 constexpr double kFlattest = 0.15;
 
-double largest_mm(const PathReport& report) {
-  double largest = 0.0;
-  for (const PathPiece& piece : report.pieces())
-    largest = std::max(largest, size_mm(piece.correction1));
-  return largest;
+/// The pieces without rapids; all pieces if there is nothing else.
+std::vector<PathPiece> cuts_of(const PathReport& report) {
+  std::vector<PathPiece> cuts = report.pieces();
+  std::erase_if(cuts, [](const PathPiece& piece) { return piece.is_rapid; });
+  return cuts.empty() ? report.pieces() : cuts;
 }
 
 /// From the smallest correction of the cuts to the largest, at least a hundredth of a millimetre
 /// apart, in round numbers.
 struct Colours {
   double least_mm = 0.0;
-  double largest_mm = 0.0;
+  double largest_mm = 1.0;
 };
-Colours colours_of(const PathReport& report, bool rapids) {
-  double least = 1e9;
-  double most = 0.0;
-  for (const PathPiece& piece : report.pieces()) {
-    if (piece.is_rapid != rapids) continue;
+Colours colours_of(const std::vector<PathPiece>& cuts) {
+  if (cuts.empty()) return {};
+  double least = 1e9, most = 0.0;
+  for (const PathPiece& piece : cuts) {
     for (const ToolVector& end : {piece.correction0, piece.correction1}) {
-      least = std::min(least, size_mm(end));
-      most = std::max(most, size_mm(end));
+      least = std::min(least, end.length_mm());
+      most = std::max(most, end.length_mm());
     }
   }
-  if (least > most) return rapids ? Colours{0.0, 1.0} : colours_of(report, true);
   const double step = std::pow(10.0, std::floor(std::log10(std::max(most - least, 0.01)))) / 2.0;
   return {step * std::floor(least / step), step * std::ceil(most / step + 1e-9)};
-}
-
-void widen(Outline& view, double x_mm, double y_mm) {
-  view.x_min_mm = std::min(view.x_min_mm, x_mm);
-  view.x_max_mm = std::max(view.x_max_mm, x_mm);
-  view.y_min_mm = std::min(view.y_min_mm, y_mm);
-  view.y_max_mm = std::max(view.y_max_mm, y_mm);
 }
 
 /// At least `least` between the ends, about their middle.
@@ -69,46 +56,30 @@ void stretch(double& low, double& high, double least) {
   high += 0.5 * missing;
 }
 
-/// The cuts; the whole path if there are none.
-Outline part_of(const PathReport& report, double magnification) {
-  Outline view{1e9, -1e9, 1e9, -1e9};
-  for (const bool rapids : {false, true}) {
-    for (const PathPiece& piece : report.pieces()) {
-      if (piece.is_rapid && !rapids) continue;
-      widen(view, piece.x0_mm, piece.y0_mm);
-      widen(view, piece.x1_mm, piece.y1_mm);
-      widen(view,
-            piece.x0_mm + magnification * piece.correction0.x_mm,
-            piece.y0_mm + magnification * piece.correction0.y_mm);
-      widen(view,
-            piece.x1_mm + magnification * piece.correction1.x_mm,
-            piece.y1_mm + magnification * piece.correction1.y_mm);
-    }
-    if (view.x_min_mm <= view.x_max_mm) break;
+/// What the cuts reach, before and after; the sheet if there are none.
+Outline part_of(const PathReport& report, const std::vector<PathPiece>& cuts, double magnification) {
+  if (cuts.empty()) return report.sheet;
+  Outline part{1e9, -1e9, 1e9, -1e9};
+  const auto include = [&](double x_mm, double y_mm, const ToolVector& correction) {
+    part.include(x_mm, y_mm);
+    part.include(x_mm + magnification * correction.x_mm, y_mm + magnification * correction.y_mm);
+  };
+  for (const PathPiece& piece : cuts) {
+    include(piece.x0_mm, piece.y0_mm, piece.correction0);
+    include(piece.x1_mm, piece.y1_mm, piece.correction1);
   }
-  return view.x_min_mm <= view.x_max_mm ? view : report.sheet;
+  return part;
+}
+
+double extent_mm(const Outline& part) {
+  return std::max({part.width_mm(), part.height_mm(), kLeastViewMm});
 }
 
 /// The part with a margin, in an aspect ratio that fits a page.
-Outline view_of(const PathReport& report, double magnification) {
-  if (!(report.sheet.x_max_mm > report.sheet.x_min_mm) ||
-      !(report.sheet.y_max_mm > report.sheet.y_min_mm)) {
-    throw grid::precondition("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                             report.sheet.x_min_mm,
-                             report.sheet.x_max_mm,
-                             report.sheet.y_min_mm,
-                             report.sheet.y_max_mm);
-  }
-  Outline view = part_of(report, magnification);
-  const double margin =
-      kMargin *
-      std::max({view.x_max_mm - view.x_min_mm, view.y_max_mm - view.y_min_mm, kLeastViewMm});
-  view = {view.x_min_mm - margin,
-          view.x_max_mm + margin,
-          view.y_min_mm - margin,
-          view.y_max_mm + margin};
-  stretch(view.x_min_mm, view.x_max_mm, (view.y_max_mm - view.y_min_mm) / kTallest);
-  stretch(view.y_min_mm, view.y_max_mm, (view.x_max_mm - view.x_min_mm) * kFlattest);
+Outline view_around(const Outline& part) {
+  Outline view = part.widened(kMargin * extent_mm(part));
+  stretch(view.x_min_mm, view.x_max_mm, view.height_mm() / kTallest);
+  stretch(view.y_min_mm, view.y_max_mm, view.width_mm() * kFlattest);
   return view;
 }
 
@@ -116,15 +87,12 @@ Outline view_of(const PathReport& report, double magnification) {
 /// along it.
 constexpr double kColouredShare = 1.0 / 60.0;
 
-int parts_of(const PathPiece& piece, const Outline& view, std::size_t pieces) {
+void add_rows(DataTable& table, const PathPiece& piece, const Outline& view, std::size_t pieces) {
   // If there are many pieces they are short, or the page has its limit of pieces.
-  if (piece.is_rapid || pieces > PathReport::kMostPieces / 60) return 1;
+  const bool is_whole = piece.is_rapid || pieces > PathReport::kMostPieces / 60;
   const double length = std::hypot(piece.x1_mm - piece.x0_mm, piece.y1_mm - piece.y0_mm);
-  return std::clamp(
-      static_cast<int>(length / (kColouredShare * (view.x_max_mm - view.x_min_mm))), 1, 60);
-}
-
-void add_rows(DataTable& table, const PathPiece& piece, int parts) {
+  const int parts =
+      is_whole ? 1 : std::clamp(static_cast<int>(length / (kColouredShare * view.width_mm())), 1, 60);
   const auto row = [&](int i) {
     const double t = static_cast<double>(i) / parts;
     return std::array{
@@ -141,12 +109,12 @@ void add_rows(DataTable& table, const PathPiece& piece, int parts) {
   }
 }
 
-double magnification_of(const PathReport& report) {
-  const double largest = largest_mm(report);
+double magnification_of(const PathReport& report, const std::vector<PathPiece>& cuts) {
+  double largest = 0.0;
+  for (const PathPiece& piece : report.pieces())
+    largest = std::max(largest, piece.correction1.length_mm());
   if (!(largest > 0.0)) return 1.0;
-  const Outline part = part_of(report, 0.0);
-  const double extent =
-      std::max({part.x_max_mm - part.x_min_mm, part.y_max_mm - part.y_min_mm, kLeastViewMm});
+  const double extent = extent_mm(part_of(report, cuts, 0.0));
   return std::max(1.0, std::floor(kDrawnCorrection * extent / largest));
 }
 
@@ -163,22 +131,11 @@ void PathReport::add(const PathPiece& piece) {
 }
 
 Document page_of(const PathReport& report) {
-  const double magnification = magnification_of(report);
-  const Outline view = view_of(report, magnification);
-  const Colours colours = colours_of(report, false);
-  Chart chart{.specification = "gcode_path"};
-  chart.title = "The path before and after";
-  chart.caption = fmt::format(
-      "Grey: the intended path, as the program commanded it. Coloured: the compensated path, with "
-      "its distance from the grey one drawn {:g} times as large. Dashed: rapids. The picture shows "
-      "the cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the sheet is tinted.{}",
-      magnification,
-      view.x_min_mm,
-      view.x_max_mm,
-      view.y_min_mm,
-      view.y_max_mm,
-      report.stride() > 1 ? fmt::format(" One piece in {} is drawn.", report.stride())
-                          : std::string());
+  report.sheet.require_extent();
+  const std::vector<PathPiece> cuts = cuts_of(report);
+  const double magnification = magnification_of(report, cuts);
+  const Outline view = view_around(part_of(report, cuts, magnification));
+  const Colours colours = colours_of(cuts);
   DataTable table{"pieces",
                   {"line",
                    "is_rapid",
@@ -189,28 +146,32 @@ Document page_of(const PathReport& report) {
                    "dx0_mm",
                    "dy0_mm",
                    "dx1_mm",
-                   "dy1_mm"},
-                  {}};
-  for (const PathPiece& piece : report.pieces()) {
-    add_rows(table, piece, parts_of(piece, view, report.pieces().size()));
-  }
-  chart.data.push_back(std::move(table));
-  chart.signals = {{"x_min_mm", view.x_min_mm},
-                   {"x_max_mm", view.x_max_mm},
-                   {"y_min_mm", view.y_min_mm},
-                   {"y_max_mm", view.y_max_mm},
-                   {"sheet_x_min_mm", report.sheet.x_min_mm},
-                   {"sheet_x_max_mm", report.sheet.x_max_mm},
-                   {"sheet_y_min_mm", report.sheet.y_min_mm},
-                   {"sheet_y_max_mm", report.sheet.y_max_mm},
-                   {"magnification", magnification},
-                   {"least_mm", colours.least_mm},
-                   {"largest_mm", colours.largest_mm}};
-  Document page{.title = fmt::format("{}, compensated", report.name)};
-  page.verdict = {report.verdict};
-  page.sections.push_back({"The part", {chart}});
-  page.sections.push_back({"In numbers", {Figures{report.figures}}});
-  return page;
+                   "dy1_mm"}};
+  for (const PathPiece& piece : report.pieces())
+    add_rows(table, piece, view, report.pieces().size());
+  const Chart chart{
+      .specification = "gcode_path",
+      .title = "The path before and after",
+      .caption = fmt::format(
+          "Grey: the intended path, as the program commanded it. Coloured: the compensated path, "
+          "with its distance from the grey one drawn {:g} times as large. Dashed: rapids. The "
+          "picture shows the cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the "
+          "sheet is tinted.{}",
+          magnification,
+          view.x_min_mm,
+          view.x_max_mm,
+          view.y_min_mm,
+          view.y_max_mm,
+          report.stride() > 1 ? fmt::format(" One piece in {} is drawn.", report.stride()) : ""),
+      .data = {std::move(table)},
+      .signals = view_signals(view,
+                              report.sheet,
+                              {{"magnification", magnification},
+                               {"least_mm", colours.least_mm},
+                               {"largest_mm", colours.largest_mm}})};
+  return {.title = fmt::format("{}, compensated", report.name),
+          .verdict = {report.verdict},
+          .sections = {{"The part", {chart}}, {"In numbers", {Figures{report.figures}}}}};
 }
 
 }  // namespace chaintrue::report

@@ -29,14 +29,14 @@ class TextWriter {
  public:
   explicit TextWriter(Detail detail) : detail_(detail) {}
 
-  std::string write(const Document& document) {
-    paragraph(document.verdict, 0);
-    heading_of_advice(document);
+  std::string text(const Document& document) {
+    write(document.verdict);
+    write_advice(document);
     if (shows(document.not_proved.detail) && !document.not_proved.text.empty()) {
       line("");
-      paragraph(document.not_proved, 0);
+      write(document.not_proved);
     }
-    for (const Block& block : document.remarks.blocks) write_block(block, 0);
+    write_blocks(document.remarks, 0);
     for (const Section& section : document.sections) write_section(section);
     return std::move(text_);
   }
@@ -48,13 +48,11 @@ class TextWriter {
     text_ += '\n';
   }
 
-  void heading_of_advice(const Document& document) {
-    bool is_first = true;
-    for (const Paragraph& advice : document.advice) {
-      if (!shows(advice.detail)) continue;
-      if (std::exchange(is_first, false)) line("\nWhat to do now");
-      line(blanks(kIndent) + "- " + advice.text);
-    }
+  void write_advice(const Document& document) {
+    std::string lines;
+    for (const Paragraph& advice : document.advice)
+      if (shows(advice.detail)) lines += "\n  - " + advice.text;
+    if (!lines.empty()) line("\nWhat to do now" + lines);
   }
 
   void write_section(const Section& section) {
@@ -65,48 +63,35 @@ class TextWriter {
     const bool is_titled = section.is_titled && (first == nullptr || !first->is_headed);
     if (is_titled) line(section.title);
     const std::size_t head = text_.size();
-    for (const Block& block : section.blocks) write_block(block, is_titled ? kIndent : 0);
+    write_blocks(section, is_titled ? kIndent : 0);
     if (text_.size() == head) text_.resize(begin);
   }
 
-  void write_block(const Block& block, int indent) {
-    std::visit(Overloaded{
-                   [&](const Paragraph& text) { paragraph(text, indent); },
-                   [&](const List& list) { items(list.items, list.mark, kIndent); },
-                   [&](const Table& one) { table(one); },
-                   [&](const Chart& chart) { alternative(chart); },
-                   [&](const ChartRow& row) {
-                     for (const Chart& chart : row.charts) alternative(chart);
-                   },
-                   [](const Figures&) {},
-               },
-               block);
+  void write_blocks(const Section& section, int indent) {
+    indent_ = indent;
+    for (const Block& block : section.blocks)
+      std::visit([this](const auto& held) { write(held); }, block);
   }
 
-  void alternative(const Chart& chart) {
-    if (chart.alternative) table(*chart.alternative);
-  }
-
-  void paragraph(const Paragraph& text, int indent) {
+  void write(const Paragraph& text) {
     if (!shows(text.detail) || text.text.empty()) return;
-    line(blanks(indent) + (text.is_note ? "Note: " : "") + text.text);
+    line(blanks(indent_) + (text.is_note ? "Note: " : "") + text.text);
+  }
+  void write(const List& list) { items(list.items, list.mark, kIndent); }
+  void write(const Figures& /*on the page only*/) {}
+  void write(const Chart& chart) {
+    if (chart.alternative) write(*chart.alternative);
+  }
+  void write(const ChartRow& row) {
+    for (const Chart& chart : row.charts) write(chart);
   }
 
   void items(const std::vector<Item>& list, List::Mark mark, int indent) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const std::string sign = mark == List::Mark::dash     ? "- "
-                               : mark == List::Mark::number ? fmt::format("{:>2}. ", i + 1)
-                                                            : "";
+      const std::string sign = mark == List::Mark::number ? fmt::format("{:>2}. ", i + 1) : "";
       line(blanks(indent) + sign + list[i].text);
       items(list[i].items, List::Mark::none, indent + kIndent);
     }
-  }
-
-  static std::string text_of(const Cell& cell, const Column& column) {
-    return std::visit(Overloaded{[](std::monostate) { return std::string(); },
-                                 [](const std::string& text) { return text; },
-                                 [&](double value) { return number_of(value, column); }},
-                      cell.value);
   }
 
   /// At least as wide as the widest cell; numbers are separated by a blank.
@@ -118,7 +103,7 @@ class TextWriter {
       for (std::size_t i = 0; i < row.cells.size(); ++i) {
         const Column& column = table.columns[i];
         if (column.width == 0) continue;
-        const int own = width_of(text_of(row.cells[i], column));
+        const int own = width_of(typed(row.cells[i], column));
         widths[i] = std::max(widths[i], own + (column.is_number && i > 0 ? 1 : 0));
       }
     }
@@ -130,42 +115,45 @@ class TextWriter {
     return column.is_number ? rest + text : blanks(column.gap) + text + rest;
   }
 
-  void table(const Table& table) {
+  void cells(const Table& table, const Row& row, const std::vector<int>& widths, int indent) {
+    std::string text = blanks(indent);
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const Column& column = table.columns[i];
+      if (shows(column.detail)) text += padded(typed(row.cells[i], column), column, widths[i]);
+    }
+    line(text);
+  }
+
+  void headings(const Table& table, std::vector<int> widths) {
+    Row row;
+    bool has_any = false;
+    for (const Column& column : table.columns) {
+      row.cells.emplace_back(column.heading);
+      has_any |= shows(column.detail) && !column.heading.empty();
+    }
+    if (!has_any) return;
+    if (table.is_headed) widths[0] += kIndent;
+    if (table.head_width > 0) widths[0] = table.head_width;
+    cells(table, row, widths, table.is_headed ? 0 : kIndent);
+    text_.erase(text_.find_last_not_of(" \n") + 1);
+    line("");
+  }
+
+  void write(const Table& table) {
     const std::vector<int> widths = widths_of(table);
-    if (std::any_of(table.columns.begin(), table.columns.end(), [&](const Column& one) {
-          return shows(one.detail) && !one.heading.empty();
-        })) {
-      std::string head;
-      for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        const Column& column = table.columns[i];
-        if (!shows(column.detail)) continue;
-        const bool is_title = table.is_headed && i == 0;
-        if (i == 0 && !is_title) head += blanks(kIndent);
-        const int width = i == 0 && table.head_width > 0 ? table.head_width
-                                                         : widths[i] + (is_title ? kIndent : 0);
-        head += padded(column.heading, column, width);
-      }
-      head.erase(head.find_last_not_of(' ') + 1);
-      line(head);
-    }
-    for (const Row& row : table.rows) {
-      std::string text = blanks(kIndent);
-      for (std::size_t i = 0; i < row.cells.size(); ++i) {
-        if (!shows(table.columns[i].detail)) continue;
-        text += padded(text_of(row.cells[i], table.columns[i]), table.columns[i], widths[i]);
-      }
-      line(text);
-    }
+    headings(table, widths);
+    for (const Row& row : table.rows) cells(table, row, widths, kIndent);
   }
 
   std::string text_;
   Detail detail_;
+  int indent_ = 0;
 };
 
 }  // namespace
 
 std::string render_text(const Document& document, Detail detail) {
-  return TextWriter(detail).write(document);
+  return TextWriter(detail).text(document);
 }
 
 }  // namespace chaintrue::report
