@@ -88,6 +88,21 @@ TEST_P(OutsideTheMap, DerivativesAreDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(NoisyAndLattice, OutsideTheMap, testing::Bool());
 
+TEST(OutsideTheMapByName, AFactorIsThatOfTheSigmasBeyondThePoints) {
+  constexpr double kFactor = 1.5;
+  const CompensationMap own = map_of(middle_grid(true), Outside::continued);
+  const CompensationMap wider = own.with_sigma_beyond(kFactor);
+  int beyond = 0;
+  for (double x = -1200.0; x <= 1200.0; x += 100.0) {
+    const bool is_beyond = own.status({x, 0.0}) == MapStatus::extrapolated;
+    beyond += is_beyond ? 1 : 0;
+    const auto before = own.query({x, 0.0}).value(), after = wider.query({x, 0.0}).value();
+    // The factor is squared and a root taken: rounding.
+    EXPECT_NEAR(after.tool_sigma_mm / before.tool_sigma_mm, is_beyond ? kFactor : 1.0, 1e-12) << x;
+  }
+  EXPECT_GT(beyond, 0);
+}
+
 TEST(OutsideTheMapByName, FadesToTheMachineOrRefuses) {
   const grid::MeasuredGrid measured = middle_grid(true);
   const MarkPoint far{1210.0, 0.0};

@@ -6,6 +6,7 @@
 /// (tests/lab/sealed).
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdint>
 #include <ostream>
 #include <string>
@@ -17,10 +18,13 @@
 #include "sealed/judge/map_errors.hpp"
 #include "sealed/judge/plan.hpp"
 #include "sealed/judge/plotter_sets.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
 namespace {
 
+using ::testing::Contains;
+using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::SizeIs;
 
@@ -122,6 +126,51 @@ TEST(LawSmoke, ClaimsALawWithItsVariableAndNoField) {
   EXPECT_TRUE(law.has("near")) << line_of(law);
   const Outcome field = run_laws_trial("gaussian", kSeed);
   EXPECT_TRUE(field.has("unclaimed")) << line_of(field);
+}
+
+grid::MeasuredGrid session_of(const generator::Recipe& recipe, std::uint64_t seed) {
+  return grid::files::parse_grid(generator::draw_set(recipe, seed).grid_text, "sealed.json").grid;
+}
+
+// The sentence names the causes, each with its probability in the table, and a nearly certain entry of the table is one
+// of them; with a pattern beside them, too.
+TEST(SentenceSmoke, NamesWhatTheTableIsSureOf) {
+  using generator::Mix;
+  int sure = 0;
+  for (const Mix kind : {Mix::single, Mix::two, Mix::alongside, Mix::two_alongside, Mix::near}) {
+    constexpr std::uint64_t kSeed = 9800;
+    SCOPED_TRACE(testing::Message() << static_cast<int>(kind) << ", seed " << kSeed);
+    const auto session = session_of({.kind = kind, .points = 28, .delta = 20.0}, kSeed);
+    const auto found = grid::diagnosis::diagnose(session, verdict_alone()).value();
+    const Trial trial(found);
+    for (const auto& entry : found.hypotheses) {
+      if (entry.causes.empty() || entry.probability < 0.99) continue;
+      ++sure;
+      EXPECT_TRUE(trial.is_named(id_of(entry.causes.front()))) << found.sentence;
+    }
+    for (const auto& cause : found.causes) {
+      EXPECT_THAT(found.sentence, HasSubstr(std::string(cause.cause.effect->cause)));
+      for (const auto& entry : found.hypotheses) {
+        if (id_of(entry.effect, entry.side) == id_of(cause.cause))
+          EXPECT_EQ(entry.probability, cause.probability) << found.sentence;
+      }
+    }
+  }
+  EXPECT_GE(sure, 3);
+}
+
+// The fit treats a skipped tooth as noise: it expected 0.7 mm when the tool was 4 mm off.
+TEST(MapSmoke, OmittedNumbersAreReportedIfTheyContradictTheFit) {
+  constexpr std::uint64_t kSeed = 1;
+  generator::Recipe recipe{.points = 28};
+  recipe.exactly = {{generator::Cause::tooth_skip, generator::Where::left, 1.0, 16.0}};
+  const auto fit = grid::joint_fit(session_of(recipe, kSeed));
+  ASSERT_TRUE(fit) << "seed " << kSeed;
+  const auto& map = fit->map.contents();
+  EXPECT_THAT(map.notes, Contains(HasSubstr("The larger number is reported")));
+  // Noise of 0.2 mm in a chain and 0.3 mm in each coordinate is below 0.3 mm^2 at the tool.
+  EXPECT_GT(map.accuracy.expected_tool.rms_mm, std::sqrt(std::pow(map.accuracy.blocked.tool.rms_mm, 2) - 0.3))
+      << "seed " << kSeed;
 }
 
 // The list of `chaintrue start`, and a zero that moves during the session: a typical first evening.
