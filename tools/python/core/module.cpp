@@ -4,11 +4,15 @@
 /// package's Python.
 #include "tools/python/core/bind.hpp"
 
+namespace chaintrue::python {
+
 PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = CHAINTRUE_VERSION;
-  chaintrue::python::translate_failures();
-  chaintrue::python::add_measured(module);
-  chaintrue::python::add_maps(module);
-  chaintrue::python::add_plans(module);
-  chaintrue::python::add_run(module);
+  translate_failures();
+  add_measured(module);
+  add_maps(module);
+  add_plans(module);
+  add_run(module);
 }
+
+}  // namespace chaintrue::python
