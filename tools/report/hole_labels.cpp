@@ -68,10 +68,11 @@ std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
       }
       return fault;
     };
-    const std::vector<HoleLabel> labels = labels_around(hole);
-    taken.push_back(*std::min_element(labels.begin(), labels.end(), [&](const auto& a, const auto& b) {
+    std::vector<HoleLabel> labels = labels_around(hole);
+    std::stable_sort(labels.begin(), labels.end(), [&](const auto& a, const auto& b) {
       return fault_of(a) < fault_of(b);
-    }));
+    });
+    taken.push_back(labels.front());
   }
   return {taken.begin() + static_cast<std::ptrdiff_t>(holes.size()), taken.end()};
 }

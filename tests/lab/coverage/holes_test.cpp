@@ -10,6 +10,7 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/random.hpp"
+#include "sealed/judge/trial.hpp"
 #include "tests/holes/hole_sets.hpp"
 #include "tests/lab/coverage/rates.hpp"
 
@@ -94,29 +95,19 @@ TEST(HolesCoverage, PlansWithEdgesKeepTheirPromise) {
   error.expect_unit();
 }
 
-diagnosis::Diagnosis diagnosed(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
+std::vector<sealed::Claim> named(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
   synthetic::HolesSpec spec;
   spec.draw_settings = true;
   spec.seed = seed;
   spec.hidden = hidden;
-  diagnosis::DiagnosisOptions options;
-  options.improvement = options.next_measurements = options.stability = false;
-  return diagnosis::diagnose(synthetic::simulate_holes(nine_holes(), spec)->set, options).value();
-}
-
-bool names(const diagnosis::Cause& cause, const model::AppliedEffect& hidden) {
-  const auto is = [&](const diagnosis::CauseId& id) {
-    return id.effect->id == hidden.effect && name(id.side) == hidden.side;
-  };
-  return is(cause.cause) || std::any_of(cause.same_as.begin(), cause.same_as.end(), [&](const auto& same) {
-           return is(same.cause);
-         });
+  const MeasuredHoles set = synthetic::simulate_holes(nine_holes(), spec)->set;
+  return sealed::named_causes(diagnosis::diagnose(set, sealed::verdict_alone()).value());
 }
 
 TEST(HolesVerdicts, NameNothingOnSoundMachines) {
-  Rate named;
-  for (const std::uint64_t seed : seeds(200)) named.add(!diagnosed({}, seed).causes.empty());
-  named.expect_at_most(0.01);
+  Rate false_alarms;
+  for (const std::uint64_t seed : seeds(200)) false_alarms.add(!named({}, seed).empty());
+  false_alarms.expect_at_most(0.01);
 }
 
 TEST(HolesVerdicts, NameSingleCauses) {
@@ -133,12 +124,14 @@ TEST(HolesVerdicts, NameSingleCauses) {
         model::AppliedEffect{"angular_kink", "left", {{"slope_mm_per_rad", 20.0}, {"knee_rad", 0.6}}}}) {
     SCOPED_TRACE(hidden.effect + hidden.side);
     Rate first, misnamed;
+    const auto means = [id = sealed::id_of(hidden.effect, hidden.side)](const sealed::Claim& claim) {
+      return claim.means(id);
+    };
     for (const std::uint64_t seed : seeds(40)) {
-      const auto causes = diagnosed({hidden}, seed).causes;
+      const auto causes = named({hidden}, seed);
       if (causes.empty()) continue;
-      first.add(names(causes.front(), hidden));
-      misnamed.add(std::none_of(
-          causes.begin(), causes.end(), [&](const auto& cause) { return names(cause, hidden); }));
+      first.add(means(causes.front()));
+      misnamed.add(std::ranges::none_of(causes, means));
     }
     first.expect_at_least(0.9);
     misnamed.expect_at_most(0.05);

@@ -69,7 +69,7 @@ struct Rate {
 /// p-values are uniform: Kolmogorov's distance is beyond 1.95 / sqrt(n) once in a thousand (N. Smirnov,
 /// Ann. Math. Stat. 19 (1948), 279).
 inline void expect_uniform(std::vector<double> p) {
-  std::sort(p.begin(), p.end());
+  std::ranges::sort(p);
   const auto n = static_cast<double>(p.size());
   double most = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 
 #include "generator/hidden/random.hpp"
@@ -53,6 +53,12 @@ model::AppliedEffect applied(const Hidden& h) {
   return effect;
 }
 
+std::vector<model::Visit> visits_of_product(const std::vector<Visit>& visits) {
+  std::vector<model::Visit> theirs;
+  for (const Visit& v : visits) theirs.push_back({{v.place.x, v.place.y}, v.number});
+  return theirs;
+}
+
 // The product's readings of the same visits.
 std::vector<model::ChainLengths> product(const std::vector<Visit>& visits,
                                          const std::vector<Hidden>& effects,
@@ -60,9 +66,7 @@ std::vector<model::ChainLengths> product(const std::vector<Visit>& visits,
   model::Machine machine;
   machine.feed = over_top ? model::Feed::over_top : model::Feed::off_bottom;
   for (const Hidden& h : effects) machine.effects.push_back(applied(h));
-  std::vector<model::Visit> theirs;
-  for (const Visit& v : visits) theirs.push_back({{v.place.x, v.place.y}, v.number});
-  const auto read = model::readings(model::ReadingModel(machine), theirs);
+  const auto read = model::readings(model::ReadingModel(machine), visits_of_product(visits));
   EXPECT_TRUE(read.has_value());
   return read.value_or(std::vector<model::ChainLengths>(visits.size()));
 }
@@ -144,12 +148,8 @@ TEST(Readings, EffectsTogetherAreReproducible) {
 // delta by the hidden side's own differences compared with the product's table of strengths.
 TEST(Strength, EqualsDelta) {
   const auto visits = session(5, 28);
-  std::vector<model::Visit> theirs;
-  for (const Visit& v : visits) theirs.push_back({{v.place.x, v.place.y}, v.number});
-  grid::StatedNoise noise;
-  noise.length_mm = 0.2;
-  noise.position_mm = 0.3;
-  const grid::synthetic::StrengthTable table(model::Machine{}, theirs, noise);
+  const grid::StatedNoise noise{.length_mm = 0.2, .position_mm = 0.3};
+  const grid::synthetic::StrengthTable table(model::Machine{}, visits_of_product(visits), noise);
   const auto yardstick = Yardstick::make(drum(), visits, {}, {});
   ASSERT_TRUE(yardstick);
   for (const CauseCard& c : cards()) {
@@ -161,13 +161,8 @@ TEST(Strength, EqualsDelta) {
       const Hidden one[] = {nominal};
       const auto ours = yardstick->signature(one);
       ASSERT_TRUE(ours);
-      const auto side = [&] {
-        for (const auto s : effect.sides) {
-          if (model::effects::name(s) == word(where)) return s;
-        }
-        return model::effects::EffectSide::none;
-      }();
-      const double delta = table.strength(effect, side).signal_to_noise;
+      const auto side = std::ranges::find(effect.sides, word(where), [](auto s) { return name(s); });
+      const double delta = table.strength(effect, *side).signal_to_noise;
       // Differences over 1 mm against exact derivatives, and a weight rounded in its fourth digit.
       EXPECT_NEAR(ours->norm(), delta, 1e-3 * delta + 1e-4);
     }

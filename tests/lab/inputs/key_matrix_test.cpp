@@ -31,7 +31,7 @@ struct Reader {
 
 bool is_idle(const std::string& kind, const std::string& verb, const std::string& key) {
   static const inputs::Rows idle = inputs::rows_of("lab/inputs/idle_keys.tsv");
-  return std::any_of(idle.begin(), idle.end(), [&](const auto& row) {
+  return std::ranges::any_of(idle, [&](const auto& row) {
     return row.at(0) == kind && row.at(1) == verb && key.starts_with(row.at(2));
   });
 }

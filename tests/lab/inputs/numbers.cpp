@@ -18,7 +18,7 @@ void gather_numbers(const Json& json, const std::vector<std::string>& echoes, st
   }
   if (!json.is_object()) return;
   for (const auto& [key, value] : json.items()) {
-    if (std::find(echoes.begin(), echoes.end(), key) == echoes.end())
+    if (std::ranges::find(echoes, key) == echoes.end())
       gather_numbers(value, echoes, numbers);
   }
 }

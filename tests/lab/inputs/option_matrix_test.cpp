@@ -67,8 +67,7 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
     case Shows::in_form:
       return before.out == ran.out && before.files == ran.files ? "changes nothing: " + line : "";
     case Shows::as_file:
-      return std::none_of(ran.files.begin(),
-                          ran.files.end(),
+      return std::ranges::none_of(ran.files,
                           [&](const auto& file) {
                             return !before.files.contains(file.first) && !file.second.empty();
                           })

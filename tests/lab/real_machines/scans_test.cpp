@@ -57,9 +57,7 @@ class RealScans : public testing::Test {
     DiagnosisOptions options;
     options.improvement = false;
     options.next_measurements = false;
-    const auto answer = diagnose(grid, options);
-    EXPECT_TRUE(answer);
-    return *answer;
+    return diagnose(grid, options).value();
   }
 
   static std::set<std::string> names(const Diagnosis& d) {
@@ -79,16 +77,14 @@ TEST_F(RealScans, BothScansNameTheBannersScale) {
     // nothing is named.
     const Diagnosis d = diagnosed(scan(file, VisitingOrder{.rows = false, .serpentine = true}));
     EXPECT_TRUE(names(d).contains("tape_scale:x")) << file << ": " << d.sentence;
-    EXPECT_TRUE(std::none_of(d.extended_machine.effects.begin(),
-                             d.extended_machine.effects.end(),
-                             [](const auto& e) { return e.effect == "tape_scale"; }))
+    EXPECT_TRUE(std::ranges::none_of(d.extended_machine.effects,
+                                     [](const auto& e) { return e.effect == "tape_scale"; }))
         << "the banner's scale is none of the machine's";
   }
 }
 
 TEST_F(RealScans, NamesHoldWithoutAnyLine) {
   const MeasuredGrid whole = scan(kUpper);
-  const Diagnosis all = diagnosed(whole);
   for (const bool columns : {true, false}) {
     std::set<int> lines;
     const auto of = [&](const MeasuredPoint& p) {
@@ -131,8 +127,7 @@ TEST_F(RealScans, APlantedEffectIsFound) {
            c.cause.side == model::effects::EffectSide::left;
   };
   const Diagnosis before = diagnosed(grid);
-  EXPECT_TRUE(std::none_of(before.causes.begin(), before.causes.end(), is_planted))
-      << before.sentence;
+  EXPECT_TRUE(std::ranges::none_of(before.causes, is_planted)) << before.sentence;
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const double length = (*lengths)[i].lengths.left_mm;
     grid.points[i].lengths = (*lengths)[i].lengths;
@@ -142,7 +137,7 @@ TEST_F(RealScans, APlantedEffectIsFound) {
   }
   const Diagnosis after = diagnosed(grid);
   SCOPED_TRACE(after.sentence);
-  const auto found = std::find_if(after.causes.begin(), after.causes.end(), is_planted);
+  const auto found = std::ranges::find_if(after.causes, is_planted);
   ASSERT_NE(found, after.causes.end());
   const ParameterEstimate& size = found->parameters.front();
   // The real sprocket's own eccentricity is included: below 0.1 mm by the bound above.

@@ -39,15 +39,7 @@ grid::MeasuredGrid read(const generator::SealedSet& set) {
 }
 
 Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
-  grid::diagnosis::DiagnosisOptions how;
-  how.improvement = false;
-  how.next_measurements = false;
-  auto found = grid::diagnosis::diagnose(grid, how);
-  if (!found) {
-    ADD_FAILURE() << found.error().sentence();
-    return {};
-  }
-  return std::move(*found);
+  return grid::diagnosis::diagnose(grid, verdict_alone()).value();
 }
 
 std::string first_name(const Diagnosis& found) { return named_causes(found).front().members.front(); }
@@ -111,7 +103,7 @@ TEST(Metamorphic, AddingTheNamedCauseRemovesIt) {
 }
 
 bool not_testable(const Diagnosis& found, const std::string& effect) {
-  return std::any_of(found.not_testable.begin(), found.not_testable.end(), [&](const auto& no) {
+  return std::ranges::any_of(found.not_testable, [&](const auto& no) {
     return no.cause.effect->id == effect;
   });
 }
@@ -124,7 +116,7 @@ TEST(Traps, EffectsTheSettingsAbsorbAreBoundedNotNamed) {
     ASSERT_LT(set.answer.delta.front(), 1.5);
     const Diagnosis found = diagnosed(read(set));
     EXPECT_EQ(found.verdict, Verdict::nothing_found) << found.sentence;
-    const auto bound = std::find_if(found.bounds.begin(), found.bounds.end(), [](const auto& b) {
+    const auto bound = std::ranges::find_if(found.bounds, [](const auto& b) {
       return b.cause.effect->id == "sprocket_radius";
     });
     if (bound != found.bounds.end()) {
@@ -144,18 +136,22 @@ TEST(Traps, ABadSettingIsNamedAsASetting) {
     grid.machine->motors.left.x_mm -= 15.0;
     const Diagnosis found = diagnosed(grid);
     EXPECT_FALSE(names_any(found)) << found.sentence;
-    const bool off = std::any_of(found.settings.begin(), found.settings.end(), [](const auto& s) {
+    const bool off = std::ranges::any_of(found.settings, [](const auto& s) {
       return s.off && s.setting == model::Setting::motor_left_x_mm;
     });
     EXPECT_TRUE(off);
   }
 }
 
+/// Of random visits, without a cause.
+auto yardstick_of(std::uint64_t seed) {
+  const auto blank = posed({}, Order::random, seed);
+  return generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
+}
+
 // The second effect cancels the first; alone, either would be named.
 TEST(Traps, CancellingEffectsAreNotNamed) {
-  const auto blank = posed({}, Order::random, 3);
-  const auto yardstick =
-      generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
+  const auto yardstick = yardstick_of(3);
   const Hidden first[] = {{Cause::tape_scale, Where::both, 0.001, 0.0}};
   // Both chains, and the tape along both axes: indistinguishable with data of this kind.
   const Hidden second[] = {{Cause::chain_pitch_error, Where::both, 0.001, 0.0}};
@@ -174,9 +170,7 @@ TEST(Traps, BoundsHold) {
   int held = 0, bounded = 0;
   for (const auto& card : generator::cards()) {
     if (card.whole() || card.place != generator::Place::none || card.sides.size() > 1) continue;
-    const auto blank = posed({}, Order::random, 6);
-    const auto yardstick =
-        generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
+    const auto yardstick = yardstick_of(6);
     Hidden one[] = {{card.cause, Where::nowhere, card.usual, 0.0}};
     one[0].size *= 2.0 / yardstick->signature(one)->norm();
     if (one[0].size > card.upper) continue;

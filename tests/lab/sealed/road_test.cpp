@@ -12,6 +12,7 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
 namespace {
@@ -46,13 +47,11 @@ Road road_of(std::vector<Hidden> hidden,
   recipe.order = order;
   generator::SealedSet set = generator::draw_set(recipe, seed);
   const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
-  auto plain = grid::joint_fit(measured);
   grid::diagnosis::CausesFitOptions options;
   options.accept_class = accept_class;
-  auto own = grid::diagnosis::fit_with_causes(measured, options);
-  EXPECT_TRUE(plain.has_value()) << plain.error().sentence();
-  EXPECT_TRUE(own.has_value()) << own.error().sentence();
-  return {std::move(set), *std::move(plain), *std::move(own)};
+  return {std::move(set),
+          grid::joint_fit(measured).value(),
+          grid::diagnosis::fit_with_causes(measured, options).value()};
 }
 
 /// The list of start with a zero that moves during the session.
@@ -79,12 +78,8 @@ TEST(Road, AnEventOfOneSessionIsRemovedFromThatSession) {
 }
 
 grid::diagnosis::Diagnosis named_in(const generator::SealedSet& set) {
-  grid::diagnosis::DiagnosisOptions options;
-  options.improvement = options.stability = options.next_measurements = false;
-  auto found = grid::diagnosis::diagnose(
-      grid::files::parse_grid(set.grid_text, "sealed.json").grid, options);
-  EXPECT_TRUE(found) << found.error().sentence();
-  return *std::move(found);
+  const auto grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
+  return grid::diagnosis::diagnose(grid, verdict_alone()).value();
 }
 
 TEST(Road, OnlyAShiftOfWholeLinksMayBeASkippedTooth) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -197,12 +198,9 @@ Expected second_visit_without_minus(const Slip& slip) {
   auto& points = slip.grid().points;
   for (std::size_t i = points.size(); i-- > 0;) {
     MeasuredPoint& late = points[i];
-    const bool is_second = std::any_of(points.begin(),
-                                       points.begin() + static_cast<std::ptrdiff_t>(i),
-                                       [&](const MeasuredPoint& p) {
-                                         return p.commanded->x_mm == late.commanded->x_mm &&
-                                                p.commanded->y_mm == late.commanded->y_mm;
-                                       });
+    const bool is_second = std::ranges::any_of(std::span(points).first(i), [&](const auto& p) {
+      return p.commanded->x_mm == late.commanded->x_mm && p.commanded->y_mm == late.commanded->y_mm;
+    });
     if (late.mark.x_mm > -100.0 || !is_second) continue;
     late.mark.x_mm = -late.mark.x_mm;
     return {{fmt::format("Mark {} was measured twice", *late.order)}, point_place(i), false};
@@ -318,7 +316,7 @@ bool names(const std::string& message, const Expected& expected) {
                         message.find(expected.place + ":") != std::string::npos ||
                         message.find(expected.place + "/") != std::string::npos;
   return is_there &&
-         std::any_of(expected.words.begin(), expected.words.end(), [&](const std::string& word) {
+         std::ranges::any_of(expected.words, [&](const std::string& word) {
            return message.find(word) != std::string::npos;
          });
 }
@@ -338,7 +336,7 @@ Outcome try_kind(const Kind& kind, std::uint64_t seed) {
   outcome.reported = reported_of(session);
   const auto& said = outcome.reported.messages;
   outcome.is_named = (!outcome.expected.refused || outcome.reported.is_refused) &&
-                     std::any_of(said.begin(), said.end(), [&](const std::string& message) {
+                     std::ranges::any_of(said, [&](const std::string& message) {
                        return names(message, outcome.expected);
                      });
   return outcome;
