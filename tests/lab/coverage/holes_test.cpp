@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "grid/diagnosis/diagnose.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/random.hpp"

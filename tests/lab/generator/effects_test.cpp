@@ -157,8 +157,7 @@ TEST(Strength, EqualsDelta) {
       SCOPED_TRACE(std::string(c.id) + ":" + std::string(word(where)));
       const auto& effect = *model::effects::find_effect(c.id);
       const auto values = model::effects::nominal_values(effect);
-      const Hidden nominal{c.cause, where, values[0], values.size() > 1 ? values[1] : 0.0};
-      const Hidden one[] = {nominal};
+      const Hidden one[] = {{c.cause, where, values[0], values.size() > 1 ? values[1] : 0.0}};
       const auto ours = yardstick->signature(one);
       ASSERT_TRUE(ours);
       const auto side = std::ranges::find(effect.sides, word(where), [](auto s) { return name(s); });

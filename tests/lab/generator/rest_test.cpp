@@ -20,7 +20,7 @@ namespace {
 double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
 
 nlohmann::json load(const std::string& file) {
-  std::ifstream in(std::string(CHAINTRUE_FIXTURES) + "/reference/" + file);
+  std::ifstream in(CHAINTRUE_FIXTURES "/reference/" + file);
   return nlohmann::json::parse(in);
 }
 

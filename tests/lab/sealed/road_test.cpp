@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "grid/diagnosis/causes_fit.hpp"
-#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "sealed/judge/map_errors.hpp"
@@ -77,11 +76,6 @@ TEST(Road, AnEventOfOneSessionIsRemovedFromThatSession) {
   EXPECT_LT(errors->true_rms_mm, 0.5) << "as of a session in which nothing happened";
 }
 
-grid::diagnosis::Diagnosis named_in(const generator::SealedSet& set) {
-  const auto grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
-  return grid::diagnosis::diagnose(grid, verdict_alone()).value();
-}
-
 TEST(Road, OnlyAShiftOfWholeLinksMayBeASkippedTooth) {
   const auto links = [](double count) { return 6.35 * count; };
   struct Case {
@@ -95,7 +89,9 @@ TEST(Road, OnlyAShiftOfWholeLinksMayBeASkippedTooth) {
                           Case{{Cause::zero_shift, Where::left, links(1.5), 14.0}, "zero_shift", false},
                           Case{{Cause::zero_shift, Where::right, -3.0, 17.0}, "zero_shift", false}}) {
     SCOPED_TRACE(fmt::format("{} {}", generator::card(own.hidden.cause).id, own.hidden.size));
-    const auto found = named_in(set_of_start(own.hidden, 3));
+    const auto session =
+        grid::files::parse_grid(set_of_start(own.hidden, 3).grid_text, "sealed.json").grid;
+    const auto found = grid::diagnosis::diagnose(session, verdict_alone()).value();
     ASSERT_THAT(found.causes, SizeIs(1)) << found.sentence;
     const auto& cause = found.causes.front();
     EXPECT_EQ(cause.cause.effect->id, own.named) << found.sentence;
