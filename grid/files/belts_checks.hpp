@@ -24,6 +24,9 @@ struct BeltPlaces {
 /// the last digit.
 [[nodiscard]] bool holds_repeats(const MeasuredBelts& belts);
 
+/// For each place the first one with the same four lengths to the last digit, mostly itself.
+[[nodiscard]] std::vector<std::size_t> first_with_lengths_of(const std::vector<BeltPoint>& points);
+
 /// Checks for inches, orders, readings that occur twice, and belts that cannot have been pulled. Call
 /// it only if no value had a problem before.
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems);

@@ -3,15 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/number_text.hpp"
-#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -38,9 +35,9 @@ void move_ends(const std::vector<std::optional<std::size_t>>& kept,
       if (!kept[*index]) {
         problems.add(fmt::format("/distances/{}", i),
                      words_of(*end),
+                     ProblemKind::contradiction,
                      "a point that is used: --without leaves it out. Remove the distance from the "
-                     "file, or keep the point",
-                     ProblemKind::contradiction);
+                     "file, or keep the point");
         return;
       }
       *index = *kept[*index];
@@ -53,8 +50,9 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
     if (number <= belts.points.size()) continue;
     problems.add("--without",
                  fmt::format("{}", number),
-                 fmt::format("points of this file, counted from 1: 1 to {}", belts.points.size()),
-                 ProblemKind::out_of_range);
+                 ProblemKind::out_of_range,
+                 "points of this file, counted from 1: 1 to {}",
+                 belts.points.size());
   }
   problems.throw_if_any();
   const auto kept = places_kept(belts.points.size(), without);
@@ -72,17 +70,17 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
 std::vector<std::size_t> point_numbers_of(const std::string& text,
                                           const std::string& option,
                                           std::string_view what) {
-  constexpr double kMost = 1e6;
+  constexpr int kMost = 1000000;
   std::vector<std::size_t> numbers;
   for (const std::string& part : parts_at_commas(text)) {
-    const auto number = number_of(part);
-    if (!number || !(*number >= 1.0) || !(*number <= kMost) || *number != std::floor(*number)) {
+    const auto number = whole_number_of(part, 1, kMost);
+    if (!number) {
       refuse("the command line",
              option,
              shortened(text),
              fmt::format("numbers of {}, counted from 1, as in 7,12", what));
     }
-    numbers.push_back(static_cast<std::size_t>(*number));
+    numbers.push_back(as_size(*number));
   }
   return numbers;
 }
@@ -118,10 +116,6 @@ ReadBelts parse_belts(const std::string& text,
   return read;
 }
 
-ReadBelts parse_belts(const std::string& text, const std::string& file) {
-  return parse_belts(text, file, {});
-}
-
 PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& without) {
   PointIndices indices;
   if (without.empty()) return indices;
@@ -129,10 +123,6 @@ PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& w
     if (!contains(without, i + 1)) indices.push_back(i);
   }
   return indices;
-}
-
-ReadBelts read_belts(const std::filesystem::path& path) {
-  return parse_belts(read_whole_file(path), name_in_messages(path));
 }
 
 std::string write_belts(const MeasuredBelts& belts, const std::vector<std::string>& comments) {

@@ -29,13 +29,12 @@
 /// hole that was cut (its commanded position).
 ///
 /// \code
-///   const ReadBelts read = read_belts("belts.json");
-///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
-///   const auto fit = fit_belts(read.belts);
+///   const ReadBelts found = read(parse_belts, "belts.json");
+///   for (const Warning& warning : found.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   const auto fit = fit_belts(found.belts);
 /// \endcode
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,19 +56,16 @@ struct ReadBelts {
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. Messages name recognised mistakes (inches, belts that were swapped, a
-/// reading that occurs twice, lengths that fit no position). \throws InputError with every problem.
-[[nodiscard]] ReadBelts read_belts(const std::filesystem::path& path);
-/// `file` is the name used in messages.
-[[nodiscard]] ReadBelts parse_belts(const std::string& text, const std::string& file);
-/// Points of `without`, counted from 1, are left out before all checks except those of the file's
-/// form.
+/// Messages name recognised mistakes (inches, belts that were swapped, a reading that occurs twice,
+/// lengths that fit no position). `file` is the name used in messages. Points of `without`, counted
+/// from 1, are left out before all checks except those of the file's form. \throws InputError with
+/// every problem.
 [[nodiscard]] ReadBelts parse_belts(const std::string& text,
                                     const std::string& file,
-                                    const std::vector<std::size_t>& without);
+                                    const std::vector<std::size_t>& without = {});
 /// The indices of the points that remain without these.
 [[nodiscard]] PointIndices indices_without(std::size_t kept,
-                                          const std::vector<std::size_t>& without);
+                                           const std::vector<std::size_t>& without);
 /// "7,12" of an option, numbers of `what`. \throws InputError where these are not numbers from 1 on.
 [[nodiscard]] std::vector<std::size_t> point_numbers_of(
     const std::string& text,

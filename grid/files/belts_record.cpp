@@ -25,7 +25,7 @@ struct StatedAnchor {
   std::optional<double> z_mm;
 };
 
-Record<StatedAnchor> anchor_record() {
+auto anchor_record() {
   return Record<StatedAnchor>("an anchor")
       .optional("x_mm",
                 "x of the point where the belt leaves the frame, to the right of the bottom "
@@ -42,7 +42,7 @@ Record<StatedAnchor> anchor_record() {
                 kMillimetres);
 }
 
-Record<PerBelt<StatedAnchor>> anchors_record() {
+auto anchors_record() {
   using Anchors = PerBelt<StatedAnchor>;
   return Record<Anchors>("four anchors")
       .required("tl", "Top left.", &Anchors::tl, anchor_record())
@@ -63,14 +63,13 @@ void read_anchors(const Cursor& at, BeltMachine& machine) {
   }
   machine.anchors_known = known == 8;
   if (known != 0 && known != 8 && at.clean()) {
-    at.problems().add(at.pointer(),
-                      fmt::format("{} of eight coordinates", known),
-                      "x_mm and y_mm of all four anchors, or of none if they are not known yet",
-                      ProblemKind::missing);
+    at.report(fmt::format("{} of eight coordinates", known),
+              ProblemKind::missing,
+              "x_mm and y_mm of all four anchors, or of none if they are not known yet");
   }
 }
 
-std::optional<Json> written_anchors(const BeltMachine& machine) {
+Json written_anchors(const BeltMachine& machine) {
   PerBelt<StatedAnchor> stated;
   for (const Belt belt : kBelts) {
     const Anchor& own = machine.anchors[belt];
@@ -82,7 +81,7 @@ std::optional<Json> written_anchors(const BeltMachine& machine) {
   return anchors_record().write(stated);
 }
 
-Record<BeltMachine> belt_record() {
+auto belt_record() {
   return Record<BeltMachine>("a belt").optional("turn_mm",
                                                 "Belt length for one turn of the encoder.",
                                                 &BeltMachine::belt_turn_mm,
@@ -118,15 +117,14 @@ void add_pull(Record<BeltPoint>& record) {
           point.pull = BeltPull{*value, own};
         },
         [own](const BeltPoint& point) {
-          return point.pull && point.pull->unit == own ? std::optional<Json>(point.pull->value)
-                                                       : std::nullopt;
+          return point.pull && point.pull->unit == own ? Json(point.pull->value) : kLeftOut;
         });
   }
 }
 
 using ThrownAway = PerBelt<std::vector<double>>;
 
-Record<ThrownAway> thrown_away_record() {
+auto thrown_away_record() {
   return Record<ThrownAway>("lengths of each belt")
       .sparse("tl_mm", "Top left.", &ThrownAway::tl, list(kBeltLengthMm))
       .sparse("tr_mm", "Top right.", &ThrownAway::tr, list(kBeltLengthMm))
@@ -154,25 +152,14 @@ constexpr int kMostReadings = 400000;
 constexpr Range kCommand{"mm", -20000.0, 20000.0};
 
 void add_command(Record<BeltPoint>& record) {
-  const auto coordinate =
-      [&](const char* key, const char* meaning, double model::BedPoint::*member) {
-        record.computed(
-            key,
-            meaning,
-            false,
-            number(kCommand),
-            [member](BeltPoint& point, double value) {
-              if (!point.commanded) point.commanded = model::BedPoint{};
-              (*point.commanded).*member = value;
-            },
-            [member](const BeltPoint& point) {
-              return point.commanded ? std::optional((*point.commanded).*member) : std::nullopt;
-            });
-      };
-  coordinate("commanded_x_mm",
-             "Commanded x, from the crossing of the frame's diagonals.",
-             &model::BedPoint::x_mm);
-  coordinate("commanded_y_mm", "Commanded y, up from there.", &model::BedPoint::y_mm);
+  record.optional("commanded_x_mm",
+                  "Commanded x, from the crossing of the frame's diagonals.",
+                  path(&BeltPoint::commanded, &model::BedPoint::x_mm),
+                  kCommand);
+  record.optional("commanded_y_mm",
+                  "Commanded y, up from there.",
+                  path(&BeltPoint::commanded, &model::BedPoint::y_mm),
+                  kCommand);
   record.check([](const Cursor& at, BeltPoint&) {
     if (at.has("commanded_x_mm") == at.has("commanded_y_mm")) return;
     const char* lacking = at.has("commanded_x_mm") ? "commanded_y_mm" : "commanded_x_mm";
@@ -180,7 +167,7 @@ void add_command(Record<BeltPoint>& record) {
   });
 }
 
-Record<BeltPoint> belt_point_record() {
+auto belt_point_record() {
   Record<BeltPoint> point("a place");
   add_lengths(point);
   add_command(point);
@@ -202,28 +189,17 @@ Record<BeltPoint> belt_point_record() {
       },
       [](const BeltPoint& p) { return p.pulled; });
   add_pull(point);
-  point.computed(
-      "thrown_away",
-      "Single readings that the controller discarded here.",
-      false,
-      object(thrown_away_record()),
-      [](BeltPoint& p, const ThrownAway& found) { p.thrown_away_mm = found; },
-      [](const BeltPoint& p) {
-        return p.thrown_away_mm == ThrownAway{} ? std::nullopt : std::optional(p.thrown_away_mm);
-      });
-  return point;
+  return point.sparse("thrown_away",
+                      "Single readings that the controller discarded here.",
+                      &BeltPoint::thrown_away_mm,
+                      thrown_away_record());
 }
 
-Record<model::BedPoint> hole_place_record() {
+auto hole_place_record() {
   return Record<model::BedPoint>("where a hole was commanded")
-      .required("x_mm",
-                "Commanded x, to the right of the crossing of the frame's diagonals.",
-                &model::BedPoint::x_mm,
-                number({"mm", -20000.0, 20000.0}))
-      .required("y_mm",
-                "Commanded y, up from there.",
-                &model::BedPoint::y_mm,
-                number({"mm", -20000.0, 20000.0}));
+      .place("Commanded x, to the right of the crossing of the frame's diagonals.",
+             "Commanded y, up from there.",
+             kCommand);
 }
 
 void add_end(Record<BeltDistance>& record,
@@ -238,17 +214,15 @@ void add_end(Record<BeltDistance>& record,
       true,
       {expected,
        [] {
-         const auto anchor = one_of({"tl", "tr", "bl", "br"});
          return Json{{"oneOf",
                       {{{"type", "integer"}, {"minimum", 0}},
-                       anchor.expected.schema(),
+                       belt_word().expected.schema(),
                        hole_place_record().schema()}}};
        }},
       [member, expected](const Cursor& at, BeltDistance& distance) {
         constexpr int kMostPoints = 100000;
         if (at.json().is_number()) {
-          if (const auto index = at.integer(0, kMostPoints))
-            distance.*member = static_cast<std::size_t>(*index);
+          if (const auto index = at.integer(0, kMostPoints)) distance.*member = as_size(*index);
         } else if (at.json().is_object()) {
           if (const auto hole = hole_place_record().read(at)) distance.*member = CutHole{*hole};
         } else {
@@ -259,15 +233,15 @@ void add_end(Record<BeltDistance>& record,
           distance.*member = *belt;
         }
       },
-      [member](const BeltDistance& distance) -> std::optional<Json> {
+      [member](const BeltDistance& distance) -> Json {
         const BeltEnd& end = distance.*member;
-        if (const auto* index = std::get_if<std::size_t>(&end)) return Json(*index);
-        if (const auto* belt = std::get_if<Belt>(&end)) return Json(std::string(name(*belt)));
+        if (const auto* index = std::get_if<std::size_t>(&end)) return *index;
+        if (const auto* belt = std::get_if<Belt>(&end)) return name(*belt);
         return hole_place_record().write(std::get<CutHole>(end).commanded);
       });
 }
 
-Record<BeltDistance> belt_distance_record() {
+auto belt_distance_record() {
   Record<BeltDistance> distance("a taped distance");
   add_end(distance,
           "from",
@@ -304,8 +278,8 @@ Record<BeltScale> scale_record() {
       .required("factor",
                 "True length divided by the belts' length.",
                 &BeltScale::factor,
-                number({"", 0.1, 10.0}))
-      .required("sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, number({"", 0.0, 10.0}))
+                {"", 0.1, 10.0})
+      .required("sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, {"", 0.0, 10.0})
       .required("residuals_mm",
                 "Taped minus fitted, for each distance.",
                 &BeltScale::residuals_mm,
@@ -337,14 +311,12 @@ Record<BeltMachine> belt_machine_record() {
       .optional("orientation",
                 "How the frame stands, which decides which belts are pulled.",
                 &BeltMachine::orientation,
-                by_name({model::Orientation::upright, model::Orientation::flat}))
+                by_name_to(model::Orientation::flat))
       .optional("lengths",
                 "What a printed length includes: the belt, the belt with extension and arm, or the "
                 "level span from anchor to tool.",
                 &BeltMachine::lengths,
-                by_name({model::BeltLengths::belt,
-                         model::BeltLengths::belt_and_arm,
-                         model::BeltLengths::span}))
+                by_name_to(model::BeltLengths::span))
       .optional("scale_x",
                 "The controller's factor for commands along x.",
                 &BeltMachine::scale_x,
@@ -367,24 +339,23 @@ Record<BeltMachine> belt_machine_record() {
 }
 
 const Record<MeasuredBelts>& belts_record() {
-  static const auto record = Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
-                                 .sparse("name", "Name of the set.", &MeasuredBelts::name)
-                                 .optional("machine",
-                                           "The machine with its settings in force.",
-                                           &MeasuredBelts::machine,
-                                           belt_machine_record())
-                                 .required("points",
-                                           "The places, in any order.",
-                                           &MeasuredBelts::points,
-                                           list(belt_point_record()))
-                                 .sparse("distances",
-                                         "Taped distances; without one the scale is unknown.",
-                                         &MeasuredBelts::distances,
-                                         list(belt_distance_record()))
-                                 .optional("firmware_fit",
-                                           "The machine's report of its own fit.",
-                                           &MeasuredBelts::firmware_fit,
-                                           firmware_fit_record());
+  static const auto record =
+      Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
+          .sparse("name", "Name of the set.", &MeasuredBelts::name)
+          .optional("machine",
+                    "The machine with its settings in force.",
+                    &MeasuredBelts::machine,
+                    belt_machine_record())
+          .required(
+              "points", "The places, in any order.", &MeasuredBelts::points, belt_point_record())
+          .sparse("distances",
+                  "Taped distances; without one the scale is unknown.",
+                  &MeasuredBelts::distances,
+                  belt_distance_record())
+          .optional("firmware_fit",
+                    "The machine's report of its own fit.",
+                    &MeasuredBelts::firmware_fit,
+                    firmware_fit_record());
   return record;
 }
 

@@ -4,6 +4,7 @@
 /// grid/files.
 #pragma once
 
+#include "grid/belts/belts_and_holes.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/measured_belts.hpp"
 #include "grid/files/json_reader.hpp"
@@ -28,13 +29,12 @@ template <class V>
 }
 
 /// tl, tr, bl, br.
-[[nodiscard]] inline Value<model::Belt> belt_word() {
-  using model::Belt;
-  return by_name({Belt::tl, Belt::tr, Belt::bl, Belt::br});
-}
+[[nodiscard]] inline Value<model::Belt> belt_word() { return by_name_to(model::Belt::br); }
 
 [[nodiscard]] Record<BeltPrediction> prediction_record();
 [[nodiscard]] Record<BeltScale> scale_record();
 [[nodiscard]] Record<FirmwareFit> firmware_fit_record();
+/// belt_holes_record.cpp.
+[[nodiscard]] Record<HolesWithBelts> holes_with_belts_record();
 
 }  // namespace chaintrue::grid::files

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 #include "grid/containers.hpp"
@@ -17,16 +15,10 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr std::array<std::string_view, 3> kOfTheChain = {
-    "chainpitch", "gearteeth", "chainoversprocket"};
+constexpr std::string_view kOfTheChain[] = {"chainpitch", "gearteeth", "chainoversprocket"};
 /// Settings that a firmware reads as 0 if they are not set.
-constexpr std::array<std::string_view, 3> kZeroUnlessSet = {
+constexpr std::string_view kZeroUnlessSet[] = {
     "topbeamtilt", "leftchaintolerance", "rightchaintolerance"};
-
-template <std::size_t count>
-bool is_among(const std::array<std::string_view, count>& names, std::string_view name) {
-  return contains(names, name);
-}
 
 std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
   const auto number = [](double value) { return fmt::format("{}", value); };
@@ -37,15 +29,13 @@ std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
 }
 
 const NamedSetting* find(const std::vector<NamedSetting>& settings, const std::string& name) {
-  const auto found = std::find_if(
-      settings.begin(), settings.end(), [&](const NamedSetting& one) { return one.name == name; });
-  return found == settings.end() ? nullptr : &*found;
+  return find_where(settings, [&](const NamedSetting& one) { return one.name == name; });
 }
 
 /// The text, or the words for a missing value.
 std::string value_of(const NamedSetting* setting, const std::string& name) {
   if (setting != nullptr) return setting->text;
-  return is_among(kZeroUnlessSet, name) ? "0" : "";
+  return contains(kZeroUnlessSet, name) ? "0" : "";
 }
 
 bool are_equal(const std::string& a, const std::string& b) {
@@ -113,10 +103,8 @@ std::string in_words(const std::vector<SettingChange>& changes) {
 }
 
 std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes) {
-  std::vector<SettingChange> result;
-  std::copy_if(changes.begin(), changes.end(), std::back_inserter(result), [](const auto& change) {
-    return is_among(kOfTheChain, change.name);
-  });
+  std::vector<SettingChange> result = changes;
+  std::erase_if(result, [](const auto& change) { return !contains(kOfTheChain, change.name); });
   return result;
 }
 

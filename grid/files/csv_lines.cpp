@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/csv_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -135,15 +133,16 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
   const std::size_t first = line_of_header(text).number;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     if (number < first) {
-      problems.warn(line_and_column(number, 1),
-                    fmt::format("a note without a reading: left out ({})", shortened(line)));
+      problems.warn(
+          line_and_column(number, 1), "a note without a reading: left out ({})", shortened(line));
       return true;
     }
     if (line.size() > kLongestLine) {
       problems.add(line_and_column(number, 1),
                    "a longer line",
-                   fmt::format("lines of at most {} characters", kLongestLine),
-                   ProblemKind::too_many);
+                   ProblemKind::too_many,
+                   "lines of at most {} characters",
+                   kLongestLine);
       problems.throw_if_any();
     }
     bool quote_left_open = false;
@@ -152,15 +151,16 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
     if (quote_left_open) {
       problems.add(line_and_column(number, 1),
                    line,
-                   "a closing quote on the same line",
-                   ProblemKind::bad_syntax);
+                   ProblemKind::bad_syntax,
+                   "a closing quote on the same line");
     }
     cells += row.size();
     if (cells > kMostCells) {
       problems.add(line_and_column(number, 1),
                    "more cells",
-                   fmt::format("a table of at most {} cells", kMostCells),
-                   ProblemKind::too_many);
+                   ProblemKind::too_many,
+                   "a table of at most {} cells",
+                   kMostCells);
       problems.throw_if_any();
     }
     rows.push_back(std::move(row));
@@ -187,7 +187,7 @@ constexpr std::array<std::string_view, 4> kFirmSpaces = {
 
 std::size_t digits_at(std::string_view text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
-  return static_cast<std::size_t>(end - text.begin());
+  return as_size(end - text.begin());
 }
 
 template <std::size_t n>
@@ -269,7 +269,7 @@ std::string rewritten(const std::string& text, const NumberMarks& marks) {
   const auto commas = std::count(figures.begin(), figures.end(), ',');
   if (marks.decimal == ',' && commas > 1) return text;
   const bool is_grouped = marks.thousands && is_grouped_by(figures, *marks.thousands);
-  const auto begin = static_cast<std::size_t>(figures.data() - text.data());
+  const auto begin = as_size(figures.data() - text.data());
   std::string result = text.substr(0, begin);
   for (const char c : figures) {
     if (is_grouped && c == *marks.thousands) continue;

@@ -91,9 +91,9 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
                                : fmt::format("; \"{}\" is probably {}", name, meant);
       is_wrong = is_wrong || !meant.empty();
       unused.push_back(i);
-    } else if (CellOfColumn& place = index[static_cast<std::size_t>(known - names.begin())];
+    } else if (CellOfColumn& place = index[as_size(known - names.begin())];
                place.index == kNoCell) {
-      const double of_column = columns[static_cast<std::size_t>(known - names.begin())].unit;
+      const double of_column = columns[as_size(known - names.begin())].unit;
       place = {i, column.factor != 1.0 ? column.factor : of_column};
     } else {
       is_wrong = true;
@@ -107,8 +107,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
   if (!missing && !is_wrong) {
     for (const std::size_t i : unused) {
       if (!header[i].text.empty())
-        problems.warn(header[i].place(),
-                      fmt::format("the column \"{}\" is not used", header[i].text));
+        problems.warn(header[i].place(), "the column \"{}\" is not used", header[i].text);
     }
     return index;
   }
@@ -132,8 +131,8 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
   }
   problems.add(header.front().place(),
                joined(found),
-               expected_header(columns) + remarks,
-               ProblemKind::bad_table);
+               ProblemKind::bad_table,
+               expected_header(columns) + remarks);
   return {};
 }
 
@@ -154,8 +153,10 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     } else if (column.is_required && !column.may_be_blank) {
       problems.add(cells[c].place(),
                    "",
-                   fmt::format("{} ({})", column.range.expected(), column.name),
-                   ProblemKind::left_blank);
+                   ProblemKind::left_blank,
+                   "{} ({})",
+                   column.range.expected(),
+                   column.name);
     }
   }
   return values;
@@ -186,8 +187,7 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
                               ? !is_like_a_number(text) && !is_empty(last.front())
                               : text.find(' ') != std::string::npos && !length_with_unit_mm(text);
     if (filled != 1 || !is_words || rows[0].size() < 2) return;
-    problems.warn(last.front().place(),
-                  fmt::format("a note without a reading: left out ({})", shortened(text)));
+    problems.warn(last.front().place(), "a note without a reading: left out ({})", shortened(text));
     rows.pop_back();
   }
 }
@@ -210,8 +210,10 @@ std::optional<double> number_in_unit(const CsvCell& cell,
   if (range.holds(*bare * unit)) return *bare * unit;
   problems.add(cell.place(),
                fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
-               fmt::format("{} ({})", range.expected(), name),
-               ProblemKind::out_of_range);
+               ProblemKind::out_of_range,
+               "{} ({})",
+               range.expected(),
+               name);
   return std::nullopt;
 }
 
@@ -224,8 +226,8 @@ CsvTable read_csv(std::string_view text,
   if (rows.empty()) {
     problems.add("",
                  text.empty() ? "an empty file" : "only blank lines and comments",
-                 expected_header(columns),
-                 ProblemKind::empty_file);
+                 ProblemKind::empty_file,
+                 expected_header(columns));
     return table;
   }
   drop_trailing_cells(rows);
@@ -250,8 +252,9 @@ CsvTable read_csv(std::string_view text,
     } else {
       problems.add(rows[r].front().place(),
                    fmt::format("{} cells", rows[r].size()),
-                   fmt::format("{} cells, as in the header", width),
-                   ProblemKind::bad_table);
+                   ProblemKind::bad_table,
+                   "{} cells, as in the header",
+                   width);
     }
     table.clean.push_back(problems.list().size() == problems_before);
     table.rows.push_back(std::move(values));

@@ -3,15 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
-#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -22,7 +19,7 @@ using diagnosis::Outlier;
 using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
-Record<StatedNoise> stated_noise_record() {
+auto stated_noise_record() {
   return Record<StatedNoise>("the noise as entered")
       .required(
           "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNotNegative)
@@ -34,7 +31,7 @@ Record<StatedNoise> stated_noise_record() {
           "dof", "Degrees of freedom with which this is known.", &StatedNoise::dof, kNotNegative);
 }
 
-Record<VisitingOrder> line_order_record() {
+auto line_order_record() {
   return Record<VisitingOrder>("an order of visits line by line")
       .required("rows", "True: row by row. False: column by column.", &VisitingOrder::rows)
       .required("serpentine",
@@ -45,7 +42,7 @@ Record<VisitingOrder> line_order_record() {
           "from_below", "True if the first mark is at the bottom.", &VisitingOrder::from_below);
 }
 
-Record<diagnosis::VisitingOrderFound> visiting_order_record() {
+auto visiting_order_record() {
   using Found = diagnosis::VisitingOrderFound;
   return Record<Found>("an order of visits that was found")
       .required("order",
@@ -63,7 +60,7 @@ Record<diagnosis::VisitingOrderFound> visiting_order_record() {
                 kShare);
 }
 
-Record<StatedTape> stated_tape_record() {
+auto stated_tape_record() {
   return Record<StatedTape>("the noise of holes and a tape as entered")
       .required("tape_sigma_mm",
                 "Noise of a tape reading, 1 sigma.",
@@ -77,41 +74,46 @@ Record<StatedTape> stated_tape_record() {
           "dof", "Degrees of freedom with which these are known.", &StatedTape::dof, kNotNegative);
 }
 
-/// The displacement that explains a bad point; or the residual of a bad distance or belt.
-struct Shift {
-  std::optional<double> x_mm;
-  std::optional<double> y_mm;
-  std::optional<double> residual_mm;
-  double sigmas = 0.0;
-  std::optional<model::Belt> belt{};
-  std::optional<model::Belt> or_belt{};
-};
-
-Record<Shift> shift_record() {
-  return Record<Shift>("a bad point's shift")
-      .optional("x_mm",
-                "x that its tool must have had, minus the recorded x.",
-                &Shift::x_mm,
-                kMillimetres)
-      .optional("y_mm",
-                "y that its tool must have had, minus the recorded y.",
-                &Shift::y_mm,
-                kMillimetres)
-      .optional(
-          "off_mm", "For a distance: excess of the reading.", &Shift::residual_mm, kMillimetres)
-      .required("sigmas", "The same in sigmas.", &Shift::sigmas, kNotNegative)
+/// The displacement that explains a bad point; or the residual of a bad distance or belt. Its index is
+/// in another list.
+auto shift_record() {
+  Record<Outlier> shift("a bad point's shift");
+  const auto along = [&](const char* key, const char* meaning, Eigen::Index axis) {
+    shift.computed(
+        key,
+        meaning,
+        false,
+        number(kMillimetres),
+        [axis](Outlier& bad, double value) { bad.shift_mm[axis] = value; },
+        [axis](const Outlier& bad) {
+          return bad.of == Observations::points ? std::optional(bad.shift_mm[axis]) : std::nullopt;
+        });
+  };
+  along("x_mm", "x that its tool must have had, minus the recorded x.", 0);
+  along("y_mm", "y that its tool must have had, minus the recorded y.", 1);
+  return shift
+      .computed(
+          "off_mm",
+          "For a distance: excess of the reading.",
+          false,
+          number(kMillimetres),
+          [](Outlier& bad, double value) { bad.residual_mm = value; },
+          [](const Outlier& bad) {
+            return bad.of == Observations::points ? std::nullopt : std::optional(bad.residual_mm);
+          })
+      .required("sigmas", "The same in sigmas.", &Outlier::distance, kNotNegative)
       .optional("belt",
                 "For belts: the belt that is off; absent: the whole place.",
-                &Shift::belt,
+                &Outlier::belt,
                 belt_word())
       .optional("or_belt",
                 "The belt that may be off instead: on the line between the two other anchors "
                 "the lengths cannot distinguish them.",
-                &Shift::or_belt,
+                &Outlier::or_belt,
                 belt_word())
-      .check([](const Cursor& at, Shift& shift) {
-        const bool of_point = shift.x_mm && shift.y_mm;
-        if (at.clean() && of_point == shift.residual_mm.has_value())
+      .check([](const Cursor& at, Outlier&) {
+        const auto is_there = [&](const char* key) { return !at.child(key).json().is_null(); };
+        if (at.clean() && (is_there("x_mm") && is_there("y_mm")) == is_there("off_mm"))
           at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
       });
 }
@@ -148,7 +150,7 @@ void outlier_indices(Record<Diagnosis>& record,
 
 /// The indices of outliers and their displacements: lists of the same length together.
 void outlier_keys(Record<Diagnosis>& record) {
-  static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
+  static const Value<std::vector<Outlier>> shifts = shift_record();
   outlier_indices(record,
                   "bad_points",
                   "Indices of the points (for holes alone: of the distances) that were left out.",
@@ -168,50 +170,31 @@ void outlier_keys(Record<Diagnosis>& record) {
         if (read->size() != object.outliers.size())
           return at.expect("as many shifts as there are bad_points");
         for (std::size_t i = 0; i < read->size(); ++i) {
-          const Shift& shift = (*read)[i];
-          object.outliers[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
-          object.outliers[i].residual_mm = shift.residual_mm.value_or(0.0);
-          object.outliers[i].distance = shift.sigmas;
-          object.outliers[i].belt = shift.belt;
-          object.outliers[i].or_belt = shift.or_belt;
+          Outlier shift = (*read)[i];
+          shift.of = object.outliers[i].of;
+          shift.index = object.outliers[i].index;
+          object.outliers[i] = shift;
         }
       },
-      [](const Diagnosis& object) {
-        Json json = Json::array();
-        for (const Outlier& bad : object.outliers) {
-          json.push_back(shift_record().write(
-              bad.of != Observations::points
-                  ? Shift{{}, {}, bad.residual_mm, bad.distance, bad.belt, bad.or_belt}
-                  : Shift{bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, {}, bad.distance}));
-        }
-        return std::optional<Json>(std::move(json));
-      });
+      [](const Diagnosis& object) { return shifts.write(object.outliers); });
 }
 
 /// The key is absent for points, and the pictures of holes are absent without holes.
 void distance_keys(Record<Diagnosis>& record) {
-  static const Value<Observations> word =
-      choice<Observations>({{"points", Observations::points},
-                            {"distances", Observations::distances},
-                            {"points_and_distances", Observations::both},
-                            {"belts", Observations::belts},
-                            {"drawing", Observations::drawing}});
   record
-      .computed(
-          "observations",
-          "What was measured; default: points.",
-          false,
-          word,
-          [](Diagnosis& object, Observations read) { object.observations = read; },
-          [](const Diagnosis& object) {
-            return object.observations == Observations::points ? std::nullopt
-                                                               : std::optional(object.observations);
-          })
-      .sparse("holes", "The holes, for pictures.", &Diagnosis::holes, list(hole_picture_record()))
+      .sparse("observations",
+              "What was measured; default: points.",
+              &Diagnosis::observations,
+              choice<Observations>({{"points", Observations::points},
+                                    {"distances", Observations::distances},
+                                    {"points_and_distances", Observations::both},
+                                    {"belts", Observations::belts},
+                                    {"drawing", Observations::drawing}}))
+      .sparse("holes", "The holes, for pictures.", &Diagnosis::holes, hole_picture_record())
       .sparse("distances",
               "The distances, for pictures.",
               &Diagnosis::distances,
-              list(distance_picture_record()))
+              distance_picture_record())
       .optional("stated_tape",
                 "The given noise of holes and tape.",
                 &Diagnosis::stated_tape,
@@ -249,31 +232,29 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
   const bool names_one = object.verdict == Verdict::named || object.verdict == Verdict::named_set ||
                          object.verdict == Verdict::several_causes;
   if (at.has("verdict") && at.has("causes") && names_one && object.causes.empty()) {
-    at.problems().add(
-        at.child("causes").pointer(),
+    at.child("causes").report(
         "none",
-        fmt::format("at least one cause with the verdict \"{}\"", diagnosis::name(object.verdict)),
-        ProblemKind::missing);
+        ProblemKind::missing,
+        fmt::format("at least one cause with the verdict \"{}\"", diagnosis::name(object.verdict)));
   }
 }
 
-Record<Diagnosis> make_diagnosis_record() {
+auto make_diagnosis_record() {
   Record<Diagnosis> record("a diagnosis", kDiagnosisFormat);
   record.required("verdict", "Kind of answer.", &Diagnosis::verdict, verdict_word())
       .required("sentence", "The answer.", &Diagnosis::sentence)
-      .required(
-          "what_to_do", "What to do now, most urgent first.", &Diagnosis::what_to_do, list(text()))
+      .required("what_to_do", "What to do now, most urgent first.", &Diagnosis::what_to_do)
       .required("not_proved", "What the answer does not prove.", &Diagnosis::not_proved)
-      .required("notes", "Further notes for the reader.", &Diagnosis::notes, list(text()))
+      .required("notes", "Further notes for the reader.", &Diagnosis::notes)
       .required(
           "causes",
           "The named cause; or the set, most probable first; or the causes that act together.",
           &Diagnosis::causes,
-          list(cause_record()))
+          cause_record())
       .required("hypotheses",
                 "Every explanation with its probability, most probable first.",
                 &Diagnosis::hypotheses,
-                list(hypothesis_record()))
+                hypothesis_record())
       .required("left_over",
                 "What remains after the causes are removed.",
                 &Diagnosis::left_over,
@@ -299,20 +280,20 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("not_testable",
                 "Effects that these data cannot test.",
                 &Diagnosis::not_testable,
-                list(not_testable_record()))
+                not_testable_record())
       .required("bounds",
                 "Upper limits for causes that were not found.",
                 &Diagnosis::bounds,
-                list(bound_record()))
+                bound_record())
       .sparse("declared",
               "What these readings show about each declared effect of the machine's file; absent "
               "if there is none.",
               &Diagnosis::declared,
-              list(declared_answer_record()))
+              declared_answer_record())
       .required("settings",
                 "The machine's numbers, as in its file and calibrated.",
                 &Diagnosis::settings,
-                list(calibrated_setting_record()))
+                calibrated_setting_record())
       .optional("gain",
                 "Improvement by the cause at points that it was not fitted to.",
                 &Diagnosis::improvement,
@@ -320,7 +301,7 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("next_measurements",
                 "What to measure next, most informative first.",
                 &Diagnosis::next_measurements,
-                list(next_measurement_record()))
+                next_measurement_record())
       .custom(
           "extended_machine",
           "The machine with what was found.",
@@ -333,14 +314,12 @@ Record<Diagnosis> make_diagnosis_record() {
           [](const Diagnosis& object) {
             const bool of_chains = object.observations != Observations::belts &&
                                    object.observations != Observations::drawing;
-            return !of_chains
-                       ? std::nullopt
-                       : std::optional<Json>(machine_record().write(object.extended_machine));
+            return of_chains ? machine_record().write(object.extended_machine) : kLeftOut;
           })
       .required("data_corrections",
                 "Effects on the data (a tape's scale), not on the machine.",
                 &Diagnosis::data_corrections,
-                list(effect_record()))
+                effect_record())
       .required("noise_factor",
                 "Estimated noise divided by the given noise.",
                 &Diagnosis::noise_factor,
@@ -349,8 +328,7 @@ Record<Diagnosis> make_diagnosis_record() {
                 "How often noise alone makes any effect look as strong.",
                 &Diagnosis::family_wise_p,
                 kShare)
-      .required(
-          "points", "The points, for pictures.", &Diagnosis::points, list(point_picture_record()))
+      .required("points", "The points, for pictures.", &Diagnosis::points, point_picture_record())
       .required("seed", "Seed of the draws for significance.", &Diagnosis::seed, seed_number())
       .required("grid_name", "Name of the grid.", &Diagnosis::grid_name)
       .optional("stated_noise", "The given noise.", &Diagnosis::stated_noise, stated_noise_record())
@@ -362,11 +340,11 @@ Record<Diagnosis> make_diagnosis_record() {
               "Results without each quarter of the bed, over which the probabilities are averaged; "
               "absent without a pattern.",
               &Diagnosis::bed_parts,
-              list(bed_part_record()))
+              bed_part_record())
       .sparse("sessions",
               "Results for each of several sessions; absent if nothing is named.",
               &Diagnosis::sessions,
-              list(session_record()))
+              session_record())
       .optional(
           "held_out_grid", "Another grid, predicted.", &Diagnosis::transferred, transfer_record());
   distance_keys(record);
@@ -380,10 +358,6 @@ const Record<Diagnosis>& diagnosis_record() {
 }
 
 }  // namespace
-
-Diagnosis read_diagnosis(const std::filesystem::path& path) {
-  return parse_diagnosis(read_whole_file(path), name_in_messages(path));
-}
 
 Diagnosis parse_diagnosis(const std::string& text, const std::string& file) {
   return read_document(diagnosis_record(), text, file);

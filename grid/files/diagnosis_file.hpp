@@ -32,12 +32,11 @@
 /// A side, the place of a next measurement and "follows" of left_over are null if there is none.
 ///
 /// \code
-///   const grid::diagnosis::Diagnosis found = read_diagnosis("diagnosis.json");
+///   const grid::diagnosis::Diagnosis found = read(parse_diagnosis, "diagnosis.json");
 ///   fmt::print("{}\n", found.sentence);
 /// \endcode
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -47,9 +46,7 @@
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input. \throws InputError with every problem of the file.
-[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path);
-/// Parses text; `file` is the name used in messages.
+/// `file` is the name used in messages. \throws InputError with every problem of the file.
 [[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
                                                    const std::string& file);
 /// \throws std::logic_error where a number is not finite.

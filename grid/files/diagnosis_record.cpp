@@ -32,17 +32,6 @@ using diagnosis::SameCause;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
-constexpr EffectSide kSides[] = {EffectSide::left,
-                                 EffectSide::right,
-                                 EffectSide::both,
-                                 EffectSide::x,
-                                 EffectSide::y,
-                                 EffectSide::tl,
-                                 EffectSide::tr,
-                                 EffectSide::bl,
-                                 EffectSide::br,
-                                 EffectSide::all};
-
 /// An effect of chains, or of belts or cords if chains have none of that name.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
@@ -65,7 +54,7 @@ void cause_keys(Record<T>& record, const Access& id) {
   effect.expected.schema = [names = effect.expected.schema]() -> Json {
     return {{"type", "string"}, {"examples", names()["enum"]}};
   };
-  const Value<std::string> side = side_word();
+  const Value<EffectSide> side = by_name_to(EffectSide::all, EffectSide::left);
   record.custom(
       "effect",
       "The effect's name, as chaintrue effects lists them.",
@@ -81,21 +70,18 @@ void cause_keys(Record<T>& record, const Access& id) {
           id(object).effect = *found;
         }
       },
-      [id](const T& object) { return std::optional<Json>(std::string(id(object).effect->id)); });
+      [id](const T& object) { return id(object).effect->id; });
   record.custom(
       "side",
       "Where it acts; null for effects without a side.",
       false,
       side.expected,
       [side, id](const Cursor& at, T& object) {
-        const auto word = side.read(at);
-        for (const EffectSide known : kSides) {
-          if (word == name(known)) id(object).side = known;
-        }
+        if (const auto own = side.read(at)) id(object).side = *own;
       },
-      [id](const T& object) {
-        const std::string word(name(id(object).side));
-        return std::optional<Json>(word.empty() ? Json(nullptr) : Json(word));
+      [side, id](const T& object) {
+        const EffectSide own = id(object).side;
+        return own == EffectSide::none ? Json(nullptr) : side.write(own);
       });
   record.check([id](const Cursor& at, T& object) {
     if (!at.child("effect").clean() || !at.child("side").clean()) return;
@@ -125,7 +111,7 @@ Record<CauseId> cause_id_record() {
 
 namespace {
 
-Record<ParameterEstimate> estimate_record() {
+auto estimate_record() {
   return Record<ParameterEstimate>("a value with its sigma")
       .required("value", "The value.", &ParameterEstimate::value, kAnyNumber)
       .required("sigma", "Its uncertainty, 1 sigma.", &ParameterEstimate::sigma, kNotNegative);
@@ -156,7 +142,7 @@ void parameter_keys(Record<T>& record) {
         for (const ParameterEstimate& estimate : object.parameters) {
           json[estimate.parameter] = estimate_record().write(estimate);
         }
-        return std::optional<Json>(std::move(json));
+        return json;
       });
   record.check([](const Cursor& at, T& object) {
     if (object.cause.effect == nullptr || !at.child("parameters").clean()) return;
@@ -165,17 +151,17 @@ void parameter_keys(Record<T>& record) {
       names.emplace_back(parameter.name);
     for (const ParameterEstimate& estimate : object.parameters) {
       if (!contains(names, estimate.parameter)) {
-        at.problems().add(
-            at.child("parameters").pointer() + "/" + pointer_token(estimate.parameter),
-            estimate.parameter,
-            fmt::format("a parameter of {}: {}", object.cause.effect->id, joined(names)),
-            ProblemKind::unknown_word);
+        at.child("parameters")
+            .child(estimate.parameter)
+            .report(estimate.parameter,
+                    ProblemKind::unknown_word,
+                    fmt::format("a parameter of {}: {}", object.cause.effect->id, joined(names)));
       }
     }
   });
 }
 
-Record<SameCause> same_cause_record() {
+auto same_cause_record() {
   Record<SameCause> same("a cause of the same class");
   cause_keys(same, kCause);
   parameter_keys(same);
@@ -188,7 +174,7 @@ struct Rival {
   double collinearity = 0.0;
 };
 
-Record<Rival> rival_record() {
+auto rival_record() {
   Record<Rival> rival("a rival");
   cause_keys(rival, kCause);
   rival.required("rho",
@@ -212,7 +198,7 @@ Record<Cause> cause_record() {
       .required("same_as",
                 "Causes that such data cannot distinguish from it, with their sizes.",
                 &Cause::same_as,
-                list(same_cause_record()));
+                same_cause_record());
   parameter_keys(cause);
   cause.custom(
       "rival",
@@ -226,9 +212,8 @@ Record<Cause> cause_record() {
         object.rival_collinearity = rival->collinearity;
       },
       [](const Cause& object) {
-        return std::optional<Json>(
-            object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
-                         : Json(nullptr));
+        return object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
+                            : Json(nullptr);
       });
   cause.required("order_assumed",
                  "It needs the order of the visits, which was not recorded.",
@@ -276,7 +261,6 @@ Record<Bound> bound_record() {
 }
 
 Record<DeclaredAnswer> declared_answer_record() {
-  using Says = DeclaredAnswer::Says;
   Record<DeclaredAnswer> answer("an answer");
   cause_keys(answer, kCause);
   answer
@@ -285,7 +269,7 @@ Record<DeclaredAnswer> declared_answer_record() {
           "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
           "at its declared size; open: neither; not_testable: these readings cannot show it.",
           &DeclaredAnswer::says,
-          by_name({Says::confirmed, Says::denied, Says::open, Says::not_testable}))
+          by_name_to(DeclaredAnswer::Says::not_testable))
       .required("probability", "Probability that it acts.", &DeclaredAnswer::probability, kShare);
   return answer;
 }
@@ -306,305 +290,6 @@ Record<CalibratedSetting> calibrated_setting_record() {
       .required("off",
                 "True if it differs by more than its uncertainty allows.",
                 &CalibratedSetting::off);
-}
-
-namespace {
-
-using diagnosis::HeldOut;
-using diagnosis::HeldOutImprovement;
-using diagnosis::Transfer;
-
-constexpr int kMostFolds = 1000;
-
-/// A modelling scheme by its key; the sheet's placement alone does not exist for every grid.
-template <class T>
-struct ErrorRow {
-  std::string_view key;
-  std::string_view meaning;
-  HeldOut T::*member = nullptr;
-  std::optional<HeldOut> T::*maybe = nullptr;
-
-  [[nodiscard]] const HeldOut* of(const T& object) const {
-    if (member != nullptr) return &(object.*member);
-    return object.*maybe ? &*(object.*maybe) : nullptr;
-  }
-  [[nodiscard]] HeldOut& made_in(T& object) const {
-    if (member != nullptr) return object.*member;
-    if (!(object.*maybe)) (object.*maybe).emplace();
-    return *(object.*maybe);
-  }
-};
-
-constexpr std::string_view kAsDelivered =
-    "As delivered: with the machine file's settings, for commands with the controller's. At the "
-    "measured points; tool_today is over the measured part.";
-constexpr std::string_view kCalibrated = "With calibrated settings.";
-constexpr std::string_view kWithCauses = "With the named causes.";
-constexpr std::string_view kAndSurface = "With the causes and a smooth surface.";
-
-using Improvement = HeldOutImprovement;
-constexpr std::array kImprovementRows = {
-    ErrorRow<Improvement>{"as_delivered", kAsDelivered, &Improvement::uncalibrated},
-    ErrorRow<Improvement>{
-        "placed", "After the best placement of the sheet.", nullptr, &Improvement::placed},
-    ErrorRow<Improvement>{"calibrated", kCalibrated, &Improvement::calibrated},
-    ErrorRow<Improvement>{"extended", kWithCauses, &Improvement::extended},
-    ErrorRow<Improvement>{"extended_and_surface", kAndSurface, &Improvement::extended_and_surface},
-    ErrorRow<Improvement>{
-        "surface_only", "With a smooth surface and no cause.", &Improvement::surface_only},
-};
-constexpr std::array kTransferRows = {
-    ErrorRow<Transfer>{"as_delivered", kAsDelivered, &Transfer::uncalibrated},
-    ErrorRow<Transfer>{"calibrated", kCalibrated, &Transfer::calibrated},
-    ErrorRow<Transfer>{"extended", kWithCauses, &Transfer::extended},
-    ErrorRow<Transfer>{"extended_and_surface", kAndSurface, &Transfer::extended_and_surface},
-};
-
-/// One figure of a row: read into the row and written from it.
-struct Figure {
-  Expected expected;
-  std::function<void(const Cursor&, HeldOut&)> read;
-  std::function<Json(const HeldOut&)> write;
-};
-
-Figure single(double HeldOut::*member) {
-  const Value<double> value = number(kSigmaMm);
-  return {value.expected,
-          [value, member](const Cursor& at, HeldOut& row) {
-            if (const auto read = value.read(at)) row.*member = *read;
-          },
-          [value, member](const HeldOut& row) { return value.write(row.*member); }};
-}
-
-Figure interval() {
-  constexpr const char* kExpected = "a pair of numbers in mm, the lower one first";
-  const Value<std::vector<double>> value = list(number(kSigmaMm), 2);
-  return {{kExpected,
-           [value] {
-             Json schema = value.expected.schema();
-             schema["maxItems"] = 2;
-             return schema;
-           }},
-          [value](const Cursor& at, HeldOut& row) {
-            const auto read = value.read(at);
-            if (!read || read->size() < 2) return;
-            if (read->size() > 2 || (*read)[1] < (*read)[0]) return at.expect(kExpected);
-            row.low_mm = (*read)[0];
-            row.high_mm = (*read)[1];
-          },
-          [](const HeldOut& row) {
-            return Json::array({row.low_mm, row.high_mm});
-          }};
-}
-
-/// An object with one figure for every row; `floor`, if given, is its last key.
-template <class T, std::size_t kCount>
-Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
-                        const Figure& figure,
-                        double T::*floor = nullptr) {
-  Record<T> record("an object with one number for each model");
-  for (const ErrorRow<T>& row : rows) {
-    record.custom(
-        row.key,
-        row.meaning,
-        row.member != nullptr,
-        figure.expected,
-        [row, figure](const Cursor& at, T& object) { figure.read(at, row.made_in(object)); },
-        [row, figure](const T& object) {
-          const HeldOut* held = row.of(object);
-          return held != nullptr ? std::optional<Json>(figure.write(*held)) : std::nullopt;
-        });
-  }
-  if (floor != nullptr) record.required("noise_floor", "From noise alone.", floor, kSigmaMm);
-  return record;
-}
-
-template <class T, std::size_t kCount>
-void error_figures(Record<T>& record, const std::array<ErrorRow<T>, kCount>& rows) {
-  static const auto rms = figure_record(rows, single(&HeldOut::rms_mm), &T::noise_floor_mm);
-  static const auto worst = figure_record(rows, single(&HeldOut::percentile_95_mm));
-  static const auto intervals = figure_record(rows, interval());
-  record
-      .part("position_rms_mm", "Rms error at the tool (for holes alone: of a distance).", true, rms)
-      .part("position_percentile_95_mm", "95th percentile of the error.", true, worst)
-      .part("position_rms_90_percent_mm", "90 % interval of the rms.", true, intervals);
-}
-
-}  // namespace
-
-Record<HeldOutImprovement> improvement_record() {
-  Record<HeldOutImprovement> improvement("the gain");
-  improvement.required("scheme", "How points were left out.", &HeldOutImprovement::scheme);
-  error_figures(improvement, kImprovementRows);
-  improvement
-      .required(
-          "drop_mm2", "Reduction of the mean square.", &HeldOutImprovement::drop_mm2, kSigmaMm)
-      .required("drop_share", "The same as a share.", &HeldOutImprovement::drop_share, kShare)
-      .required("folds",
-                "Number of times that points were left out.",
-                &HeldOutImprovement::folds,
-                integer(0, kMostFolds))
-      .required("folds_agree",
-                "Number of these in which the same was named.",
-                &HeldOutImprovement::folds_agree,
-                integer(0, kMostFolds))
-      .check([](const Cursor& at, HeldOutImprovement& object) {
-        if (at.clean() && object.folds_agree > object.folds)
-          at.child("folds_agree").expect("at most as many as folds");
-      });
-  return improvement;
-}
-
-Record<Transfer> transfer_record() {
-  Record<Transfer> transfer("another grid predicted");
-  transfer.required("to", "Name of the grid.", &Transfer::to)
-      .required("points", "Number of its points.", &Transfer::points, index_number());
-  error_figures(transfer, kTransferRows);
-  return transfer;
-}
-
-using diagnosis::PartFinding;
-using diagnosis::Removal;
-using diagnosis::Stability;
-using diagnosis::Verdict;
-
-Value<Verdict> verdict_word() {
-  return by_name({Verdict::named,
-                  Verdict::named_set,
-                  Verdict::several_causes,
-                  Verdict::model_discrepancy,
-                  Verdict::noise_larger_than_stated,
-                  Verdict::outliers,
-                  Verdict::nothing_found});
-}
-
-namespace {
-
-bool is_line(const Removal& removal) {
-  return removal.what == Removal::What::column || removal.what == Removal::What::row;
-}
-
-/// Something numbered: a point, a distance or a hole.
-struct Numbered {
-  Removal::What what;
-  const char* key;
-  const char* meaning;
-  const char* expected;
-};
-constexpr Numbered kNumbered[] = {
-    {Removal::What::point, "point", "Index of the point.", "a point's index"},
-    {Removal::What::distance, "distance", "Index of the distance.", "a distance's index"},
-    {Removal::What::hole, "hole", "Index of the hole.", "a hole's index"}};
-
-/// The number, for the kind that is left out. Lines have none.
-void index_key(const Numbered& numbered, Record<Removal>& record) {
-  static const Value<int> whole = integer(0, kMostNumbered);
-  record.custom(
-      numbered.key,
-      numbered.meaning,
-      false,
-      whole.expected,
-      [](const Cursor& at, Removal& object) {
-        if (const auto value = whole.read(at)) object.index = static_cast<std::size_t>(*value);
-      },
-      [what = numbered.what](const Removal& object) {
-        if (object.what == what) return std::optional<Json>(object.index);
-        return what == Removal::What::point ? std::optional<Json>(nullptr) : std::nullopt;
-      });
-}
-
-/// The position of a column or row.
-void line_key(Record<Removal>& record) {
-  record.custom(
-      "at_mm",
-      "x of a column, y of a row.",
-      false,
-      {"a number in mm", [] { return number_schema(kMillimetres); }},
-      [](const Cursor& at, Removal& object) {
-        if (const auto value = at.number(kMillimetres)) object.at_mm = *value;
-      },
-      [](const Removal& object) {
-        return std::optional<Json>(is_line(object) ? Json(object.at_mm) : Json(nullptr));
-      });
-}
-
-Record<Removal> removal_record() {
-  Record<Removal> removal("points left out");
-  removal.required("what",
-                   "What was left out.",
-                   &Removal::what,
-                   choice<Removal::What>({{"point", Removal::What::point},
-                                          {"column", Removal::What::column},
-                                          {"row", Removal::What::row},
-                                          {"distance", Removal::What::distance},
-                                          {"hole", Removal::What::hole}}));
-  for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
-  line_key(removal);
-  removal
-      .required("points", "Number of points left out with it.", &Removal::points, index_number(1))
-      .required("verdict", "Verdict without it.", &Removal::verdict, verdict_word())
-      .required("causes", "Causes named without it.", &Removal::causes, list(cause_id_record()))
-      .required("stands", "True if the answer is the same.", &Removal::stands)
-      .required("probability", "Probability of the name without it.", &Removal::probability, kShare)
-      .required("support",
-                "Share of the log evidence that depends on it, in natural logarithms.",
-                &Removal::support,
-                kAnyNumber)
-      .check([](const Cursor& at, Removal& object) {
-        if (!at.clean() || !at.has("what")) return;
-        const char* key = "at_mm";
-        const char* expected = "a number in mm";
-        for (const Numbered& numbered : kNumbered) {
-          if (numbered.what != object.what) continue;
-          key = numbered.key;
-          expected = numbered.expected;
-        }
-        const Cursor place = at.child(key);
-        if (place.json().is_null()) place.missing(expected);
-      });
-  return removal;
-}
-
-}  // namespace
-
-Record<Stability> stability_record() {
-  return Record<Stability>("whether the name is stable")
-      .required("probability", "Smallest probability of the name.", &Stability::probability, kShare)
-      .required("removals",
-                "What was left out, one at a time.",
-                &Stability::removals,
-                list(removal_record()));
-}
-
-namespace {
-
-void part_keys(Record<PartFinding>& part, const char* leading, const char* named) {
-  part.required("units", "Number of readings in it.", &PartFinding::units, index_number())
-      .required("leading", leading, &PartFinding::likeliest, hypothesis_record())
-      .required("named", named, &PartFinding::named, list(hypothesis_record()));
-}
-
-}  // namespace
-
-Record<PartFinding> bed_part_record() {
-  Record<PartFinding> part("the probabilities without a quarter of the bed");
-  part.required("towards_rad",
-                "Direction of the quarter from the middle of the readings; from x towards y.",
-                &PartFinding::towards_rad,
-                kAnyNumber);
-  part_keys(part,
-            "Most probable cause without it; nothing if none is more likely than not.",
-            "The named causes, with their probabilities without it.");
-  return part;
-}
-
-Record<PartFinding> session_record() {
-  Record<PartFinding> part("the probabilities of a session by itself");
-  part.required("session", "The file.", &PartFinding::session);
-  part_keys(part,
-            "Most probable cause for its readings alone; nothing if none is more likely than not.",
-            "The named causes, with their probabilities for these readings alone.");
-  return part;
 }
 
 }  // namespace chaintrue::grid::files

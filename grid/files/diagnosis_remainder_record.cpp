@@ -9,7 +9,6 @@ namespace {
 
 using diagnosis::BudgetLine;
 using diagnosis::CauseGivenLaw;
-using diagnosis::CauseId;
 using diagnosis::Coordinate;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
@@ -20,15 +19,9 @@ using diagnosis::LawShape;
 using diagnosis::ParameterEstimate;
 using diagnosis::Unexplained;
 
-Record<BudgetLine> budget_line_record() {
-  using What = BudgetLine::What;
-  using ChangesWith = BudgetLine::ChangesWith;
+auto budget_line_record() {
   return Record<BudgetLine>("a part of the error")
-      .required(
-          "what",
-          "The part.",
-          &BudgetLine::what,
-          by_name({What::settings, What::cause, What::unexplained, What::noise, What::inseparable}))
+      .required("what", "The part.", &BudgetLine::what, by_name_to(BudgetLine::What::inseparable))
       .optional("cause", "The cause.", &BudgetLine::cause, cause_id_record())
       .required(
           "mean_square_mm2", "Mean square at the tool.", &BudgetLine::mean_square_mm2, kAnyNumber)
@@ -44,23 +37,20 @@ Record<BudgetLine> budget_line_record() {
       .required("changes_with",
                 "What it depends on.",
                 &BudgetLine::changes_with,
-                by_name({ChangesWith::nothing,
-                         ChangesWith::place,
-                         ChangesWith::order,
-                         ChangesWith::direction}));
+                by_name_to(BudgetLine::ChangesWith::direction));
 }
 
 /// A value with its sigma under its parameter's name.
-Record<ParameterEstimate> named_estimate_record() {
+auto named_estimate_record() {
   return Record<ParameterEstimate>("a size with its sigma")
       .required("parameter", "Name of the parameter.", &ParameterEstimate::parameter)
       .required("value", "Its value.", &ParameterEstimate::value, kAnyNumber)
       .required("sigma", "Its uncertainty, 1 sigma.", &ParameterEstimate::sigma, kNotNegative);
 }
 
-Record<LawResidual> law_point_record() {
+auto law_point_record() {
   return Record<LawResidual>("a point next to a law's curve")
-      .required("index", "Number of the point, from 0.", &LawResidual::index, index_number())
+      .required("index", "Number of the point, from 0.", &LawResidual::index)
       .required(
           "at", "Value of the law's variable: mm, rad, N or visits.", &LawResidual::at, kAnyNumber)
       .required("residual_mm",
@@ -78,7 +68,7 @@ Record<LawResidual> law_point_record() {
           "left_y_mm", "Remaining shift of the tool along y.", &LawResidual::left_y_mm, kAnyNumber);
 }
 
-Record<LawHeldOut::Errors> law_errors_record() {
+auto law_errors_record() {
   return Record<LawHeldOut::Errors>("readings that were left out")
       .required("without_mm",
                 "Rms without the law: of the tool for chains, of distances, of one belt.",
@@ -87,7 +77,7 @@ Record<LawHeldOut::Errors> law_errors_record() {
       .required("with_mm", "Rms with the law.", &LawHeldOut::Errors::with_mm, kNotNegative);
 }
 
-Record<LawHeldOut> law_held_out_record() {
+auto law_held_out_record() {
   return Record<LawHeldOut>("how well a law predicts what was left out")
       .required("inside",
                 "Every fourth place left out, four times.",
@@ -99,7 +89,7 @@ Record<LawHeldOut> law_held_out_record() {
                 law_errors_record());
 }
 
-Record<Law> law_record() {
+auto law_record() {
   return Record<Law>("a law")
       .required("of",
                 "Its variable: a coordinate of the sheet, the position along direction_deg, "
@@ -107,25 +97,7 @@ Record<Law> law_record() {
                 "chain, the number of the visit; for four belts, a coordinate of the anchors' "
                 "frame, the length of a belt or its angle against the horizontal.",
                 &Law::of,
-                by_name({Coordinate::x,
-                         Coordinate::y,
-                         Coordinate::across,
-                         Coordinate::border,
-                         Coordinate::length_left,
-                         Coordinate::length_right,
-                         Coordinate::angle_left,
-                         Coordinate::angle_right,
-                         Coordinate::tension_left,
-                         Coordinate::tension_right,
-                         Coordinate::visit,
-                         Coordinate::length_tl,
-                         Coordinate::length_tr,
-                         Coordinate::length_bl,
-                         Coordinate::length_br,
-                         Coordinate::angle_tl,
-                         Coordinate::angle_tr,
-                         Coordinate::angle_bl,
-                         Coordinate::angle_br}))
+                by_name_to(Coordinate::angle_br))
       .required("shape",
                 "With the variable v: linear: size (v - middle) / span, square: size ((v - "
                 "place) / half the span)^2, step: size from place on, kink: size max(0, "
@@ -133,28 +105,22 @@ Record<Law> law_record() {
                 "scale), wave: size sin(w + phase) with w = 2 pi (v - middle) / period, "
                 "harmonics: size sin(w + phase) + second size sin(2 w + second phase).",
                 &Law::shape,
-                by_name({LawShape::linear,
-                         LawShape::square,
-                         LawShape::step,
-                         LawShape::kink,
-                         LawShape::exponential,
-                         LawShape::wave,
-                         LawShape::harmonics}))
+                by_name_to(LawShape::harmonics))
       .required("enters",
                 "Where it enters: a chain, both equally, the tool along x or y, the tool along the "
                 "law's own direction, the tool outwards over every border, one of four belts.",
                 &Law::enters,
-                by_name({Enters::left,
-                         Enters::right,
-                         Enters::equal,
-                         Enters::x,
-                         Enters::y,
-                         Enters::along,
-                         Enters::outwards,
-                         Enters::tl,
-                         Enters::tr,
-                         Enters::bl,
-                         Enters::br}))
+                by_name<Enters>({Enters::left,
+                                 Enters::right,
+                                 Enters::equal,
+                                 Enters::x,
+                                 Enters::y,
+                                 Enters::along,
+                                 Enters::outwards,
+                                 Enters::tl,
+                                 Enters::tr,
+                                 Enters::bl,
+                                 Enters::br}))
       .required("probability",
                 "Probability of this variable and place of entry, for any shape.",
                 &Law::probability,
@@ -166,7 +132,7 @@ Record<Law> law_record() {
       .optional("direction_deg",
                 "Direction of an oblique law, from x towards y.",
                 &Law::direction_deg,
-                number({"deg", -360.0, 360.0}))
+                {"deg", -360.0, 360.0})
       .optional("towards",
                 "For a kink: 1 if it acts beyond its place, -1 below; for an exponential: 1 if "
                 "it is largest at the upper end of the range, -1 at the lower.",
@@ -193,7 +159,7 @@ Record<Law> law_record() {
       .sparse("points",
               "Points that were not rejected, for the picture of its curve.",
               &Law::points,
-              list(law_point_record()))
+              law_point_record())
       .optional(
           "held_out",
           "Prediction errors for left-out readings, without the law (settings, causes and the "
@@ -210,7 +176,7 @@ Record<Law> law_record() {
       });
 }
 
-Record<CauseGivenLaw> cause_given_law_record() {
+auto cause_given_law_record() {
   return Record<CauseGivenLaw>("a cause given a law")
       .required("cause", "The effect, and its side.", &CauseGivenLaw::cause, cause_id_record())
       .required("probability",
@@ -224,7 +190,7 @@ Record<CauseGivenLaw> cause_given_law_record() {
       .sparse("same_as",
               "Causes that readings of this kind cannot distinguish from it.",
               &CauseGivenLaw::same_as,
-              list(cause_id_record()))
+              cause_id_record())
       .sparse("parameters",
               "Its parameters given the law, with sigmas; absent if it is not named then.",
               &CauseGivenLaw::parameters,
@@ -245,26 +211,17 @@ Record<Unexplained> unexplained_record() {
       &Unexplained::follows);
   left.required(
           "length_mm", "Correlation length over the bed.", &Unexplained::length_mm, kNotNegative)
-      .required("enters",
-                "Where it enters.",
-                &Unexplained::enters,
-                by_name({Enters::left,
-                         Enters::right,
-                         Enters::equal,
-                         Enters::opposite,
-                         Enters::x,
-                         Enters::y,
-                         Enters::mixed}))
+      .required("enters", "Where it enters.", &Unexplained::enters, by_name_to(Enters::mixed))
       .sparse("laws",
               "Functions that it may be, most probable first; absent if no law is more likely "
               "than none.",
               &Unexplained::laws,
-              list(law_record()))
+              law_record())
       .sparse("causes_given_law",
               "Causes that are named only after a claimed law is removed from the readings, and "
               "causes that are no longer named then.",
               &Unexplained::causes_given_law,
-              list(cause_given_law_record()));
+              cause_given_law_record());
   return left;
 }
 
@@ -275,8 +232,7 @@ Record<ErrorBudget> error_budget_record() {
                 "points; tool_today is over the measured part.",
                 &ErrorBudget::uncalibrated_mm,
                 kNotNegative)
-      .required(
-          "parts", "Parts of the mean square.", &ErrorBudget::lines, list(budget_line_record()));
+      .required("parts", "Parts of the mean square.", &ErrorBudget::lines, budget_line_record());
 }
 
 }  // namespace chaintrue::grid::files

@@ -2,7 +2,6 @@
 #include "grid/files/drawing_file.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include "grid/containers.hpp"
 #include "grid/files/plotter_record.hpp"
@@ -28,17 +27,13 @@ struct DrawingInFile : TestDrawing {
   std::vector<MeasureInFile> lines;
 };
 
-Record<DrawnCross> cross_record() {
+auto cross_record() {
   return Record<DrawnCross>("a drawn cross")
       .required("name", "Its name on the sheet.", &DrawnCross::name)
-      .required("x_mm",
-                "Commanded x, to the right of the middle between the pins.",
-                path(&DrawnCross::commanded, &model::BedPoint::x_mm),
-                kPlaceMm)
-      .required("y_mm",
-                "Commanded y, up from the pins, so negative below them.",
-                path(&DrawnCross::commanded, &model::BedPoint::y_mm),
-                kPlaceMm);
+      .place(&DrawnCross::commanded,
+             "Commanded x, to the right of the middle between the pins.",
+             "Commanded y, up from the pins, so negative below them.",
+             kPlaceMm);
 }
 
 void check_middle(const Cursor& at, MeasureInFile& measure) {
@@ -50,7 +45,7 @@ void check_middle(const Cursor& at, MeasureInFile& measure) {
     at.child("middle").expect("to be left out, because a length has only two ends");
 }
 
-Record<MeasureInFile> measure_record() {
+auto measure_record() {
   using Kind = DrawnMeasure::Kind;
   using Measure = MeasureInFile;
   return Record<Measure>("a measure on a drawing")
@@ -67,10 +62,8 @@ Record<MeasureInFile> measure_record() {
                 "looking from its first cross to its last.",
                 &Measure::value_mm,
                 kPlaceMm)
-      .optional("sigma_mm",
-                "Noise of the reading, 1 sigma.",
-                &Measure::sigma_mm,
-                number({"mm", 0.01, 50.0}))
+      .optional(
+          "sigma_mm", "Noise of the reading, 1 sigma.", &Measure::sigma_mm, {"mm", 0.01, 50.0})
       .check(check_middle);
 }
 
@@ -84,7 +77,7 @@ void check_drawing(const Cursor& at, DrawingInFile& drawing) {
     const auto same = [&](const DrawnCross& cross) {
       return cross.name == drawing.crosses[i].name;
     };
-    const auto own = drawing.crosses.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto own = drawing.crosses.begin() + as_index(i);
     if (std::any_of(drawing.crosses.begin(), own, same))
       at.child("crosses").element(i).child("name").expect("a name that no other cross has");
   }
@@ -118,8 +111,7 @@ const Record<DrawingInFile>& drawing_record() {
               [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
           .required(
               "crosses", "The crosses of the page.", &Drawing::crosses, list(cross_record(), 3))
-          .required(
-              "measures", "Readings of ruler and string.", &Drawing::lines, list(measure_record()))
+          .required("measures", "Readings of ruler and string.", &Drawing::lines, measure_record())
           .check(check_drawing);
   return record;
 }
@@ -142,10 +134,9 @@ TestDrawing parse_drawing(const std::string& text, const std::string& file) {
   const DrawingInFile read = read_document(drawing_record(), text, file);
   TestDrawing drawing = read;
   const auto index = [&](const std::string& name) {
-    const auto found = std::find_if(read.crosses.begin(),
-                                    read.crosses.end(),
-                                    [&](const DrawnCross& cross) { return cross.name == name; });
-    return static_cast<std::size_t>(std::distance(read.crosses.begin(), found));
+    const auto* found =
+        find_where(read.crosses, [&](const DrawnCross& cross) { return cross.name == name; });
+    return as_size(found - read.crosses.data());
   };
   for (const MeasureInFile& own : read.lines) {
     if (!own.value_mm) continue;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/effect_file.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "grid/containers.hpp"
@@ -65,7 +64,7 @@ void add_problems(const std::string& text,
       if (const auto begin = text_of_key(text, problem.place.substr(1)))
         place = line_and_column_of(text, in_file(text, *begin, *problem.offset));
     }
-    problems.add(std::move(place), problem.value, problem.expected, ProblemKind::bad_declaration);
+    problems.add(std::move(place), problem.value, ProblemKind::bad_declaration, problem.expected);
   }
 }
 
@@ -77,16 +76,15 @@ struct EffectText {
 /// Adds the declared effects to the machine.
 void declare(const EffectText& source, model::Machine& machine, Problems& problems) {
   const Effect& effect = declared_effect(parse_effect(source.text, source.file));
-  const auto known = std::find_if(machine.declared.begin(),
-                                  machine.declared.end(),
-                                  [&](const Effect* other) { return other->id == effect.id; });
+  const auto* known =
+      find_where(machine.declared, [&](const Effect* other) { return other->id == effect.id; });
   // Declaring the same effect again has no effect.
-  if (known != machine.declared.end() && *known == &effect) return;
-  if (known != machine.declared.end()) {
+  if (known != nullptr && *known == &effect) return;
+  if (known != nullptr) {
     problems.add("/id",
                  effect.id,
-                 "a name that no other effect has; two have this name",
-                 ProblemKind::repeated_value);
+                 ProblemKind::repeated_value,
+                 "a name that no other effect has; two have this name");
     return;
   }
   const std::string& instead_of = declaration_of(effect)->instead_of;
@@ -96,8 +94,8 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
   if (taken) {
     problems.add("/instead_of",
                  instead_of,
-                 "an effect of the catalogue that no other effect replaces",
-                 ProblemKind::repeated_value);
+                 ProblemKind::repeated_value,
+                 "an effect of the catalogue that no other effect replaces");
     return;
   }
   add_problems(source.text, problems_on_bed(*declaration_of(effect), machine), problems);

@@ -3,7 +3,7 @@
 /// chaintrue_effect files: an effect that a user declares (model/effects/declared_effect.hpp).
 ///
 /// \code
-///   model::Machine machine = read_machine("machine.json");
+///   model::Machine machine = read(parse_machine, "machine.json").machine;
 ///   declare_effects({"second_harmonic.json"}, machine);   // machine.declared has it
 /// \endcode
 #pragma once

@@ -40,7 +40,7 @@ void check_parameter(const Cursor& at, DeclaredParameter& p) {
   if (p.meaning.empty()) p.meaning = place ? "where it sets in" : "how large it is";
 }
 
-Record<DeclaredParameter> parameter_record() {
+auto parameter_record() {
   return Record<DeclaredParameter>("a parameter of an effect")
       .required("name",
                 "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
@@ -82,7 +82,7 @@ Record<DeclaredParameter> parameter_record() {
       .optional("mirror_sign",
                 "-1 if the mirrored machine has the negative value.",
                 &DeclaredParameter::mirror_sign,
-                number({"", -1.0, 1.0}))
+                {"", -1.0, 1.0})
       .check(check_parameter);
 }
 
@@ -103,7 +103,7 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
     std::string place = at.pointer() + problem.place;
     if (problem.offset) place += fmt::format(", column {} of the formula", *problem.offset + 1);
     at.problems().add(
-        std::move(place), problem.value, problem.expected, ProblemKind::bad_declaration);
+        std::move(place), problem.value, ProblemKind::bad_declaration, problem.expected);
   }
 }
 
@@ -120,20 +120,16 @@ const Record<Declaration>& declaration_record() {
                     "paper: where marks are written. chain: the length that is paid out. reading: "
                     "what is written down, by visits. visit: a single reading.",
                     &Declaration::acts_on,
-                    by_name({ActsOn::paper, ActsOn::chain, ActsOn::reading, ActsOn::visit}))
+                    by_name_to(ActsOn::visit))
           .sparse("sides",
                   "Where it may act, each side tested separately; both: one value for two. "
                   "Default: on both equally.",
                   &Declaration::sides,
-                  list(by_name({EffectSide::left,
-                                EffectSide::right,
-                                EffectSide::both,
-                                EffectSide::x,
-                                EffectSide::y})))
+                  list(by_name_to(EffectSide::y, EffectSide::left)))
           .required("parameters",
                     "Its size, followed by the place where it sets in, if it has one.",
                     &Declaration::parameters,
-                    list(parameter_record()))
+                    parameter_record())
           .sparse("adds_mm",
                   "Formula for the amount added to a chain or a reading.",
                   &Declaration::adds_mm)
@@ -148,10 +144,7 @@ const Record<Declaration>& declaration_record() {
           .optional("remedy_kind",
                     "Where the remedy is applied.",
                     &Declaration::remedy_kind,
-                    by_name({RemedyKind::change_the_machine,
-                             RemedyKind::correct_the_data,
-                             RemedyKind::repair,
-                             RemedyKind::compensate_on_its_own}))
+                    by_name_to(RemedyKind::compensate_on_its_own))
           .required("remedy", "What to do about it.", &Declaration::remedy)
           .required("not_modelled", "What the formula omits.", &Declaration::not_modelled)
           .sparse("typical", "Its usual size, in words.", &Declaration::typical)
@@ -185,8 +178,8 @@ void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
     add_problems(at.element(i), problems_on_bed(*declaration_of(*machine.declared[i]), machine));
 }
 
-std::optional<Json> write_declared(const std::vector<const Effect*>& declared) {
-  if (declared.empty()) return std::nullopt;
+Json write_declared(const std::vector<const Effect*>& declared) {
+  if (declared.empty()) return kLeftOut;
   Json all = Json::array();
   for (const Effect* effect : declared)
     all.push_back(declaration_record().write(*declaration_of(*effect)));
@@ -209,9 +202,8 @@ const Effect* declared_in_document(const Cursor& at, std::string_view id) {
   Problems unsaid(at.problems().file());
   std::vector<const Effect*> declared;
   read_declared(Cursor(*all, unsaid), declared);
-  const auto found = std::find_if(
-      declared.begin(), declared.end(), [&](const Effect* effect) { return effect->id == id; });
-  return found == declared.end() ? nullptr : *found;
+  const auto* found = find_where(declared, [&](const Effect* effect) { return effect->id == id; });
+  return found != nullptr ? *found : nullptr;
 }
 
 Json effect_schema() { return declaration_record().schema(); }

@@ -18,8 +18,7 @@ namespace chaintrue::grid::files {
 
 /// A machine's "declared_effects": each is read, checked and declared.
 void read_declared(const Cursor& at, std::vector<const model::effects::Effect*>& declared);
-[[nodiscard]] std::optional<Json> write_declared(
-    const std::vector<const model::effects::Effect*>& declared);
+[[nodiscard]] Json write_declared(const std::vector<const model::effects::Effect*>& declared);
 [[nodiscard]] Expected declared_expected();
 /// Whether a machine's declared effects are finite on its bed and 0 at null.
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine);

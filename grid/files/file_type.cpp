@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <optional>
 
@@ -50,9 +49,9 @@ bool names_belts(const std::string& text, const std::string& file) {
 
 std::string words_of(FileKind kind) {
   if (kind == FileKind::belt_holes) return R"("chaintrue_holes" of a machine on four belts)";
-  const auto named = std::find_if(
-      kFormats.begin(), kFormats.end(), [&](const Format* one) { return one->kind == kind; });
-  return kind == FileKind::other ? "" : fmt::format("\"{}\"", (*named)->file_type);
+  if (kind == FileKind::other) return "";
+  const auto* named = find_where(kFormats, [&](const Format* one) { return one->kind == kind; });
+  return fmt::format("\"{}\"", (*named)->file_type);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/groundcontrol_file.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "grid/containers.hpp"
@@ -23,8 +21,8 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   if (!is_fluidnc(text)) {
     problems.add("",
                  "no WallPlotter",
-                 "kinematics: WallPlotter: with its anchors, as in FluidNC",
-                 ProblemKind::missing);
+                 ProblemKind::missing,
+                 "kinematics: WallPlotter: with its anchors, as in FluidNC");
     problems.throw_if_any();
   }
   SettingReader settings(yaml_texts(text, problems), problems);
@@ -47,17 +45,16 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   problems.throw_if_any();
   check_geometry(machine, problems);
   problems.throw_if_any();
-  problems.warn(
-      "",
-      fmt::format("FluidNC has no settings for the sled and chains. Assumed: a sled of {} kg, a "
-                  "ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} kg/m, a frame that "
-                  "leans {} degrees. Enter your values in the machine file",
-                  machine.sled.mass_kg,
-                  std::get<model::Ring>(machine.attachment).radius_mm,
-                  machine.sprocket.teeth,
-                  machine.sprocket.pitch_mm,
-                  machine.chain.mass_kg_per_m,
-                  machine.frame.tilt_from_vertical_deg));
+  problems.warn("",
+                "FluidNC has no settings for the sled and chains. Assumed: a sled of {} kg, a "
+                "ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} kg/m, a frame that "
+                "leans {} degrees. Enter your values in the machine file",
+                machine.sled.mass_kg,
+                std::get<model::Ring>(machine.attachment).radius_mm,
+                machine.sprocket.teeth,
+                machine.sprocket.pitch_mm,
+                machine.chain.mass_kg_per_m,
+                machine.frame.tilt_from_vertical_deg);
   settings.warn_of_others("describes where the sled hangs");
   read.warnings = problems.warnings();
   return read;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 #include <set>
@@ -102,10 +101,9 @@ constexpr std::array kDescribed = {
 };
 
 const Described& described(std::string_view name) {
-  const auto found = std::find_if(kDescribed.begin(), kDescribed.end(), [&](const Described& d) {
-    return name_of(*d.format) == name;
-  });
-  if (found == kDescribed.end())
+  const auto* found =
+      find_where(kDescribed, [&](const Described& d) { return name_of(*d.format) == name; });
+  if (found == nullptr)
     throw std::invalid_argument(fmt::format("no file format is described as \"{}\"", name));
   return *found;
 }

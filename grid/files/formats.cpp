@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/formats.hpp"
 
-#include <algorithm>
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid::files {
 
 const Format* format_of(std::string_view file_type) {
-  const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const Format* one) {
-    return one->file_type == file_type;
-  });
-  return found == kFormats.end() ? nullptr : *found;
+  const auto* found =
+      find_where(kFormats, [&](const Format* one) { return one->file_type == file_type; });
+  return found != nullptr ? *found : nullptr;
 }
 
 std::string name_of(const Format& format) {

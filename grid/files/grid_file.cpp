@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -14,14 +13,10 @@
 #include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
 #include "grid/files/schemas.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-namespace fs = std::filesystem;
-using model::Machine;
 
 // Wide enough for any hanging router, narrow enough to catch a misplaced decimal point or another
 // unit.
@@ -35,7 +30,7 @@ struct StatedGrid : MeasuredGrid {
   std::vector<StatedPoint> lines;
 };
 
-Record<StatedNoise> noise_record() {
+auto noise_record() {
   return Record<StatedNoise>("the noise")
       .required(
           "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNoiseMm)
@@ -49,17 +44,17 @@ Record<StatedNoise> noise_record() {
                 kNoiseDof);
 }
 
-Record<SheetUncertainty> sheet_uncertainty_record() {
+auto sheet_uncertainty_record() {
   using Sheet = SheetUncertainty;
   return Record<Sheet>("the sheet's placement")
       .required("shift_mm",
                 "Uncertainty of the sheet's position, 1 sigma on each axis.",
                 &Sheet::shift_mm,
-                number({"mm", 0.0, 1000.0}))
+                {"mm", 0.0, 1000.0})
       .required("rotation_mrad",
                 "Uncertainty of the sheet's rotation, 1 sigma.",
                 &Sheet::rotation_mrad,
-                number({"mrad", 0.0, 500.0}));
+                {"mrad", 0.0, 500.0});
 }
 
 const Record<StatedPoint>& point_record() {
@@ -156,14 +151,14 @@ const Record<StatedGrid>& grid_record() {
           .sparse("readings",
                   "What was measured besides the points.",
                   &StatedGrid::readings,
-                  list(reading_record()))
+                  reading_record())
           .custom("points",
                   "The measured points.",
                   true,
                   {"a list of points", points_schema},
                   read_points,
-                  [value = list(object(point_record()))](const StatedGrid& grid) {
-                    return std::optional<Json>(value.write(grid.lines));
+                  [value = list(point_record())](const StatedGrid& grid) {
+                    return value.write(grid.lines);
                   })
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedGrid& grid) {
@@ -226,8 +221,10 @@ void take_blanks(
   const Range& range = commanded ? kCoordinate : kLength;
   problems.add(table.cells[i][missing].place(),
                "",
-               fmt::format("{} ({}), or both left blank", range.expected(), kNames[missing]),
-               ProblemKind::left_blank);
+               ProblemKind::left_blank,
+               "{} ({}), or both left blank",
+               range.expected(),
+               kNames[missing]);
 }
 
 ReadGrid parse_csv_grid(const std::string& text,
@@ -265,7 +262,7 @@ ReadGrid parse_csv_grid(const std::string& text,
       } else {
         point.is_spoilt = true;
         const CsvCell& cell = table.cells[i][kOrder];
-        problems.add(cell.place(), cell.text, "a whole number (order)", ProblemKind::not_a_number);
+        problems.add(cell.place(), cell.text, ProblemKind::not_a_number, "a whole number (order)");
       }
     }
     stated.lines.push_back(point);
@@ -274,8 +271,8 @@ ReadGrid parse_csv_grid(const std::string& text,
     if (!problems.any())
       problems.add("",
                    "a header line only",
-                   "at least one line of numbers below it",
-                   ProblemKind::empty_file);
+                   ProblemKind::empty_file,
+                   "at least one line of numbers below it");
     problems.throw_if_any();
   }
   const PointPlaces places{
@@ -297,10 +294,6 @@ ReadGrid parse_grid(const std::string& text,
   Problems problems(file);
   return is_json(text) ? parse_json_grid(text, options, problems)
                        : parse_csv_grid(text, options, problems);
-}
-
-ReadGrid read_grid(const fs::path& path, const MeasuredOptions& options) {
-  return parse_grid(read_whole_file(path), name_in_messages(path), options);
 }
 
 namespace {

@@ -13,13 +13,12 @@
 /// with x_mm and y_mm empty (in JSON null).
 ///
 /// \code
-///   const ReadGrid read = read_grid("grid.csv", {.machine = read_machine("machine.json")});
-///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
-///   fit(read.grid);
+///   const ReadGrid found = read(parse_grid, "grid.csv", {.machine = machine});
+///   for (const Warning& warning : found.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   fit(found.grid);
 /// \endcode
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -35,13 +34,10 @@ struct ReadGrid {
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. A file that begins with "{" is JSON, any other CSV with a header line.
-/// Messages name recognised mistakes (left and right columns swapped, inches for mm, decimal
-/// commas). The path of a "machine_file" is relative to the grid's folder. \throws InputError with
-/// every problem of the file.
-[[nodiscard]] ReadGrid read_grid(const std::filesystem::path& path,
-                                 const MeasuredOptions& options = {});
-/// `file` is the name used in messages; a "machine_file" is looked for in its folder.
+/// Text that begins with "{" is JSON, any other CSV with a header line. Messages name recognised
+/// mistakes (left and right columns swapped, inches for mm, decimal commas). `file` is the name used
+/// in messages; a "machine_file" is looked for in its folder. \throws InputError with every problem
+/// of the file.
 [[nodiscard]] ReadGrid parse_grid(const std::string& text,
                                   const std::string& file,
                                   const MeasuredOptions& options = {});

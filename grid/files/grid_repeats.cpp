@@ -108,15 +108,14 @@ void warn_of_pair(const Comparison& comparison,
   };
   if (is_asked_about(a.index) || is_asked_about(b.index)) return;
   const bool first_is_worse = first_mm >= second_mm;
-  problems.warn(
-      places.of(b.index, ""),
-      fmt::format("this mark was also measured at {}, and the two readings differ by {} ({}); at "
-                  "most {:.1f} mm is normal{}. Is a digit or a minus wrong in one of them?",
-                  places.of(a.index, ""),
-                  difference_in_words(std::max(first_mm, second_mm)),
-                  first_is_worse ? comparison.first_name : comparison.second_name,
-                  allowed_mm,
-                  apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm)));
+  problems.warn(places.of(b.index, ""),
+                "this mark was also measured at {}, and the two readings differ by {} ({}); at "
+                "most {:.1f} mm is normal{}. Is a digit or a minus wrong in one of them?",
+                places.of(a.index, ""),
+                difference_in_words(std::max(first_mm, second_mm)),
+                first_is_worse ? comparison.first_name : comparison.second_name,
+                allowed_mm,
+                apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm));
 }
 
 void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& problems) {

@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "grid/files/groundcontrol_settings.hpp"
-#include "grid/files/json_text.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/number_text.hpp"
-#include "grid/files/whole_file.hpp"
 #include "model/chain_formulas.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
@@ -128,24 +127,23 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
   const std::string place = settings.look("encodersteps")->place;
   if (std::abs(more) > kSameMotors) {
     problems.warn(place,
-                  fmt::format("encodersteps {:g}: not the standard Maslow motors, which turn once "
-                              "in {:g} counts; assumed right for yours",
-                              *counts,
-                              kCountsOfATurn));
+                  "encodersteps {:g}: not the standard Maslow motors, which turn once "
+                  "in {:g} counts; assumed right for yours",
+                  *counts,
+                  kCountsOfATurn);
     return 0.0;
   }
   problems.warn(
       place,
-      fmt::format(
-          "encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs out than the "
-          "controller counts; entered as links that are {} by this amount (/effects). An export "
-          "corrects for it; if you set {:g} at the machine instead, import its settings again",
-          *counts,
-          kCountsOfATurn,
-          100.0 * std::abs(more),
-          more > 0.0 ? "more" : "less",
-          more > 0.0 ? "longer" : "shorter",
-          kCountsOfATurn));
+      "encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs out than the "
+      "controller counts; entered as links that are {} by this amount (/effects). An export "
+      "corrects for it; if you set {:g} at the machine instead, import its settings again",
+      *counts,
+      kCountsOfATurn,
+      100.0 * std::abs(more),
+      more > 0.0 ? "more" : "less",
+      more > 0.0 ? "longer" : "shorter",
+      kCountsOfATurn);
   return more;
 }
 
@@ -172,17 +170,16 @@ void state_pitch(const SettingValues& numbers,
   }
   if (links.empty()) return;
   const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
-  problems.warn(
-      "",
-      fmt::format("chain tolerance: links {} than new, each value within {:g} % (/effects)",
-                  fmt::join(links, " and "),
-                  100.0 * effect->parameters.front().prior_sigma));
+  problems.warn("",
+                "chain tolerance: links {} than new, each value within {:g} % (/effects)",
+                fmt::join(links, " and "),
+                100.0 * effect->parameters.front().prior_sigma);
 }
 
 /// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
 void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
   const auto assume = [&problems](std::string what) {
-    problems.warn("", fmt::format("not in the settings: {}", std::move(what)));
+    problems.warn("", "not in the settings: {}", std::move(what));
   };
   if (const auto weight_n = numbers.at("sledweight")) {
     machine.sled.mass_kg = *weight_n / kGroundcontrolGravity_m_per_s2;
@@ -242,8 +239,8 @@ class OldReleases {
   void say() const {
     if (assumed_.empty()) return;
     problems_.warn("",
-                   fmt::format("assumed, as in releases of GroundControl without this setting: {}",
-                               fmt::join(assumed_, ", ")));
+                   "assumed, as in releases of GroundControl without this setting: {}",
+                   fmt::join(assumed_, ", "));
   }
 
  private:
@@ -276,11 +273,11 @@ void check_sag(SettingReader& settings, const Machine& machine, Problems& proble
       model::closed_form_sag_correction(hangs.chain_weight_n_per_mm, hangs.sled_weight_n);
   if (set == 0.0 || (set < kFarFrom * own && kFarFrom * set > own)) return;
   problems.warn(settings.look("chainsagcorrection")->place,
-                fmt::format("chainsagcorrection {:g}: the weights of chain and sled suggest "
-                            "{:.1f}. A calibration that compensates other errors can produce such "
-                            "a number; it is kept as the controller's setting",
-                            set,
-                            own));
+                "chainsagcorrection {:g}: the weights of chain and sled suggest "
+                "{:.1f}. A calibration that compensates other errors can produce such "
+                "a number; it is kept as the controller's setting",
+                set,
+                own);
 }
 
 /// start and plan send the sled over the whole bed.
@@ -292,10 +289,10 @@ void check_reach(double chain_mm,
   if (longest_mm <= chain_mm) return;
   problems.add(settings.look("chainlength")->place,
                fmt::format("chainlength {:g}", chain_mm),
-               fmt::format("at least {:.0f} mm to reach the lower corners of the bed; correct the "
-                           "chain's length or the size of the bed",
-                           std::ceil(longest_mm)),
-               ProblemKind::out_of_range);
+               ProblemKind::out_of_range,
+               "at least {:.0f} mm to reach the lower corners of the bed; correct the "
+               "chain's length or the size of the bed",
+               std::ceil(longest_mm));
 }
 
 Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_top) {
@@ -339,8 +336,8 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   if (const auto teeth = numbers.at("gearteeth"); teeth && *teeth != std::floor(*teeth)) {
     problems.add(settings.look("gearteeth")->place,
                  fmt::format("{}", *teeth),
-                 "a whole number (gearteeth)",
-                 ProblemKind::out_of_range);
+                 ProblemKind::out_of_range,
+                 "a whole number (gearteeth)");
   }
   const double more_by_encoder_turn = more_by_encoder(settings, problems);
   const auto chain_mm = settings.find("chainlength", {"mm", 100.0, 40000.0});
@@ -368,43 +365,6 @@ ReadMachine parse_groundcontrol(const std::string& text,
   SettingTexts texts = ini_texts(text, problems);
   problems.throw_if_any();
   return machine_of_settings(std::move(texts), tolerances, problems);
-}
-
-ReadMachine read_groundcontrol(const std::filesystem::path& path, Tolerances tolerances) {
-  return parse_groundcontrol(read_whole_file(path), name_in_messages(path), tolerances);
-}
-
-namespace {
-
-/// Most versions write numbers as texts, some as numbers.
-std::string text_of(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  return value.is_null() ? std::string() : value.dump();
-}
-
-}  // namespace
-
-bool is_webcontrol(const std::string& text, const std::string& file) {
-  Problems problems(file);
-  const Json json = parse_json(text, problems);
-  return json.is_object() && json.contains("Maslow Settings") && json.contains("Advanced Settings");
-}
-
-ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {
-  Problems problems(file);
-  const Json json = parse_json(text, problems);
-  problems.throw_if_any();
-  SettingTexts texts;
-  for (const auto& [section, settings] : json.items()) {
-    if (!settings.is_array()) continue;
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-      const Json& setting = settings[i];
-      if (!setting.is_object() || !setting.contains("key") || !setting.contains("value")) continue;
-      texts[in_small_letters(section + "/" + text_of(setting.at("key")))] = {
-          text_of(setting.at("value")), fmt::format("/{}/{}/value", section, i)};
-    }
-  }
-  return machine_of_settings(std::move(texts), Tolerances::are_pitch, problems);
 }
 
 }  // namespace chaintrue::grid::files

@@ -29,12 +29,11 @@
 /// warning.
 ///
 /// \code
-///   const ReadMachine read = read_groundcontrol("groundcontrol.ini");
-///   write_whole_file("machine.json", write_machine(read.machine));
+///   const ReadMachine found = read(parse_groundcontrol, "groundcontrol.ini");
+///   write_whole_file("machine.json", write_machine(found.machine));
 /// \endcode
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,11 +47,9 @@ inline constexpr double kGroundcontrolGravity_m_per_s2 = 9.80665;
 
 enum class Tolerances { are_pitch, unexplained };
 
-/// "-" reads standard input. The warnings list what was assumed. \throws InputError with every
-/// problem of the file: missing settings, wrong types, inches, values out of range.
-[[nodiscard]] ReadMachine read_groundcontrol(const std::filesystem::path& path,
-                                             Tolerances tolerances = Tolerances::are_pitch);
-/// `file` is the name used in messages and, without its folder, the machine's.
+/// `file` is the name used in messages and, without its folder, the machine's. The warnings list
+/// what was assumed. \throws InputError with every problem of the file: missing settings, wrong
+/// types, inches, values out of range.
 [[nodiscard]] ReadMachine parse_groundcontrol(const std::string& text,
                                               const std::string& file,
                                               Tolerances tolerances = Tolerances::are_pitch);

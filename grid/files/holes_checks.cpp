@@ -29,12 +29,8 @@ std::optional<std::size_t> hole_of(const std::string& word, const std::vector<Ho
     if (holes[i].name == word) return i;
   }
   // A number is the index of a hole if no hole has it as its name.
-  const auto number = number_of(word);
-  if (number && *number >= 0.0 && *number < static_cast<double>(holes.size()) &&
-      *number == std::floor(*number)) {
-    return static_cast<std::size_t>(*number);
-  }
-  return std::nullopt;
+  const auto number = whole_number_of(word, 0, static_cast<int>(holes.size()) - 1);
+  return number ? std::optional(as_size(*number)) : std::nullopt;
 }
 
 std::string names_of(const std::vector<Hole>& holes) {
@@ -43,115 +39,9 @@ std::string names_of(const std::vector<Hole>& holes) {
   return joined(names);
 }
 
-/// Reports distances and holes that are both in inches or centimetres: they fit each other, and only
-/// the bed shows it. True if found.
-bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
-  double farthest_mm = 0.0;
-  for (const Hole& hole : set.holes) {
-    farthest_mm =
-        std::max({farthest_mm, std::abs(hole.commanded.x_mm), std::abs(hole.commanded.y_mm)});
-  }
-  // Holes of a set go out to half of the bed's half width and more, which is 1 / 51 to 1 / 25 of it
-  // in inches, 1 / 20 to 1 / 10 in centimetres. A set in mm within an eighth of it is inconclusive.
-  constexpr double kOfInches = 0.045;
-  constexpr double kOfCentimetres = 0.125;
-  const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : model::Bed{}).width_mm;
-  const double share = farthest_mm / half_width_mm;
-  if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
-  problems.explain(
-      places.holes,
-      ProblemKind::other_unit,
-      fmt::format(
-          "these and their distances look like {} (no hole is farther than {:.4g} "
-          "from the middle).",
-          share < kOfInches ? "inches: multiply them by 25.4" : "centimetres: multiply them by 10",
-          farthest_mm));
-  return true;
-}
-
-/// Reports an error of the whole file; returns the questions about single distances.
-std::vector<input_checks::RowFinding> check_entries(const MeasuredHoles& set,
-                                                    const HolesPlaces& places,
-                                                    Problems& problems) {
-  input_checks::Findings found = input_checks::check_distances(set, places.written);
-  if (found.whole) {
-    problems.explain(found.whole->from_row ? places.distance(*found.whole->from_row, "distance_mm")
-                                           : places.distances,
-                     found.whole->kind,
-                     found.whole->sentence());
-  }
-  return std::move(found.rows);
-}
-
-/// Reports two holes so near that the direction from one to the other is undetermined.
-void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
-  constexpr double kLeastMm = 20.0;
-  for (std::size_t i = 0; i < set.distances.size(); ++i) {
-    const HoleDistance& distance = set.distances[i];
-    if (distance.edge || commanded_mm(set, distance) >= kLeastMm) continue;
-    problems.add(places.distance(i, ""),
-                 fmt::format("{}, {:.4g} mm apart as commanded",
-                             words_of(set, distance),
-                             commanded_mm(set, distance)),
-                 fmt::format("two holes at least {:.0f} mm apart; holes {} and {} are at the same "
-                             "spot: is a minus missing at one of them?",
-                             kLeastMm,
-                             set.holes[distance.from].name,
-                             set.holes[distance.to].name),
-                 ProblemKind::out_of_range);
-  }
-}
-
 using Pair = std::pair<std::size_t, std::size_t>;
 
 Pair pair_of(const HoleDistance& distance) { return std::minmax(distance.from, distance.to); }
-
-/// Checks each triangle with three measured sides: the longest is no longer than the sum of the
-/// others, within the tape's error.
-void check_triangles(const MeasuredHoles& set,
-                     const std::vector<input_checks::RowFinding>& asked,
-                     const HolesPlaces& places,
-                     Problems& problems) {
-  std::map<Pair, std::size_t> first;
-  for (std::size_t i = 0; i < set.distances.size(); ++i) {
-    if (!set.distances[i].edge) first.emplace(pair_of(set.distances[i]), i);
-  }
-  for (const auto& [ab, index_ab] : first) {
-    for (std::size_t c = ab.second + 1; c < set.holes.size(); ++c) {
-      const auto ac = first.find({ab.first, c});
-      const auto bc = first.find({ab.second, c});
-      if (ac == first.end() || bc == first.end()) continue;
-      std::array<std::size_t, 3> sides = {index_ab, ac->second, bc->second};
-      sort(sides, [&](std::size_t i, std::size_t j) {
-        return set.distances[i].distance_mm > set.distances[j].distance_mm;
-      });
-      double excess = length_of(set, set.distances[sides[0]]);
-      double variance = std::pow(sigma_of(set, set.distances[sides[0]]), 2);
-      for (const std::size_t side : {sides[1], sides[2]}) {
-        excess -= length_of(set, set.distances[side]);
-        variance += std::pow(sigma_of(set, set.distances[side]), 2);
-      }
-      constexpr double kBeyondChance = 5.0;  // sigmas: one triangle in some million
-      if (excess <= kBeyondChance * std::sqrt(variance)) continue;
-      std::string question;
-      for (const input_checks::RowFinding& row : asked) {
-        if (contains(sides, row.row)) question += fmt::format(". {}", row.sentence);
-      }
-      problems.add(places.distance(sides[0], "distance_mm"),
-                   fmt::format("{:g}", set.distances[sides[0]].distance_mm),
-                   fmt::format("at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
-                               "{} ({:g}); one of the three was misread{}",
-                               set.distances[sides[0]].distance_mm - excess,
-                               words_of(set, set.distances[sides[0]]),
-                               words_of(set, set.distances[sides[1]]),
-                               set.distances[sides[1]].distance_mm,
-                               words_of(set, set.distances[sides[2]]),
-                               set.distances[sides[2]].distance_mm,
-                               question),
-                   ProblemKind::contradiction);
-    }
-  }
-}
 
 /// The longest pairs that were not measured: what to measure next.
 std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
@@ -175,76 +65,179 @@ std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
   return joined(words);
 }
 
-void check_enough(const MeasuredHoles& set,
-                  std::size_t fewest,
-                  const HolesPlaces& places,
-                  Problems& problems) {
-  std::set<Pair> pairs;
-  std::set<std::size_t> used;
-  for (const HoleDistance& distance : set.distances) {
-    if (distance.edge) continue;
-    pairs.insert(pair_of(distance));
-    used.insert({distance.from, distance.to});
-  }
-  // The shape of n holes is 2 n - 3 distances; more distances are redundant.
-  const std::size_t shape = used.size() < 2 ? 0 : 2 * used.size() - 3;
-  const std::size_t independent = std::min(pairs.size(), shape);
-  if (independent >= fewest) return;
-  const std::size_t lacking = fewest - independent;
-  std::string expected = fmt::format("at least {} independent distances between holes", fewest);
-  if (fewest == kFewestHoleDistances) {
-    expected += ", one for each unknown: the motors' spacing and the zero and scale of each chain";
-  }
-  const std::string more = missing_pairs(set, lacking);
-  const bool holes_suffice =
-      set.holes.size() >= 2 && 2 * set.holes.size() - 3 >= fewest && !more.empty();
-  expected += holes_suffice ? fmt::format("; {} missing, measure {}", lacking, more)
-                            : fmt::format(
-                                  "; cut at least {} holes, of which {} distances are "
-                                  "independent",
-                                  (fewest + 4) / 2,
-                                  2 * ((fewest + 4) / 2) - 3);
-  problems.add(places.distances,
-               fmt::format("{} independent distance{}", independent, independent == 1 ? "" : "s"),
-               expected,
-               ProblemKind::too_few);
-}
+/// Reports to `problems`.
+struct HolesChecks {
+  const MeasuredHoles& set;
+  const HolesPlaces& places;
+  Problems& problems;
 
-/// Without the offset the map would be distorted by the same amount.
-void check_tape_zero(const MeasuredHoles& set,
-                     bool is_stated,
-                     const HolesPlaces& places,
-                     Problems& problems) {
-  const auto offset = suspected_tape_zero_offset_mm(set);
-  if (!offset) return;
-  const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
-                                        std::abs(*offset),
-                                        *offset > 0.0 ? "longer" : "shorter");
-  double total_mm = set.tape.tape_zero_offset_mm + *offset;
-  // Tapes are held at a printed mark; a machine is off by a centimetre at most.
-  constexpr double kAtTheMarkMm = 15.0;
-  constexpr double kAtZeroMm = 3.0;
-  const double mark_mm =
-      input_checks::kTapeMarkMm * std::round(total_mm / input_checks::kTapeMarkMm);
-  if (std::abs(total_mm - mark_mm) < (mark_mm == 0.0 ? kAtZeroMm : kAtTheMarkMm))
-    total_mm = mark_mm;
-  const std::string state =
-      fmt::format("enter {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
-  if (is_stated) {
-    problems.warn(
-        places.distances,
-        fmt::format("{}, whatever their length. Was the hook's offset subtracted twice? If so, {}.",
-                    found,
-                    state));
-    return;
+  /// Reports distances and holes that are both in inches or centimetres: they fit each other, and only
+  /// the bed shows it. True if found.
+  bool check_other_unit() const {
+    double farthest_mm = 0.0;
+    for (const Hole& hole : set.holes) {
+      farthest_mm =
+          std::max({farthest_mm, std::abs(hole.commanded.x_mm), std::abs(hole.commanded.y_mm)});
+    }
+    // Holes of a set go out to half of the bed's half width and more, which is 1 / 51 to 1 / 25 of it
+    // in inches, 1 / 20 to 1 / 10 in centimetres. A set in mm within an eighth of it is inconclusive.
+    constexpr double kOfInches = 0.045;
+    constexpr double kOfCentimetres = 0.125;
+    const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : model::Bed{}).width_mm;
+    const double share = farthest_mm / half_width_mm;
+    if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
+    problems.explain(
+        places.holes,
+        ProblemKind::other_unit,
+        fmt::format("these and their distances look like {} (no hole is farther than {:.4g} "
+                    "from the middle).",
+                    share < kOfInches ? "inches: multiply them by 25.4"
+                                      : "centimetres: multiply them by 10",
+                    farthest_mm));
+    return true;
   }
-  problems.add(places.distances,
-               found,
-               fmt::format("the tape's hook offset, because short and long ones are off by the "
-                           "same amount: {}; 0 if they are right",
-                           state),
-               ProblemKind::constant_offset);
-}
+
+  /// Reports an error of the whole file; returns the questions about single distances.
+  std::vector<input_checks::RowFinding> check_entries() const {
+    input_checks::Findings found = input_checks::check_distances(set, places.written);
+    if (found.whole) {
+      problems.explain(found.whole->from_row
+                           ? places.distance(*found.whole->from_row, "distance_mm")
+                           : places.distances,
+                       found.whole->kind,
+                       found.whole->sentence());
+    }
+    return std::move(found.rows);
+  }
+
+  /// Reports two holes so near that the direction from one to the other is undetermined.
+  void check_apart() const {
+    constexpr double kLeastMm = 20.0;
+    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+      const HoleDistance& distance = set.distances[i];
+      if (distance.edge || commanded_mm(set, distance) >= kLeastMm) continue;
+      problems.add(places.distance(i, ""),
+                   fmt::format("{}, {:.4g} mm apart as commanded",
+                               words_of(set, distance),
+                               commanded_mm(set, distance)),
+                   ProblemKind::out_of_range,
+                   "two holes at least {:.0f} mm apart; holes {} and {} are at the same "
+                   "spot: is a minus missing at one of them?",
+                   kLeastMm,
+                   set.holes[distance.from].name,
+                   set.holes[distance.to].name);
+    }
+  }
+
+  /// Checks each triangle with three measured sides: the longest is no longer than the sum of the
+  /// others, within the tape's error.
+  void check_triangles(const std::vector<input_checks::RowFinding>& asked) const {
+    std::map<Pair, std::size_t> first;
+    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+      if (!set.distances[i].edge) first.emplace(pair_of(set.distances[i]), i);
+    }
+    for (const auto& [ab, index_ab] : first) {
+      for (std::size_t c = ab.second + 1; c < set.holes.size(); ++c) {
+        const auto ac = first.find({ab.first, c});
+        const auto bc = first.find({ab.second, c});
+        if (ac == first.end() || bc == first.end()) continue;
+        std::array<std::size_t, 3> sides = {index_ab, ac->second, bc->second};
+        sort(sides, [&](std::size_t i, std::size_t j) {
+          return set.distances[i].distance_mm > set.distances[j].distance_mm;
+        });
+        double excess = length_of(set, set.distances[sides[0]]);
+        double variance = std::pow(sigma_of(set, set.distances[sides[0]]), 2);
+        for (const std::size_t side : {sides[1], sides[2]}) {
+          excess -= length_of(set, set.distances[side]);
+          variance += std::pow(sigma_of(set, set.distances[side]), 2);
+        }
+        constexpr double kBeyondChance = 5.0;  // sigmas: one triangle in some million
+        if (excess <= kBeyondChance * std::sqrt(variance)) continue;
+        std::string question;
+        for (const input_checks::RowFinding& row : asked) {
+          if (contains(sides, row.row)) question += fmt::format(". {}", row.sentence);
+        }
+        problems.add(places.distance(sides[0], "distance_mm"),
+                     fmt::format("{:g}", set.distances[sides[0]].distance_mm),
+                     ProblemKind::contradiction,
+                     "at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
+                     "{} ({:g}); one of the three was misread{}",
+                     set.distances[sides[0]].distance_mm - excess,
+                     words_of(set, set.distances[sides[0]]),
+                     words_of(set, set.distances[sides[1]]),
+                     set.distances[sides[1]].distance_mm,
+                     words_of(set, set.distances[sides[2]]),
+                     set.distances[sides[2]].distance_mm,
+                     question);
+      }
+    }
+  }
+
+  void check_enough(std::size_t fewest) const {
+    std::set<Pair> pairs;
+    std::set<std::size_t> used;
+    for (const HoleDistance& distance : set.distances) {
+      if (distance.edge) continue;
+      pairs.insert(pair_of(distance));
+      used.insert({distance.from, distance.to});
+    }
+    // The shape of n holes is 2 n - 3 distances; more distances are redundant.
+    const std::size_t shape = used.size() < 2 ? 0 : 2 * used.size() - 3;
+    const std::size_t independent = std::min(pairs.size(), shape);
+    if (independent >= fewest) return;
+    const std::size_t lacking = fewest - independent;
+    std::string expected = fmt::format("at least {} independent distances between holes", fewest);
+    if (fewest == kFewestHoleDistances) {
+      expected +=
+          ", one for each unknown: the motors' spacing and the zero and scale of each chain";
+    }
+    const std::string more = missing_pairs(set, lacking);
+    const bool holes_suffice =
+        set.holes.size() >= 2 && 2 * set.holes.size() - 3 >= fewest && !more.empty();
+    expected += holes_suffice ? fmt::format("; {} missing, measure {}", lacking, more)
+                              : fmt::format(
+                                    "; cut at least {} holes, of which {} distances are "
+                                    "independent",
+                                    (fewest + 4) / 2,
+                                    2 * ((fewest + 4) / 2) - 3);
+    problems.add(places.distances,
+                 fmt::format("{} independent distance{}", independent, independent == 1 ? "" : "s"),
+                 ProblemKind::too_few,
+                 expected);
+  }
+
+  /// Without the offset the map would be distorted by the same amount.
+  void check_tape_zero(bool is_stated) const {
+    const auto offset = suspected_tape_zero_offset_mm(set);
+    if (!offset) return;
+    const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
+                                          std::abs(*offset),
+                                          *offset > 0.0 ? "longer" : "shorter");
+    double total_mm = set.tape.tape_zero_offset_mm + *offset;
+    // Tapes are held at a printed mark; a machine is off by a centimetre at most.
+    constexpr double kAtTheMarkMm = 15.0;
+    constexpr double kAtZeroMm = 3.0;
+    const double mark_mm =
+        input_checks::kTapeMarkMm * std::round(total_mm / input_checks::kTapeMarkMm);
+    if (std::abs(total_mm - mark_mm) < (mark_mm == 0.0 ? kAtZeroMm : kAtTheMarkMm))
+      total_mm = mark_mm;
+    const std::string state =
+        fmt::format("enter {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
+    if (is_stated) {
+      problems.warn(places.distances,
+                    "{}, whatever their length. Was the hook's offset subtracted twice? If so, {}.",
+                    found,
+                    state);
+      return;
+    }
+    problems.add(places.distances,
+                 found,
+                 ProblemKind::constant_offset,
+                 "the tape's hook offset, because short and long ones are off by the "
+                 "same amount: {}; 0 if they are right",
+                 state);
+  }
+};
 
 }  // namespace
 
@@ -267,9 +260,9 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
   const std::vector<std::string>& copies = most ? rounded : exact;
   if (copies.empty()) return;
   problems.warn(places.distances,
-                fmt::format("{} read exactly as commanded. Were they measured? If not, leave "
-                            "distance_mm blank",
-                            how_many(copies, set.distances.size(), "distances")));
+                "{} read exactly as commanded. Were they measured? If not, leave "
+                "distance_mm blank",
+                how_many(copies, set.distances.size(), "distances"));
 }
 
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems) {
@@ -280,16 +273,16 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     if (edge_of(name)) {
       problems.add(places.hole(i),
                    name,
-                   "a name that is not an edge of the sheet",
-                   ProblemKind::repeated_value);
+                   ProblemKind::repeated_value,
+                   "a name that is not an edge of the sheet");
     }
     const auto [other, is_new] = first.emplace(name, i);
     if (!is_new) {
       problems.add(places.hole(i),
                    name,
-                   fmt::format("a different name for each hole; {} has the same",
-                               places.hole(other->second)),
-                   ProblemKind::repeated_value);
+                   ProblemKind::repeated_value,
+                   "a different name for each hole; {} has the same",
+                   places.hole(other->second));
     }
   }
 }
@@ -311,22 +304,23 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
       if (!start) {
         problems.add(places.distance(i, "from"),
                      from.from,
-                     fmt::format("a hole that was cut: {}", names_of(holes)),
-                     ProblemKind::unknown_word);
+                     ProblemKind::unknown_word,
+                     "a hole that was cut: {}",
+                     names_of(holes));
       }
       if (!end && !distance.edge) {
         problems.add(places.distance(i, "to"),
                      from.to,
-                     fmt::format("a hole that was cut ({}) or an edge of the sheet (left, right, "
-                                 "top, bottom)",
-                                 names_of(holes)),
-                     ProblemKind::unknown_word);
+                     ProblemKind::unknown_word,
+                     "a hole that was cut ({}) or an edge of the sheet (left, right, "
+                     "top, bottom)",
+                     names_of(holes));
       }
       if (start && end && *start == *end) {
         problems.add(places.distance(i, "to"),
                      from.to,
-                     "a hole different from the distance's start",
-                     ProblemKind::repeated_value);
+                     ProblemKind::repeated_value,
+                     "a hole different from the distance's start");
       }
       distance.from = start.value_or(0);
       distance.to = distance.edge ? distance.from : end.value_or(0);
@@ -341,15 +335,17 @@ void check_holes_together(const MeasuredHoles& set,
                           bool tape_zero_is_stated,
                           const HolesPlaces& places,
                           Problems& problems) {
-  check_apart(set, places, problems);
+  const HolesChecks checks{set, places, problems};
+  checks.check_apart();
   if (problems.any()) return;
-  const auto asked = check_entries(set, places, problems);
-  if (problems.any() || check_other_unit(set, places, problems)) return;
-  check_triangles(set, asked, places, problems);
+  const auto asked = checks.check_entries();
+  if (problems.any() || checks.check_other_unit()) return;
+  checks.check_triangles(asked);
   for (const input_checks::RowFinding& row : asked)
-    problems.warn(places.distance(row.row, "distance_mm"), row.sentence, ProblemKind::doubtful_row);
-  check_enough(set, fewest_distances, places, problems);
-  if (!problems.any()) check_tape_zero(set, tape_zero_is_stated, places, problems);
+    problems.doubt(
+        places.distance(row.row, "distance_mm"), row.sentence, ProblemKind::doubtful_row);
+  checks.check_enough(fewest_distances);
+  if (!problems.any()) checks.check_tape_zero(tape_zero_is_stated);
 }
 
 }  // namespace chaintrue::grid::files

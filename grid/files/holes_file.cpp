@@ -7,13 +7,10 @@
 
 #include "grid/files/file_type.hpp"
 #include "grid/files/holes_record.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The common part of JSON and CSV, once the fields are read.
 ReadHoles finish(StatedHoles set,
@@ -77,10 +74,6 @@ ReadHoles parse_holes(const std::string& text,
   Problems problems(file);
   return is_json(text) ? parse_json_holes(text, options, problems)
                        : parse_csv_holes(text, options, problems);
-}
-
-ReadHoles read_holes(const fs::path& path, const MeasuredOptions& options) {
-  return parse_holes(read_whole_file(path), name_in_messages(path), options);
 }
 
 namespace {

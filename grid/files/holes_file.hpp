@@ -26,13 +26,12 @@
 /// with a warning.
 ///
 /// \code
-///   const ReadHoles read = read_holes("holes.json");
-///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
-///   const auto fit = joint_fit(read.holes);
+///   const ReadHoles found = read(parse_holes, "holes.json");
+///   for (const Warning& warning : found.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   const auto fit = joint_fit(found.holes);
 /// \endcode
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,11 +50,9 @@ struct ReadHoles {
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. Messages name recognised mistakes (inches, a triangle that cannot
-/// close, a tape zero offset that was forgotten). \throws InputError with every problem.
-[[nodiscard]] ReadHoles read_holes(const std::filesystem::path& path,
-                                   const MeasuredOptions& options = {});
-/// `file` is the name used in messages; a "machine_file" is looked for in its folder.
+/// Messages name recognised mistakes (inches, a triangle that cannot close, a tape zero offset that
+/// was forgotten). `file` is the name used in messages; a "machine_file" is looked for in its folder.
+/// \throws InputError with every problem.
 [[nodiscard]] ReadHoles parse_holes(const std::string& text,
                                     const std::string& file,
                                     const MeasuredOptions& options = {});

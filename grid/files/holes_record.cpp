@@ -11,7 +11,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-Record<Tape> tape_record() {
+auto tape_record() {
   return Record<Tape>("the tape")
       .optional("sigma_mm",
                 "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
@@ -27,31 +27,26 @@ Record<Tape> tape_record() {
                 kHoleSigmaMm);
 }
 
-Record<SheetSize> sheet_record() {
+auto sheet_record() {
   return Record<SheetSize>("the sheet")
       .optional("width_mm",
                 "Width of the sheet, for distances to its edges.",
                 &SheetSize::width_mm,
-                number({"mm", 100.0, 20000.0}))
-      .optional("height_mm",
-                "Height of the sheet.",
-                &SheetSize::height_mm,
-                number({"mm", 100.0, 20000.0}))
+                {"mm", 100.0, 20000.0})
+      .optional("height_mm", "Height of the sheet.", &SheetSize::height_mm, {"mm", 100.0, 20000.0})
       .optional("size_sigma_mm",
                 "Uncertainty of its size, 1 sigma.",
                 &SheetSize::size_sigma_mm,
-                number({"mm", 0.0, 100.0}));
+                {"mm", 0.0, 100.0});
 }
 
 Record<Hole> hole_record() {
-  Record<Hole> hole("a hole");
-  hole.sparse("name", "Any word; without names the holes are numbered from 0.", &Hole::name);
-  const auto coordinate = [&hole](const char* key, const char* meaning, auto member) {
-    hole.required(key, meaning, path(&Hole::commanded, member), kHoleCoordinate);
-  };
-  coordinate("x_mm", "Commanded x of the hole.", &model::BedPoint::x_mm);
-  coordinate("y_mm", "Commanded y of the hole, up.", &model::BedPoint::y_mm);
-  return hole;
+  return Record<Hole>("a hole")
+      .sparse("name", "Any word; without names the holes are numbered from 0.", &Hole::name)
+      .place(&Hole::commanded,
+             "Commanded x of the hole.",
+             "Commanded y of the hole, up.",
+             kHoleCoordinate);
 }
 
 /// A hole by its name or by its number.
@@ -75,10 +70,10 @@ Record<StatedDistance>& end_of(Record<StatedDistance>& record,
           distance.*member = *word;
         }
       },
-      [member](const StatedDistance& distance) { return std::optional<Json>(distance.*member); });
+      [member](const StatedDistance& distance) { return distance.*member; });
 }
 
-Record<StatedDistance> distance_record() {
+auto distance_record() {
   Record<StatedDistance> distance("a distance");
   end_of(distance, "from", "A hole's name or number.", &StatedDistance::from);
   end_of(distance,
@@ -89,7 +84,7 @@ Record<StatedDistance> distance_record() {
       .required("distance_mm",
                 "The tape reading between the holes' centres. Null if not measured yet.",
                 &StatedDistance::distance_mm,
-                or_null(number(kTapeDistance)))
+                kTapeDistance)
       .optional("sigma_mm",
                 "Noise of this reading, if it differs from the tape's.",
                 &StatedDistance::sigma_mm,
@@ -111,10 +106,9 @@ void read_stated_machine(const Cursor& at, StatedHoles& stated) {
   }
 }
 
-std::optional<Json> written_stated_machine(const StatedHoles& stated) {
+Json written_stated_machine(const StatedHoles& stated) {
   if (stated.belt_machine) return belt_machine_record().write(*stated.belt_machine);
-  if (stated.machine) return machine_record().write(*stated.machine);
-  return std::nullopt;
+  return stated.machine ? machine_record().write(*stated.machine) : kLeftOut;
 }
 
 }  // namespace
@@ -154,12 +148,12 @@ const Record<StatedHoles>& holes_record() {
           .sparse("readings",
                   "What was measured besides the distances.",
                   &StatedHoles::readings,
-                  list(reading_record()))
-          .required("holes", "The holes as commanded.", &StatedHoles::holes, list(hole_record()))
+                  reading_record())
+          .required("holes", "The holes as commanded.", &StatedHoles::holes, hole_record())
           .required("distances",
                     "The distances between them, and to edges.",
                     &StatedHoles::lines,
-                    list(distance_record()))
+                    distance_record())
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedHoles& stated) {
             stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&

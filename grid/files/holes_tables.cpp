@@ -40,10 +40,10 @@ void check_header(const CsvRow& row,
   if (fits) return;
   problems.add(row.front().place(),
                joined(found),
-               fmt::format("the columns {}; {}",
-                           fmt::join(std::begin(names), std::end(names), ","),
-                           kLengthsBetween),
-               ProblemKind::bad_table);
+               ProblemKind::bad_table,
+               "the columns {}; {}",
+               fmt::join(std::begin(names), std::end(names), ","),
+               kLengthsBetween);
 }
 
 /// Cells beyond the row's end read as empty, at the row's first cell.
@@ -59,8 +59,7 @@ double required_number(const CsvCell& cell,
                        const Range& range,
                        Problems& problems) {
   if (cell.text.empty()) {
-    problems.add(
-        cell.place(), "", fmt::format("{} ({})", range.expected(), name), ProblemKind::left_blank);
+    problems.add(cell.place(), "", ProblemKind::left_blank, "{} ({})", range.expected(), name);
     return 0.0;
   }
   return checked_number(cell.text, cell.place(), name, range, problems).value_or(0.0);
@@ -159,19 +158,19 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
     } else {
       problems.add(row.front().place(),
                    row.front().text,
+                   ProblemKind::bad_table,
                    "a header line first: hole,x_mm,y_mm for the holes, or "
-                   "from,to,distance_mm,sigma_mm for the distances",
-                   ProblemKind::bad_table);
+                   "from,to,distance_mm,sigma_mm for the distances");
       break;
     }
   }
   if (!problems.any() && (stated.holes.empty() || !any_distances)) {
     problems.add("",
                  stated.holes.empty() ? "no holes" : "no distances",
-                 fmt::format("two tables: lines below hole,x_mm,y_mm, and lines below "
-                             "from,to,distance_mm,sigma_mm; {}",
-                             kLengthsBetween),
-                 ProblemKind::missing);
+                 ProblemKind::missing,
+                 "two tables: lines below hole,x_mm,y_mm, and lines below "
+                 "from,to,distance_mm,sigma_mm; {}",
+                 kLengthsBetween);
   }
   problems.throw_if_any();
   HolesPlaces places{

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "grid/files/file_type.hpp"
 
@@ -13,20 +11,30 @@ namespace {
 
 class OptionalCodec : public Codec {
  public:
-  OptionalCodec(std::shared_ptr<const Codec> value, const OptionalAccess& access)
-      : Codec(value->expected()), value_(std::move(value)), access_(access) {}
+  OptionalCodec(std::shared_ptr<const Codec> value,
+                const OptionalAccess& access,
+                std::size_t offset)
+      : Codec(value->expected()), value_(std::move(value)), access_(access), offset_(offset) {}
   bool read(const Cursor& at, void* member) const override {
-    const bool is_read = value_->read(at, access_.emplace(member));
-    if (!is_read) access_.reset(member);
+    if (at.json().is_null()) return true;
+    const bool was_empty = access_.value(member) == nullptr;
+    if (was_empty) access_.emplace(member);
+    const bool is_read = value_->read(at, const_cast<std::byte*>(place(member)));
+    if (was_empty && !is_read) access_.reset(member);
     return is_read;
   }
   [[nodiscard]] Json write(const void* member) const override {
-    return value_->write(access_.value(member));
+    return access_.value(member) == nullptr ? kLeftOut : value_->write(place(member));
   }
 
  private:
+  [[nodiscard]] const std::byte* place(const void* member) const {
+    return static_cast<const std::byte*>(access_.value(member)) + offset_;
+  }
+
   std::shared_ptr<const Codec> value_;
   OptionalAccess access_;
+  std::size_t offset_;
 };
 
 }  // namespace
@@ -50,8 +58,9 @@ std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*rese
 }
 
 std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                            const OptionalAccess& access) {
-  return std::make_shared<OptionalCodec>(std::move(value), access);
+                                            const OptionalAccess& access,
+                                            std::size_t offset) {
+  return std::make_shared<OptionalCodec>(std::move(value), access, offset);
 }
 
 bool RecordTable::open(const Cursor& at, bool is_root) const {
@@ -82,21 +91,28 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
   return true;
 }
 
-void RecordTable::add(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty) {
+RecordTable::Field& RecordTable::add(Field field, std::shared_ptr<const Codec> codec) {
   field.expected = codec->expected();
   field.codec = std::move(codec);
-  field.empty = empty;
-  fields_.push_back(std::move(field));
+  return fields_.emplace_back(std::move(field));
 }
 
-void RecordTable::add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make) {
-  const std::size_t offset = field.offset;
-  add(std::move(field), codec);
-  fields_.back().expected.schema = [offset, codec, make] {
-    const std::shared_ptr<void> object = make();
-    return with_default(codec->expected().schema(),
-                        codec->write(static_cast<const std::byte*>(object.get()) + offset));
+namespace {
+
+Json written_default(const Codec& codec, std::size_t offset, const std::shared_ptr<void>& object) {
+  return codec.write(static_cast<const std::byte*>(object.get()) + offset);
+}
+
+}  // namespace
+
+void RecordTable::state_default(Field& field, Make make) {
+  field.expected.schema = [offset = field.offset, codec = field.codec, make] {
+    return with_default(codec->expected().schema(), written_default(*codec, offset, make()));
   };
+}
+
+void RecordTable::leave_out_default(Field& field, Make make) {
+  field.unless = written_default(*field.codec, field.offset, make());
 }
 
 Expected RecordTable::expected() const {
@@ -125,7 +141,7 @@ Json RecordTable::schema_of_keys() const {
   properties["comment"] = {{"description", "Anything; not read."}};
   for (const Field& field : fields_) {
     Json schema = field.expected.schema();
-    if (!field.is_required) schema = schema_or_null(std::move(schema));
+    if (!field.is_required || field.otherwise.is_null()) schema = schema_or_null(std::move(schema));
     schema["description"] = field.meaning;
     properties[field.key] = std::move(schema);
     if (field.is_required) required.push_back(field.key);
@@ -151,10 +167,7 @@ std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) cons
       expected =
           fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys()));
     }
-    at.problems().add(at.pointer() + "/" + pointer_token(key),
-                      compact_json(value),
-                      expected,
-                      ProblemKind::unknown_key);
+    at.child(key).report(compact_json(value), ProblemKind::unknown_key, expected);
   }
   return probably_meant;
 }
@@ -192,13 +205,8 @@ bool RecordTable::read_fields(const Cursor& at,
 Json RecordTable::write_fields(const void* object) const {
   Json json = format_ != nullptr ? headed(*format_) : Json::object();
   for (const Field& field : fields_) {
-    const void* member = static_cast<const std::byte*>(object) + field.offset;
-    const IfEmpty& empty = field.empty;
-    if (empty.is_empty != nullptr && empty.is_empty(member)) {
-      if (empty.as == IfEmpty::null) json[field.key] = nullptr;
-      continue;
-    }
-    Json value = field.codec->write(member);
+    Json value = field.codec->write(static_cast<const std::byte*>(object) + field.offset);
+    if (value.is_discarded() || value == field.unless) value = field.otherwise;
     if (!value.is_discarded()) json[field.key] = std::move(value);
   }
   return json;

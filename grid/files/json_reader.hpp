@@ -41,18 +41,21 @@
 ///
 /// Each field says what it means: schemas and reference pages (docs/formats) are made of these
 /// sentences. Kinds of fields:
-///   required   must be there; always written
+///   required   must be there, as null for an empty std::optional; always written
 ///   optional   may be absent or null. A plain member keeps its default and is always written; a
 ///              std::optional member is empty, and written only when it holds a value
 ///   sparse     may be absent or null; written only when it is not empty (texts, lists,
-///              dictionaries)
+///              dictionaries) or is not that of a new object (anything else)
 ///   nullable   may be absent or null; written as null when it is empty
-/// path(&Plan::bed, &Bed::width_mm) is a member of a member.
+/// path(&Plan::bed, &Bed::width_mm) is a member of a member, and of one that a std::optional holds
+/// for optional and nullable. place(&Hole::commanded, ...) stands for its x_mm and its y_mm.
 ///
-/// Values: a Range for a number, a Record for an object, integer, choice (an enum by its names),
-/// one_of (a text from a list), list, dictionary; a std::string and a bool need none. `Record::computed` sets and gets what is not a member;
-/// `Record::custom` takes a pair of functions for whatever does not fit (a variant, a list that
-/// notes which of its elements were wrong). Keys are written in the order they are declared.
+/// Values: a Range, or its braces, for a number, a Record for an object or a list of objects,
+/// integer, choice and by_name (an enum by its names), one_of (a text from a list), list,
+/// dictionary; a std::string, a bool, an index and a list of them need none. `Record::computed` sets
+/// and gets what is not a member; `Record::custom` takes a pair of functions for whatever does not
+/// fit (a variant, a list that notes which of its elements were wrong). Keys are written in the
+/// order they are declared.
 /// "comment" is allowed in every object and not kept.
 #pragma once
 
@@ -62,77 +65,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "grid/files/formats.hpp"
-#include "grid/files/json_value.hpp"
+#include "grid/files/json_member.hpp"
 
 namespace chaintrue::grid::files {
-
-/// Access to a std::optional whose value type the table does not know.
-struct OptionalAccess {
-  void* (*emplace)(void* member);
-  void (*reset)(void* member);
-  const void* (*value)(const void* member);
-};
-template <class V>
-inline constexpr OptionalAccess kOptionalAccess = {
-    [](void* member) -> void* { return &static_cast<std::optional<V>*>(member)->emplace(); },
-    [](void* member) { static_cast<std::optional<V>*>(member)->reset(); },
-    [](const void* member) -> const void* {
-      return &**static_cast<const std::optional<V>*>(member);
-    }};
-
-/// How an empty member is written. `is_empty` is null for a type that cannot be empty.
-struct IfEmpty {
-  enum As { absent, null };
-  bool (*is_empty)(const void* member) = nullptr;
-  As as = absent;
-};
-
-/// A member of T, of a base, or of one of its members.
-template <class T, class V>
-struct MemberPath {
-  using Type = V;
-  [[nodiscard]] V& of(T& object) const {
-    return *reinterpret_cast<V*>(reinterpret_cast<std::byte*>(&object) + offset);
-  }
-  [[nodiscard]] const V& of(const T& object) const { return of(const_cast<T&>(object)); }
-  std::size_t offset = 0;
-};
-/// T itself has the member, or a base of it.
-template <class T, class B, class V>
-[[nodiscard]] MemberPath<T, V> path_in(V B::*member) {
-  static const T object{};
-  return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
-                                   reinterpret_cast<const std::byte*>(&object))};
-}
-template <class T, class V>
-[[nodiscard]] MemberPath<T, V> path_in(MemberPath<T, V> member) {
-  return member;
-}
-template <class T, class V>
-[[nodiscard]] MemberPath<T, V> path(V T::*member) {
-  return path_in<T>(member);
-}
-template <class T, class M, class V>
-[[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {
-  return {path_in<T>(outer).offset + path_in<M>(inner).offset};
-}
-
-/// What a member holds, which may be a std::optional.
-template <class V>
-struct Held {
-  using Type = V;
-  static constexpr bool kIsOptional = false;
-};
-template <class V>
-struct Held<std::optional<V>> {
-  using Type = V;
-  static constexpr bool kIsOptional = true;
-};
 
 /// The part of a record that does not depend on the object's type: its keys and its fields. Objects
 /// are passed by address; Record has their type. A field finds its member by an offset from the
@@ -155,16 +94,20 @@ class RecordTable {
     std::size_t offset = 0;  ///< of the member in its object
     Expected expected = "";
     std::shared_ptr<const Codec> codec{};
-    IfEmpty empty{};
+    Json unless = kLeftOut;     ///< a value that counts as none
+    Json otherwise = kLeftOut;  ///< what is written for none
   };
   using Check = std::function<void(const Cursor&, void*)>;
   /// Makes a new default object.
   using Make = std::shared_ptr<void> (*)();
 
   /// Adds to the field what its codec expects.
-  void add(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty = {});
-  /// An optional field with a default, which becomes part of the schema.
-  void add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make);
+  Field& add(Field field, std::shared_ptr<const Codec> codec);
+  [[nodiscard]] Field& last() { return fields_.back(); }
+  /// The default becomes part of the schema.
+  static void state_default(Field& field, Make make);
+  /// The default is not written.
+  static void leave_out_default(Field& field, Make make);
   void add_check(Check check) { checks_.push_back(std::move(check)); }
   void add_rule(Json rule) { rules_.push_back(std::move(rule)); }
 
@@ -192,10 +135,6 @@ class RecordTable {
   std::vector<Json> rules_;
 };
 
-/// For a std::optional with a value.
-[[nodiscard]] std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                                          const OptionalAccess& access);
-
 /// `reset` makes a new object of the old before it is read; null keeps it. The codec has the record's
 /// table for itself.
 [[nodiscard]] std::shared_ptr<const Codec> object_codec(const RecordTable& record,
@@ -206,9 +145,13 @@ class Record : public RecordTable {
   using Text = std::string_view;
   /// Only the member determines the type, so a range or a record may be given for its value.
   template <class M>
-  using MemberOf = typename decltype(path_in<T>(std::declval<M>()))::Type;
+  using PathOf = decltype(path_in<T>(std::declval<M>()));
   template <class M>
-  using HeldBy = typename Held<MemberOf<M>>::Type;
+  using ValueOf = Value<typename PathOf<M>::Type>;
+  template <class M>
+  static ValueOf<M> value_of() {
+    return value_of_type<typename PathOf<M>::Type>();
+  }
 
  public:
   /// `noun` with its article, for messages such as "expected a sprocket".
@@ -218,50 +161,58 @@ class Record : public RecordTable {
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
   template <class M>
-  Record& required(Text key,
-                   Text meaning,
-                   M member,
-                   const Value<MemberOf<M>>& value = value_of_type<MemberOf<M>>()) {
-    add(field(key, meaning, true, path_in<T>(member).offset), value.codec);
+  Record& required(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
+    Field& own = add_member(key, meaning, true, member, value);
+    if constexpr (PathOf<M>::kIsOptional) own.otherwise = nullptr;
     return *this;
   }
 
   template <class M>
-  Record& optional(Text key,
-                   Text meaning,
-                   M member,
-                   const Value<HeldBy<M>>& value = value_of_type<HeldBy<M>>()) {
-    if constexpr (Held<MemberOf<M>>::kIsOptional)
-      return add_if_empty(key, meaning, member, value, IfEmpty::absent);
-    add_defaulted(field(key, meaning, false, path_in<T>(member).offset), value.codec, &make);
+  Record& optional(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
+    Field& own = add_member(key, meaning, false, member, value);
+    if constexpr (!PathOf<M>::kIsOptional) state_default(own, &make);
     return *this;
   }
 
   template <class M>
-  Record& sparse(Text key,
-                 Text meaning,
-                 M member,
-                 const Value<HeldBy<M>>& value = value_of_type<HeldBy<M>>()) {
-    return add_if_empty(key, meaning, member, value, IfEmpty::absent);
+  Record& sparse(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
+    leave_out_default(add_member(key, meaning, false, member, value), &make);
+    return *this;
   }
 
   template <class M>
-  Record& nullable(Text key,
-                   Text meaning,
-                   M member,
-                   const Value<HeldBy<M>>& value = value_of_type<HeldBy<M>>()) {
-    return add_if_empty(key, meaning, member, value, IfEmpty::null);
+  Record& nullable(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
+    sparse(key, meaning, member, value);
+    last().otherwise = nullptr;
+    return *this;
   }
 
-  /// `write` returns nothing if the key is left out.
+  /// The required x_mm and y_mm of a member.
+  template <class P>
+  Record& place(P T::*member, Text x, Text y, const Value<double>& value) {
+    return required("x_mm", x, path(member, &P::x_mm), value)
+        .required("y_mm", y, path(member, &P::y_mm), value);
+  }
+  /// Those of the object itself.
+  Record& place(Text x, Text y, const Value<double>& value) {
+    return required("x_mm", x, &T::x_mm, value).required("y_mm", y, &T::y_mm, value);
+  }
+
+  /// `write` returns a discarded value if the key is left out.
   Record& custom(Text key,
                  Text meaning,
                  bool is_required,
                  Expected expected,
                  std::function<void(const Cursor&, T&)> read,
-                 std::function<std::optional<Json>(const T&)> write) {
-    add(field(key, meaning, is_required, 0),
-        std::make_shared<CustomCodec>(std::move(expected), std::move(read), std::move(write)));
+                 std::function<Json(const T&)> write) {
+    return custom(key,
+                  meaning,
+                  is_required,
+                  partial<T>(std::move(expected), std::move(read), std::move(write)));
+  }
+  /// The same, of a value that leaves the rest of the object as it is.
+  Record& custom(Text key, Text meaning, bool is_required, const Value<T>& value) {
+    add(field(key, meaning, is_required, 0), value.codec);
     return *this;
   }
 
@@ -280,14 +231,13 @@ class Record : public RecordTable {
         },
         [value, get](const T& object) {
           const std::optional<V> own = get(object);
-          return own ? std::optional<Json>(value.write(*own)) : std::nullopt;
+          return own ? value.write(*own) : kLeftOut;
         });
   }
 
   /// An object in the file whose fields are members of this object.
   Record& part(Text key, Text meaning, bool is_required, const Record& fields) {
-    add(field(key, meaning, is_required, 0), object_codec(fields, nullptr));
-    return *this;
+    return custom(key, meaning, is_required, Value<T>(object_codec(fields, nullptr)));
   }
 
   /// A key with a constant value, such as the kind in a variant.
@@ -299,7 +249,7 @@ class Record : public RecordTable {
         true,
         value.expected,
         [value](const Cursor& at, T&) { (void)value.read(at); },
-        [word](const T&) { return std::optional<Json>(word); });
+        [word](const T&) { return word; });
   }
 
   /// Runs after the fields, even if some were wrong; see Cursor::clean.
@@ -326,48 +276,16 @@ class Record : public RecordTable {
   [[nodiscard]] Json write(const T& object) const { return write_fields(&object); }
 
   operator Value<T>() const { return object(*this); }  // NOLINT: tables name the record alone
+  operator Value<std::vector<T>>() const { return list(*this); }  // NOLINT
 
  private:
-  /// Of the whole object.
-  class CustomCodec : public Codec {
-   public:
-    CustomCodec(Expected expected,
-                std::function<void(const Cursor&, T&)> read,
-                std::function<std::optional<Json>(const T&)> write)
-        : Codec(std::move(expected)), read_(std::move(read)), write_(std::move(write)) {}
-    bool read(const Cursor& at, void* object) const override {
-      read_(at, *static_cast<T*>(object));
-      return true;
-    }
-    [[nodiscard]] Json write(const void* object) const override {
-      return write_(*static_cast<const T*>(object)).value_or(Json::value_t::discarded);
-    }
-
-   private:
-    std::function<void(const Cursor&, T&)> read_;
-    std::function<std::optional<Json>(const T&)> write_;
-  };
-
   static Field field(Text key, Text meaning, bool is_required, std::size_t offset) {
     return {std::string(key), std::string(meaning), is_required, offset};
   }
   template <class M>
-  Record& add_if_empty(
-      Text key, Text meaning, M member, const Value<HeldBy<M>>& value, IfEmpty::As written) {
-    std::shared_ptr<const Codec> codec = value.codec;
-    if constexpr (Held<MemberOf<M>>::kIsOptional)
-      codec = optional_codec(std::move(codec), kOptionalAccess<HeldBy<M>>);
-    add(field(key, meaning, false, path_in<T>(member).offset),
-        std::move(codec),
-        {&is_empty<MemberOf<M>>, written});
-    return *this;
-  }
-  template <class V>
-  static bool is_empty(const void* member) {
-    if constexpr (Held<V>::kIsOptional)
-      return !static_cast<const V*>(member)->has_value();
-    else
-      return static_cast<const V*>(member)->empty();
+  Field& add_member(Text key, Text meaning, bool is_required, M member, const ValueOf<M>& value) {
+    const PathOf<M> path = path_in<T>(member);
+    return add(field(key, meaning, is_required, path.offset), path.codec_for(value));
   }
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };

@@ -169,8 +169,8 @@ class Builder : public nlohmann::json_sax<Json> {
                           source_.original_offset(position - std::min<std::size_t>(position, 1)));
     problems_.add(line_and_column_of(original_, token.offset),
                   token.text,
-                  expected_by_parser(error.what()) + likely_error(original_, token.offset),
-                  ProblemKind::bad_syntax);
+                  ProblemKind::bad_syntax,
+                  expected_by_parser(error.what()) + likely_error(original_, token.offset));
     return false;
   }
 
@@ -216,8 +216,8 @@ class Builder : public nlohmann::json_sax<Json> {
                     value.is_object()  ? "an object"
                     : value.is_array() ? "a list"
                                        : compact_json(value),
-                    "this key only once",
-                    ProblemKind::repeated_key);
+                    ProblemKind::repeated_key,
+                    "this key only once");
     }
     auto& members = level.value->get_ref<Json::object_t&>();
     // Appends without a search for the key, which would be slow for long objects.
@@ -231,9 +231,9 @@ class Builder : public nlohmann::json_sax<Json> {
     if (++values_ <= kMostValues && !is_full) return true;
     problems_.add(pointer(),
                   "more values",
+                  ProblemKind::too_many,
                   is_full ? fmt::format("at most {} members", kMostMembers)
-                          : fmt::format("at most {} values", kMostValues),
-                  ProblemKind::too_many);
+                          : fmt::format("at most {} values", kMostValues));
     return false;
   }
 
@@ -246,10 +246,8 @@ class Builder : public nlohmann::json_sax<Json> {
   bool open(Json&& value) {
     if (!has_room()) return false;
     if (open_.size() == kDeepest) {
-      problems_.add(pointer(),
-                    "deeper nesting",
-                    fmt::format("at most {} levels", kDeepest),
-                    ProblemKind::too_many);
+      problems_.add(
+          pointer(), "deeper nesting", ProblemKind::too_many, "at most {} levels", kDeepest);
       return false;
     }
     Level level;
@@ -362,7 +360,7 @@ void append_pretty(
 
 Json parse_json(const std::string& text, Problems& problems) {
   if (all_of(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; })) {
-    problems.add("", "an empty file", "JSON text", ProblemKind::empty_file);
+    problems.add("", "an empty file", ProblemKind::empty_file, "JSON text");
     problems.throw_if_any();
   }
   const QuotedText source = quote_non_numbers(text);

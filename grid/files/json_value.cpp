@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -68,8 +67,8 @@ class ChoiceCodec : public Codec {
   bool read(const Cursor& at, void* value) const override {
     const auto word = word_among(at, words_of(names_), expected().words);
     if (!word) return false;
-    const auto known = std::find_if(
-        names_.begin(), names_.end(), [&](const NamedBytes& own) { return own.name == *word; });
+    const auto* known =
+        find_where(names_, [&](const NamedBytes& own) { return own.name == *word; });
     std::memcpy(value, known->value.data(), size_);
     return true;
   }
@@ -110,10 +109,7 @@ class ListCodec : public Codec {
     // An element that was wrong and reported keeps its index, so that later indices are right.
     for (std::size_t i = 0; i < count; ++i) element_->read(at.element(i), access_.append(list));
     if (count < fewest_)
-      at.problems().add(at.pointer(),
-                        fmt::format("{} of them", count),
-                        expected().words,
-                        ProblemKind::wrong_count);
+      at.report(fmt::format("{} of them", count), ProblemKind::wrong_count, expected().words);
     return true;
   }
   [[nodiscard]] Json write(const void* list) const override {
@@ -141,9 +137,9 @@ std::string Cursor::pointer() const {
 Cursor Cursor::child(std::string_view key) const {
   if (!json_->is_object()) return {kNull, this, key, 0};
   const auto& members = json_->get_ref<const Json::object_t&>();
-  const auto found = std::find_if(
-      members.begin(), members.end(), [key](const auto& member) { return member.first == key; });
-  return {found == members.end() ? kNull : found->second, this, key, 0};
+  const auto* found =
+      find_where(members, [key](const auto& member) { return member.first == key; });
+  return {found == nullptr ? kNull : found->second, this, key, 0};
 }
 
 Cursor Cursor::element(std::size_t index) const { return {(*json_)[index], this, {}, index}; }
@@ -151,11 +147,11 @@ Cursor Cursor::element(std::size_t index) const { return {(*json_)[index], this,
 bool Cursor::has(std::string_view key) const { return &child(key).json() != &kNull; }
 
 void Cursor::expect(std::string expected, ProblemKind kind) const {
-  problems_->add(pointer(), shown(*json_), std::move(expected), kind);
+  report(shown(*json_), kind, std::move(expected));
 }
 
 void Cursor::missing(std::string expected) const {
-  problems_->add(pointer(), "", std::move(expected), ProblemKind::missing);
+  report("", ProblemKind::missing, std::move(expected));
 }
 
 std::optional<double> Cursor::number(const Range& range) const {
@@ -197,13 +193,13 @@ std::optional<bool> Cursor::boolean() const {
 Value<double> number(Range range) {
   return {[range](const Cursor& at) { return at.number(range); },
           // A negative zero would be read back as a zero: the same number, other bytes.
-          [](const double& value) { return Json(value + 0.0); },
+          [](const double& value) { return value + 0.0; },
           {range.expected(), [range] { return number_schema(range); }}};
 }
 
 Value<int> integer(int least, int most) {
   return {[least, most](const Cursor& at) { return at.integer(least, most); },
-          [](const int& value) { return Json(value); },
+          [](const int& value) { return value; },
           {fmt::format("a whole number from {} to {}", least, most), [least, most] {
              return Json{{"type", "integer"}, {"minimum", least}, {"maximum", most}};
            }}};
@@ -211,7 +207,7 @@ Value<int> integer(int least, int most) {
 
 Value<bool> boolean() {
   return {[](const Cursor& at) { return at.boolean(); },
-          [](const bool& value) { return Json(value); },
+          [](const bool& value) { return value; },
           {"true or false", [] {
              return Json{{"type", "boolean"}};
            }}};
@@ -219,7 +215,7 @@ Value<bool> boolean() {
 
 Value<std::string> text() {
   return {[](const Cursor& at) { return at.text(); },
-          [](const std::string& value) { return Json(value); },
+          [](const std::string& value) { return value; },
           {"a text", [] {
              return Json{{"type", "string"}};
            }}};
@@ -228,7 +224,7 @@ Value<std::string> text() {
 Value<std::string> one_of(const std::vector<std::string>& names) {
   const Expected expected = expected_word(names);
   return {[names, expected](const Cursor& at) { return word_among(at, names, expected.words); },
-          [](const std::string& value) { return Json(value); },
+          [](const std::string& value) { return value; },
           expected};
 }
 

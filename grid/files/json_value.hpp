@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
-#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -47,6 +46,10 @@ class Cursor {
   /// Reports that this value is not the expected one; `missing` reports that it is absent.
   void expect(std::string expected, ProblemKind kind = ProblemKind::unexpected) const;
   void missing(std::string expected) const;
+  /// The same of something found in it, such as a wrong number of elements.
+  void report(std::string_view found, ProblemKind kind, std::string expected) const {
+    problems_->add(pointer(), found, kind, std::move(expected));
+  }
   /// Adds a warning, a complete sentence, about this place; reading continues.
   void warn(std::string sentence) const { problems_->warn(pointer(), std::move(sentence)); }
 
@@ -100,18 +103,18 @@ class Codec {
   Expected expected_;
 };
 
-/// A codec of two functions.
+inline const Json kLeftOut(Json::value_t::discarded);
+
+/// A codec of two functions: `read` is false where nothing could be read.
 template <class V>
 class FunctionCodec : public Codec {
  public:
-  using Read = std::function<std::optional<V>(const Cursor&)>;
+  using Read = std::function<bool(const Cursor&, V&)>;
   using Write = std::function<Json(const V&)>;
-  FunctionCodec(Read read, Write write, Expected expected)
+  FunctionCodec(Expected expected, Read read, Write write)
       : Codec(std::move(expected)), read_(std::move(read)), write_(std::move(write)) {}
   bool read(const Cursor& at, void* value) const override {
-    std::optional<V> result = read_(at);
-    if (result) *static_cast<V*>(value) = std::move(*result);
-    return result.has_value();
+    return read_(at, *static_cast<V*>(value));
   }
   [[nodiscard]] Json write(const void* value) const override {
     return write_(*static_cast<const V*>(value));
@@ -134,13 +137,22 @@ template <class V>
 struct Value {
   Value(const Range& range)  // NOLINT: tables name the range alone
       requires std::is_same_v<V, double> : Value(number(range)) {}
+  Value(std::string_view unit, double least, double most) requires std::is_same_v<V, double>
+      : Value(number({unit, least, most})) {}
   explicit Value(std::shared_ptr<const Codec> own)
       : codec(std::move(own)), expected(codec->expected()) {}
-  Value(typename FunctionCodec<V>::Read read,
+  /// `read` returns the whole value, or nothing.
+  Value(std::function<std::optional<V>(const Cursor&)> read,
         typename FunctionCodec<V>::Write write,
         Expected in_words)
       : Value(std::make_shared<FunctionCodec<V>>(
-            std::move(read), std::move(write), std::move(in_words))) {}
+            std::move(in_words),
+            [own = std::move(read)](const Cursor& at, V& value) {
+              std::optional<V> result = own(at);
+              if (result) value = std::move(*result);
+              return result.has_value();
+            },
+            std::move(write))) {}
 
   [[nodiscard]] std::optional<V> read(const Cursor& at) const {
     V value{};
@@ -151,6 +163,20 @@ struct Value {
   std::shared_ptr<const Codec> codec;
   Expected expected;
 };
+
+/// A value that sets some members of an object and leaves the others as they are.
+template <class T>
+[[nodiscard]] Value<T> partial(Expected expected,
+                               std::function<void(const Cursor&, T&)> read,
+                               typename FunctionCodec<T>::Write write) {
+  return Value<T>(std::make_shared<FunctionCodec<T>>(
+      std::move(expected),
+      [own = std::move(read)](const Cursor& at, T& object) {
+        own(at, object);
+        return true;
+      },
+      std::move(write)));
+}
 
 /// A value that is kept as another type: `to` makes it of what was read without a problem, `back`
 /// is its inverse.
@@ -165,13 +191,22 @@ template <class V, class From, class To, class Back>
           value.expected};
 }
 
-/// The expectation that follows from the type: a text, true or false.
+/// Largest number of points, distances and positions.
+inline constexpr int kMostNumbered = 1000000;
+/// The number of a point, a distance or a position, from 0; or a count.
+[[nodiscard]] Value<std::size_t> index_number(int least = 0, int most = kMostNumbered);
+
+/// The expectation that follows from the type: a text, true or false, an index, a list of these.
 template <class V>
 [[nodiscard]] Value<V> value_of_type() {
   if constexpr (std::is_same_v<V, bool>) {
     return boolean();
-  } else {
+  } else if constexpr (std::is_same_v<V, std::size_t>) {
+    return index_number();
+  } else if constexpr (std::is_same_v<V, std::string>) {
     return text();
+  } else {
+    return list(value_of_type<typename V::value_type>());
   }
 }
 
@@ -210,10 +245,18 @@ template <class E, std::size_t n>
 
 /// The same, with names from `name(value)`.
 template <class E>
-[[nodiscard]] Value<E> by_name(std::initializer_list<E> values) {
+[[nodiscard]] Value<E> by_name(const std::vector<E>& values) {
   std::vector<std::pair<std::string, E>> names;
   for (const E value : values) names.emplace_back(name(value), value);
   return choice_of<E>(names);
+}
+/// The values of an enum up to this one.
+template <class E>
+[[nodiscard]] Value<E> by_name_to(E last, E first = E{}) {
+  std::vector<E> values;
+  for (int i = static_cast<int>(first); i <= static_cast<int>(last); ++i)
+    values.push_back(static_cast<E>(i));
+  return by_name(values);
 }
 
 /// Access to a std::vector whose element type the codec does not know.
@@ -249,18 +292,6 @@ template <class V>
 
 /// The schema, with null allowed.
 [[nodiscard]] Json schema_or_null(Json schema);
-
-/// Empty if the file has null.
-template <class V>
-[[nodiscard]] Value<std::optional<V>> or_null(const Value<V>& value) {
-  return {[value](const Cursor& at) {
-            const bool is_null = at.json().is_null();
-            const std::optional<V> read = is_null ? std::nullopt : value.read(at);
-            return read || is_null ? std::make_optional(read) : std::nullopt;
-          },
-          [value](const std::optional<V>& own) { return own ? value.write(*own) : Json(nullptr); },
-          {value.expected.words, [value] { return schema_or_null(value.expected.schema()); }}};
-}
 
 /// Schema of an object whose keys are not known in advance.
 [[nodiscard]] Json dictionary_schema(const Json& element);

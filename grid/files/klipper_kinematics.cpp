@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/klipper_kinematics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -230,25 +228,18 @@ def load_kinematics(toolhead, config):
 std::string klipper_source(const LengthTable& table,
                            const StraightChains& straight,
                            double piece_mm,
-                           std::string name) {
-  // It must not end the comment that it is in.
-  for (char& c : name) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  return fmt::format(fmt::runtime(kModuleHead),
-                     fmt::arg("name", name),
-                     fmt::arg("module", "chaintrue"),
-                     fmt::arg("columns", table.columns),
-                     fmt::arg("rows", table.rows),
-                     fmt::arg("x", table.area.x_min),
-                     fmt::arg("y", table.area.y_min),
-                     fmt::arg("step_x", table.step_x()),
-                     fmt::arg("step_y", table.step_y()),
-                     fmt::arg("left_x", straight.anchors.left.x_mm),
-                     fmt::arg("left_y", straight.anchors.left.y_mm),
-                     fmt::arg("right_x", straight.anchors.right.x_mm),
-                     fmt::arg("right_y", straight.anchors.right.y_mm),
-                     fmt::arg("left_longer", straight.longer_mm.left_mm),
-                     fmt::arg("right_longer", straight.longer_mm.right_mm),
-                     fmt::arg("piece", piece_mm)) +
+                           const std::string& name) {
+  return with_table(kModuleHead,
+                    table,
+                    "chaintrue",
+                    name,
+                    fmt::arg("left_x", straight.anchors.left.x_mm),
+                    fmt::arg("left_y", straight.anchors.left.y_mm),
+                    fmt::arg("right_x", straight.anchors.right.x_mm),
+                    fmt::arg("right_y", straight.anchors.right.y_mm),
+                    fmt::arg("left_longer", straight.longer_mm.left_mm),
+                    fmt::arg("right_longer", straight.longer_mm.right_mm),
+                    fmt::arg("piece", piece_mm)) +
          table.nodes_as_text("(", ")") + std::string(kModuleTail);
 }
 
@@ -317,11 +308,7 @@ tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(const LengthMap& 
   const auto bend = largest_bend(*table, straight);
   if (!bend) return tl::unexpected(MapReason::unreachable);
   const double piece_mm = piece_for(*bend);
-  return KlipperKinematics{klipper_source(*table, straight, piece_mm, name),
-                           table->columns,
-                           table->rows,
-                           table->spacing_mm(),
-                           table->largest_error_mm,
+  return KlipperKinematics{module_of(*table, klipper_source(*table, straight, piece_mm, name)),
                            piece_mm};
 }
 

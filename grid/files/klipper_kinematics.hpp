@@ -32,13 +32,8 @@
 
 namespace chaintrue::grid::files {
 
-struct KlipperKinematics {
-  std::string source;
-  int columns = 0;
-  int rows = 0;
-  double spacing_mm = 0.0;
-  double largest_error_mm = 0.0;  ///< of a length in the table
-  double piece_mm = 0.0;          ///< the longest move that is not divided
+struct KlipperKinematics : TableModule {
+  double piece_mm = 0.0;  ///< the longest move that is not divided
 };
 
 /// Approximate origins of the chains, in the map's frame, and o of (1); straight_settings.hpp gives
@@ -50,8 +45,6 @@ struct StraightChains {
 
 /// Over the map's domain. Fails if the map has no answer somewhere, or straight chains from there do not meet.
 [[nodiscard]] tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(
-    const LengthMap& map,
-    const StraightChains& straight,
-    const std::string& name);
+    const LengthMap& map, const StraightChains& straight, const std::string& name);
 
 }  // namespace chaintrue::grid::files

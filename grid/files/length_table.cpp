@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -25,8 +26,8 @@ double interpolated(const LengthTable& table, double column, double row, std::si
   for (int up = 0; up < 4; ++up) {
     std::array<double, 4> along_x{};
     for (int right = 0; right < 4; ++right)
-      along_x[static_cast<std::size_t>(right)] = table.node(k + up - 1, i + right - 1, side);
-    along_y[static_cast<std::size_t>(up)] = between(along_x, column - i);
+      along_x[as_size(right)] = table.node(k + up - 1, i + right - 1, side);
+    along_y[as_size(up)] = between(along_x, column - i);
   }
   return between(along_y, row - k);
 }
@@ -86,8 +87,7 @@ double LengthTable::node(int row, int column, std::size_t side) const {
     return beyond(
         node(rows - 1, column, side), node(rows - 2, column, side), node(rows - 3, column, side));
   }
-  return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(column)][side];
+  return nodes[as_size(row) * as_size(columns) + as_size(column)][side];
 }
 
 std::string LengthTable::nodes_as_text(std::string_view open, std::string_view close) const {
@@ -107,6 +107,10 @@ std::string LengthTable::nodes_as_text(std::string_view open, std::string_view c
     text += fmt::format("{},\n", close);
   }
   return text;
+}
+
+TableModule module_of(const LengthTable& table, std::string source) {
+  return {std::move(source), table.columns, table.rows, table.spacing_mm(), table.largest_error_mm};
 }
 
 tl::expected<LengthTable, MapFailure> length_table(const LengthMap& map) {

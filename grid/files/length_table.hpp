@@ -13,6 +13,8 @@
 /// \endcode
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 #include <string_view>
@@ -47,6 +49,37 @@ struct LengthTable {
   /// All nodes as text, four to a line; each row and each node is between `open` and `close`.
   [[nodiscard]] std::string nodes_as_text(std::string_view open, std::string_view close) const;
 };
+
+/// A kinematics module that interpolates in a table.
+struct TableModule {
+  std::string source;
+  int columns = 0;
+  int rows = 0;
+  double spacing_mm = 0.0;        ///< the larger of both
+  double largest_error_mm = 0.0;  ///< as the table's
+};
+[[nodiscard]] TableModule module_of(const LengthTable& table, std::string source);
+
+/// The text with the table's {columns}, {rows}, {x}, {y}, {step_x} and {step_y}, the {module}'s name
+/// and, for a comment, the map's {name}, and whatever `more` names.
+template <class... More>
+[[nodiscard]] std::string with_table(std::string_view text,
+                                     const LengthTable& table,
+                                     const std::string& module,
+                                     std::string name,
+                                     const More&... more) {
+  for (char& c : name) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  return fmt::format(fmt::runtime(text),
+                     fmt::arg("name", name),
+                     fmt::arg("module", module),
+                     fmt::arg("columns", table.columns),
+                     fmt::arg("rows", table.rows),
+                     fmt::arg("x", table.area.x_min),
+                     fmt::arg("y", table.area.y_min),
+                     fmt::arg("step_x", table.step_x()),
+                     fmt::arg("step_y", table.step_y()),
+                     more...);
+}
 
 /// Over the map's domain. Fails if the map has no answer somewhere in it.
 [[nodiscard]] tl::expected<LengthTable, MapFailure> length_table(const LengthMap& map);

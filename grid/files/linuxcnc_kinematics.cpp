@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/linuxcnc_kinematics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 
@@ -179,33 +177,20 @@ std::string linuxcnc_source(const LengthTable& table, const LinuxcncNames& names
   std::string map = names.map;
   // It must not end the comment that it is in.
   std::replace(map.begin(), map.end(), '*', ' ');
-  for (char& c : map) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   std::string tail(kTail);
   constexpr std::string_view kModule = "%MODULE%";
   tail.replace(tail.find(kModule), kModule.size(), names.module);
-  return fmt::format(fmt::runtime(kHead),
-                     fmt::arg("name", map),
-                     fmt::arg("module", names.module),
-                     fmt::arg("columns", table.columns),
-                     fmt::arg("rows", table.rows),
-                     fmt::arg("x", table.area.x_min),
-                     fmt::arg("y", table.area.y_min),
-                     fmt::arg("step_x", table.step_x()),
-                     fmt::arg("step_y", table.step_y())) +
-         table.nodes_as_text("{", "}") + tail;
+  return with_table(kHead, table, names.module, std::move(map)) + table.nodes_as_text("{", "}") +
+         tail;
 }
 
 }  // namespace
 
-tl::expected<LinuxcncKinematics, MapFailure> linuxcnc_kinematics(const LengthMap& map,
-                                                                 const LinuxcncNames& names) {
+tl::expected<TableModule, MapFailure> linuxcnc_kinematics(const LengthMap& map,
+                                                          const LinuxcncNames& names) {
   const auto table = length_table(map);
   if (!table) return tl::unexpected(table.error());
-  return LinuxcncKinematics{linuxcnc_source(*table, names),
-                            table->columns,
-                            table->rows,
-                            table->spacing_mm(),
-                            table->largest_error_mm};
+  return module_of(*table, linuxcnc_source(*table, names));
 }
 
 }  // namespace chaintrue::grid::files

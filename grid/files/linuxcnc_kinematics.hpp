@@ -24,17 +24,8 @@ struct LinuxcncNames {
   std::string map;     ///< for a comment
 };
 
-struct LinuxcncKinematics {
-  std::string source;
-  int columns = 0;
-  int rows = 0;
-  double spacing_mm = 0.0;        ///< the larger of both
-  /// In a length, as sampled; above kTableErrorMm only if even 5 mm between nodes are too coarse.
-  double largest_error_mm = 0.0;
-};
-
 /// Over the map's domain. Fails if the map has no answer somewhere in it.
-[[nodiscard]] tl::expected<LinuxcncKinematics, MapFailure> linuxcnc_kinematics(
-    const LengthMap& map, const LinuxcncNames& names);
+[[nodiscard]] tl::expected<TableModule, MapFailure> linuxcnc_kinematics(const LengthMap& map,
+                                                                        const LinuxcncNames& names);
 
 }  // namespace chaintrue::grid::files

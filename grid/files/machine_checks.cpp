@@ -36,8 +36,8 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                              machine.motors.right.x_mm,
                              -half,
                              half),
-                 "motors beyond both sides of the bed",
-                 ProblemKind::impossible);
+                 ProblemKind::impossible,
+                 "motors beyond both sides of the bed");
     return;
   }
   const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
@@ -50,18 +50,18 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                                place.x_mm,
                                place.y_mm,
                                pose.error().sentence()),
-                   "a bed below the motors that the sled can reach",
-                   ProblemKind::impossible);
+                   ProblemKind::impossible,
+                   "a bed below the motors that the sled can reach");
       return;
     }
-    const double pull_n = std::max(pose->chains.left.tension_at_sprocket_n,
-                                   pose->chains.right.tension_at_sprocket_n);
+    const double pull_n =
+        std::max(pose->chains.left.tension_at_sprocket_n, pose->chains.right.tension_at_sprocket_n);
     if (pull_n < kMostPullN) continue;
     problems.add("the machine's motors",
                  fmt::format("a pull of {:.0f} N at the {} of the bed", pull_n, name),
-                 fmt::format("motors so high above the bed that no chain pulls more than {:.0f} N",
-                             kMostPullN),
-                 ProblemKind::impossible);
+                 ProblemKind::impossible,
+                 "motors so high above the bed that no chain pulls more than {:.0f} N",
+                 kMostPullN);
     return;
   }
 }
@@ -69,9 +69,7 @@ void check_bed(const model::Machine& machine, Problems& problems) {
 }  // namespace
 
 void check_geometry(const model::Machine& machine, Problems& problems) {
-  for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    problems.add(fmt::format("the machine's {}", problem.parameter), problem);
-  }
+  problems.add_all("the machine's ", model::problems_of(machine));
   if (!problems.any()) check_bed(machine, problems);
 }
 

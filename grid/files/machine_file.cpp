@@ -11,19 +11,16 @@
 #include "grid/files/names.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
-#include "grid/files/whole_file.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Attachment;
 using model::Bed;
 using model::Brackets;
 using model::Chain;
 using model::ChainLengths;
 using model::Controller;
-using model::ControllerKind;
 using model::ControllerSettings;
 using model::Feed;
 using model::Frame;
@@ -35,7 +32,7 @@ using model::Sled;
 using model::Sprocket;
 using model::Uncertainty;
 
-Record<Bed> bed_record() {
+auto bed_record() {
   return Record<Bed>("a bed")
       .required(
           "width_mm", "Width of the sheet that the machine can cut.", &Bed::width_mm, kMillimetres)
@@ -46,26 +43,21 @@ Record<Bed> bed_record() {
                 kMillimetres);
 }
 
-Record<MotorPosition> motor_record() {
+auto motor_record() {
   return Record<MotorPosition>("a motor's position")
-      .required("x_mm",
-                "x of the motor's axis, from the middle of the bed to the right.",
-                &MotorPosition::x_mm,
-                kMillimetres)
-      .required("y_mm",
-                "y of the motor's axis, up from the middle of the bed.",
-                &MotorPosition::y_mm,
-                kMillimetres);
+      .place("x of the motor's axis, from the middle of the bed to the right.",
+             "y of the motor's axis, up from the middle of the bed.",
+             kMillimetres);
 }
 
-Record<PerSide<MotorPosition>> motors_record() {
+auto motors_record() {
   using Motors = PerSide<MotorPosition>;
   return Record<Motors>("the motors")
       .required("left", "The left motor.", &Motors::left, motor_record())
       .required("right", "The right motor.", &Motors::right, motor_record());
 }
 
-Record<Sprocket> sprocket_record() {
+auto sprocket_record() {
   return Record<Sprocket>("a sprocket")
       .required("teeth", "Number of teeth of a sprocket.", &Sprocket::teeth, integer(1, 1000))
       .required("pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, kMillimetres)
@@ -75,7 +67,7 @@ Record<Sprocket> sprocket_record() {
                 kMillimetres);
 }
 
-Record<Ring> ring_record() {
+auto ring_record() {
   return Record<Ring>("a ring")
       .constant("kind", "A ring or a linkage: both chains point at the bit.", "ring")
       .required("radius_mm",
@@ -85,7 +77,7 @@ Record<Ring> ring_record() {
                 kMillimetres);
 }
 
-Record<Brackets> brackets_record() {
+auto brackets_record() {
   return Record<Brackets>("a pair of brackets")
       .constant("kind", "The chains end at two brackets of the sled.", "brackets")
       .required("spacing_mm",
@@ -114,12 +106,12 @@ void read_attachment(const Cursor& at, Machine& machine) {
   }
 }
 
-std::optional<Json> write_attachment(const Machine& machine) {
+Json write_attachment(const Machine& machine) {
   if (const auto* ring = std::get_if<Ring>(&machine.attachment)) return ring_record().write(*ring);
   return brackets_record().write(std::get<Brackets>(machine.attachment));
 }
 
-Record<Chain> chain_record() {
+auto chain_record() {
   return Record<Chain>("a chain")
       .required(
           "mass_kg_per_m", "Mass of a metre of chain.", &Chain::mass_kg_per_m, number_in("kg/m"))
@@ -129,7 +121,7 @@ Record<Chain> chain_record() {
                 number_in("1/N"));
 }
 
-Record<ChainLengths> chain_zero_record() {
+auto chain_zero_record() {
   return Record<ChainLengths>("the chain zeros")
       .optional("left_mm",
                 "Added to every reading of the left chain.",
@@ -141,19 +133,19 @@ Record<ChainLengths> chain_zero_record() {
                 kMillimetres);
 }
 
-Record<Sled> sled_record() {
+auto sled_record() {
   return Record<Sled>("a sled").required(
       "mass_kg", "Mass of the sled with its router.", &Sled::mass_kg, number_in("kg"));
 }
 
-Record<Frame> frame_record() {
+auto frame_record() {
   return Record<Frame>("a frame").required("tilt_from_vertical_deg",
                                            "Angle by which the frame leans back; 0: upright.",
                                            &Frame::tilt_from_vertical_deg,
                                            number_in("degrees"));
 }
 
-Record<Uncertainty> uncertainty_record() {
+auto uncertainty_record() {
   return Record<Uncertainty>("the uncertainties")
       .optional("motor_position_mm",
                 "Uncertainty of each coordinate of a motor, 1 sigma.",
@@ -175,7 +167,7 @@ Record<Uncertainty> uncertainty_record() {
       });
 }
 
-Record<Controller> controller_record() {
+auto controller_record() {
   return Record<Controller>("a controller")
       .required("kind",
                 "The firmware, whose kinematics converts commands into chain lengths. ideal "
@@ -186,15 +178,6 @@ Record<Controller> controller_record() {
                 "The firmware's settings, by GroundControl's names.",
                 &Controller::settings,
                 controller_settings_record());
-}
-
-/// The default controller, ideal and without settings, is not written.
-std::optional<Json> write_controller(const Machine& machine) {
-  if (machine.controller.kind == ControllerKind::ideal &&
-      controller_settings_record().write(machine.controller.settings).empty()) {
-    return std::nullopt;
-  }
-  return controller_record().write(machine.controller);
 }
 
 /// No hanging router has a bed and motors below this in mm; in inches and centimetres all are below
@@ -255,18 +238,9 @@ void refuse_emptiness(const std::string& text, Problems& problems) {
     return;
   problems.add("",
                "an empty machine",
-               "a machine; chaintrue start writes one to fill in, with every key explained",
-               ProblemKind::missing);
+               ProblemKind::missing,
+               "a machine; chaintrue start writes one to fill in, with every key explained");
   problems.throw_if_any();
-}
-
-ReadMachine parse_with(const std::string& text, const std::string& file) {
-  Problems problems(file);
-  refuse_emptiness(text, problems);
-  ReadMachine read;
-  read.machine = read_document(machine_record(), text, problems);
-  read.warnings = problems.warnings();
-  return read;
 }
 
 }  // namespace
@@ -378,16 +352,12 @@ const Record<Machine>& machine_record() {
                     "are assumed and reported.",
                     &Machine::uncertainty,
                     uncertainty_record())
-          .custom(
+          .sparse(
               "controller",
               "The firmware and its settings; default: an ideal one that uses the machine file as "
               "it is.",
-              false,
-              controller_record().expected(),
-              [](const Cursor& at, Machine& machine) {
-                if (auto value = controller_record().read(at)) machine.controller = *value;
-              },
-              write_controller)
+              &Machine::controller,
+              controller_record())
           .custom(
               "declared_effects",
               "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
@@ -399,25 +369,16 @@ const Record<Machine>& machine_record() {
           .sparse("effects",
                   "Known causes of error, part of the machine.",
                   &Machine::effects,
-                  list(effect_record()))
+                  effect_record())
           .check(check_machine);
   return record;
 }
 
-ReadMachine parse_machine_with_warnings(const std::string& text, const std::string& file) {
-  return parse_with(text, file);
-}
-
-ReadMachine read_machine_with_warnings(const std::filesystem::path& path) {
-  return parse_with(read_whole_file(path), name_in_messages(path));
-}
-
-Machine parse_machine(const std::string& text, const std::string& file) {
-  return parse_with(text, file).machine;
-}
-
-Machine read_machine(const std::filesystem::path& path) {
-  return read_machine_with_warnings(path).machine;
+ReadMachine parse_machine(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  refuse_emptiness(text, problems);
+  Machine machine = read_document(machine_record(), text, problems);
+  return {std::move(machine), problems.warnings()};
 }
 
 std::string write_machine(const Machine& machine, const std::vector<std::string>& comments) {

@@ -3,12 +3,11 @@
 /// chaintrue_machine files. Unknown keys are errors, except "comment". Same machine, same bytes.
 ///
 /// \code
-///   const ReadMachine read = read_machine_with_warnings("machine.json");
-///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   const ReadMachine found = read(parse_machine, "machine.json");
+///   for (const Warning& warning : found.warnings) fmt::print(stderr, "{}\n", warning.message());
 /// \endcode
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,13 +22,8 @@ struct ReadMachine {
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. \throws InputError with every problem of the file.
-[[nodiscard]] model::Machine read_machine(const std::filesystem::path& path);
-[[nodiscard]] ReadMachine read_machine_with_warnings(const std::filesystem::path& path);
-/// Parses text; `file` is the name used in messages.
-[[nodiscard]] model::Machine parse_machine(const std::string& text, const std::string& file);
-[[nodiscard]] ReadMachine parse_machine_with_warnings(const std::string& text,
-                                                      const std::string& file);
+/// `file` is the name used in messages. \throws InputError with every problem of the file.
+[[nodiscard]] ReadMachine parse_machine(const std::string& text, const std::string& file);
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number of the machine is not finite.
 [[nodiscard]] std::string write_machine(const model::Machine& machine,

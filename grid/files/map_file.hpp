@@ -11,7 +11,6 @@
 /// digits: a sigma is never known better.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -21,9 +20,7 @@
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input.
-/// \throws InputError with every problem of the file.
-[[nodiscard]] CompensationMap read_map(const std::filesystem::path& path);
+/// `file` is the name used in messages. \throws InputError with every problem of the file.
 [[nodiscard]] CompensationMap parse_map(const std::string& text, const std::string& file);
 [[nodiscard]] std::string write_map(const CompensationMap& map,
                                     const std::optional<Provenance>& made_by = std::nullopt);

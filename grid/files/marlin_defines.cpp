@@ -4,204 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/files/blanks.hpp"
+#include "grid/files/marlin_formula.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-/// No formula of a Configuration.h is longer, once its names are replaced.
-constexpr std::size_t kLongestFormula = 500;
 /// Marlin's own has some two thousand names, and conditions five deep.
 constexpr std::size_t kMostNames = 20'000;
 constexpr std::size_t kMostConditions = 100;
-
-bool is_of_a_name(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
-bool begins_a_number(char c) {
-  return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
-/// Words and signs, one after another.
-struct CodeReader {
-  std::string_view rest;
-
-  bool takes(std::string_view sign) {
-    rest = trimmed(rest);
-    if (!rest.starts_with(sign)) return false;
-    rest.remove_prefix(sign.size());
-    return true;
-  }
-  std::string word() {
-    rest = trimmed(rest);
-    std::size_t end = 0;
-    while (end < rest.size() && is_of_a_name(rest[end])) ++end;
-    std::string own(rest.substr(0, end));
-    rest.remove_prefix(end);
-    return own;
-  }
-  [[nodiscard]] bool is_at_end() const { return trimmed(rest).empty(); }
-};
-
-/// Empty if the file does not state it.
-using Truth = std::optional<bool>;
-
-Truth negated(Truth a) { return a ? Truth(!*a) : a; }
-Truth both_hold(Truth a, Truth b) {
-  if (a == Truth(false) || b == Truth(false)) return false;
-  return a && b ? Truth(true) : std::nullopt;
-}
-Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
-
-/// The condition of an #if.
-class Condition {
- public:
-  using Asked = std::function<bool(const std::string& name)>;
-  Condition(std::string_view text, Asked is_enabled, Asked is_defined)
-      : code_{text}, is_enabled_(std::move(is_enabled)), is_defined_(std::move(is_defined)) {}
-
-  Truth value() {
-    if (code_.rest.size() > kLongestFormula) return std::nullopt;
-    const Truth holds = any();
-    return is_known_ && code_.is_at_end() ? holds : std::nullopt;
-  }
-
- private:
-  Truth any() {
-    Truth holds = all();
-    while (code_.takes("||")) holds = one_holds(holds, all());
-    return holds;
-  }
-  Truth all() {
-    Truth holds = one();
-    while (code_.takes("&&")) holds = both_hold(holds, one());
-    return holds;
-  }
-  Truth one() {
-    if (code_.takes("!")) return negated(one());
-    if (code_.takes("(")) {
-      const Truth holds = any();
-      is_known_ = code_.takes(")") && is_known_;
-      return holds;
-    }
-    const std::string word = code_.word();
-    if (word == "0" || word == "1") return word == "1";
-    const bool has_bracket = code_.takes("(");
-    if (word == "defined") {
-      const bool holds = is_defined_(code_.word());
-      is_known_ = (!has_bracket || code_.takes(")")) && is_known_;
-      return holds;
-    }
-    return has_bracket ? of_options(word) : unknown();
-  }
-  Truth of_options(const std::string& macro) {
-    bool are_all = true, is_any = false;
-    do {
-      const bool is_enabled = is_enabled_(code_.word());
-      are_all = are_all && is_enabled;
-      is_any = is_any || is_enabled;
-    } while (code_.takes(","));
-    if (!code_.takes(")")) return unknown();
-    if (macro == "ENABLED" || macro == "ALL" || macro == "BOTH") return are_all;
-    if (macro == "ANY" || macro == "EITHER") return is_any;
-    if (macro == "DISABLED" || macro == "NONE") return !is_any;
-    return unknown();
-  }
-  Truth unknown() {
-    is_known_ = false;
-    return std::nullopt;
-  }
-
-  CodeReader code_;
-  Asked is_enabled_, is_defined_;
-  bool is_known_ = true;
-};
-
-struct CNumber {
-  double value = 0.0;
-  bool is_whole = false;  ///< int, which the compiler divides as such
-};
-
-/// sum = product {(+ | -) product}; product = factor {(* | /) factor};
-/// factor = (+ | -) factor | number | [sq | sqrt] (sum)
-class CFormula {
- public:
-  explicit CFormula(std::string_view text) : code_{text} {}
-
-  /// NaN if the text is not a formula.
-  double value() {
-    const CNumber whole = sum();
-    return is_formula_ && code_.is_at_end() ? whole.value
-                                            : std::numeric_limits<double>::quiet_NaN();
-  }
-  /// A quotient of whole numbers that is not whole.
-  [[nodiscard]] std::optional<double> cut() const { return cut_; }
-
- private:
-  CNumber sum() {
-    CNumber own = product();
-    for (;;) {
-      const bool adds = code_.takes("+");
-      if (!adds && !code_.takes("-")) return own;
-      const CNumber other = product();
-      own = {own.value + (adds ? other.value : -other.value), own.is_whole && other.is_whole};
-    }
-  }
-  CNumber product() {
-    CNumber own = factor();
-    for (;;) {
-      const bool multiplies = code_.takes("*");
-      if (!multiplies && !code_.takes("/")) return own;
-      const CNumber other = factor();
-      own = {multiplies ? own.value * other.value : own.value / other.value,
-             own.is_whole && other.is_whole};
-      if (own.is_whole && own.value != std::trunc(own.value)) cut_ = own.value;
-    }
-  }
-  CNumber factor() {
-    if (code_.takes("-")) {
-      const CNumber own = factor();
-      return {-own.value, own.is_whole};
-    }
-    if (code_.takes("+")) return factor();
-    if (!trimmed(code_.rest).empty() && begins_a_number(trimmed(code_.rest).front()))
-      return number();
-    const std::string function = code_.word();
-    is_formula_ = (function.empty() || function == "sq" || function == "sqrt") &&
-                  code_.takes("(") && is_formula_;
-    if (!is_formula_) return {};
-    const CNumber own = sum();
-    is_formula_ = code_.takes(")") && is_formula_;
-    if (function == "sq") return {own.value * own.value, own.is_whole};
-    return function.empty() ? own : CNumber{std::sqrt(own.value), false};
-  }
-  CNumber number() {
-    const std::string_view rest = trimmed(code_.rest);
-    std::size_t end = 0;
-    while (end < rest.size() && (begins_a_number(rest[end]) || is_of_a_name(rest[end]) ||
-                                 ((rest[end] == '-' || rest[end] == '+') &&
-                                  (rest[end - 1] == 'e' || rest[end - 1] == 'E'))))
-      ++end;
-    std::string_view digits = rest.substr(0, end);
-    code_.rest = rest.substr(end);
-    const bool is_whole = digits.find_first_of(".eE") == std::string_view::npos;
-    digits = digits.substr(0, digits.find_last_not_of("fFlLuU") + 1);
-    const auto value = number_of(digits);
-    is_formula_ = value && is_formula_;
-    return {value.value_or(0.0), is_whole};
-  }
-
-  CodeReader code_;
-  bool is_formula_ = true;
-  std::optional<double> cut_;
-};
 
 class Defines {
  public:
@@ -215,12 +31,12 @@ class Defines {
       const std::string place = fmt::format("line {}", first);
       take(line, place);
       if (branches_.size() <= kMostConditions && defined_.size() <= kMostNames) continue;
-      problems_.add(
-          place,
-          "more names or conditions",
-          fmt::format(
-              "at most {} names, and {} nested conditions", kMostNames, kMostConditions),
-          ProblemKind::too_many);
+      problems_.add(place,
+                    "more names or conditions",
+                    ProblemKind::too_many,
+                    "at most {} names, and {} nested conditions",
+                    kMostNames,
+                    kMostConditions);
       return;
     }
   }
@@ -302,15 +118,14 @@ class Defines {
     return own != defined_.end() && !own->second.in_force.empty();
   }
   [[nodiscard]] Truth condition(std::string_view text) const {
-    return Condition(
-               text,
-               [this](const std::string& name) {
-                 if (!is_defined(name)) return false;
-                 const std::string& value = defined_.at(name).in_force.back().text;
-                 return value.empty() || value == "1" || value == "true";
-               },
-               [this](const std::string& name) { return is_defined(name); })
-        .value();
+    return truth_of(
+        text,
+        [this](const std::string& name) {
+          if (!is_defined(name)) return false;
+          const std::string& value = defined_.at(name).in_force.back().text;
+          return value.empty() || value == "1" || value == "true";
+        },
+        [this](const std::string& name) { return is_defined(name); });
   }
 
   /// Null if it is not defined or has been reported.
@@ -324,8 +139,8 @@ class Defines {
       problems_.add(
           texts[0].place,
           fmt::format("{} {}, and at {}, {}", name, texts[0].text, texts[1].place, texts[1].text),
-          "one #define of it; which #if applies is unknown here, so keep only the one in force",
-          ProblemKind::repeated_key);
+          ProblemKind::repeated_key,
+          "one #define of it; which #if applies is unknown here, so keep only the one in force");
     }
     return nullptr;
   }
@@ -357,9 +172,8 @@ class Defines {
                 const std::string& key,
                 const SettingText& own,
                 SettingTexts& texts) {
-    CFormula parsed(formula);
-    const double value = parsed.value();
-    if (std::isfinite(value) && !parsed.cut()) {
+    const auto [value, cut] = value_of_formula(formula);
+    if (std::isfinite(value) && !cut) {
       texts[key] = {fmt::format("{}", value), own.place};
       return;
     }
@@ -368,13 +182,13 @@ class Defines {
     problems_.add(
         own.place,
         own.text.empty() ? "nothing" : own.text,
+        kind_of_bad_number(formula),
         std::isfinite(value)
             ? fmt::format("a whole quotient, or .0 after one of its numbers: the compiler "
                           "truncates {} ({})",
-                          *parsed.cut(),
+                          *cut,
                           name)
-            : fmt::format("a number, or a sum of numbers and of defined names ({}){}", name, hint),
-        kind_of_bad_number(formula));
+            : fmt::format("a number, or a sum of numbers and of defined names ({}){}", name, hint));
   }
 
   Problems& problems_;
@@ -394,9 +208,7 @@ std::string without_comments(std::string_view text) {
       continue;
     }
     const std::size_t end = std::min(text.find(is_block ? "*/" : "\n", i + 2), text.size());
-    code.append(static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
-                                                    text.begin() + static_cast<std::ptrdiff_t>(end),
-                                                    '\n')),
+    code.append(as_size(std::count(text.begin() + as_index(i), text.begin() + as_index(end), '\n')),
                 '\n');
     i = is_block ? std::min(end + 2, text.size()) : end;
   }

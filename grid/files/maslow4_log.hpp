@@ -35,7 +35,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
@@ -48,8 +47,11 @@ struct PointRange {
   std::size_t first = 0;
   std::size_t last = 0;
 };
-/// A run, counted from 1, or points; empty: the last run.
-using LogPart = std::optional<std::variant<int, PointRange>>;
+/// A run, counted from 1, or points; neither: the last run.
+struct LogPart {
+  std::optional<int> run = std::nullopt;
+  std::optional<PointRange> points = std::nullopt;
+};
 /// "2", "1,2" or "0:98". \throws InputError otherwise.
 [[nodiscard]] std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option);
 

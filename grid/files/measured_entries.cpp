@@ -8,6 +8,7 @@
 #include <map>
 
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -26,7 +27,7 @@ void fetch_machine(std::optional<model::Machine>& machine,
   } else if (!machine_file.empty() && !machine) {
     const auto folder = std::filesystem::path(problems.file()).parent_path();
     try {
-      ReadMachine read = read_machine_with_warnings(folder / machine_file);
+      ReadMachine read = files::read(parse_machine, folder / machine_file);
       machine = std::move(read.machine);
       problems.add_warnings(read.warnings);
     } catch (const InputError& error) {
@@ -54,16 +55,16 @@ std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
   if (kept.empty()) {
     problems.add(place,
                  fmt::format("{} {}, all left blank", blank.size(), words.entries),
-                 std::string(words.to_write),
-                 ProblemKind::left_blank);
+                 ProblemKind::left_blank,
+                 std::string(words.to_write));
     problems.throw_if_any();
   }
   problems.warn(place,
-                fmt::format("{} of {} {} are left blank and left out: {}",
-                            blank.size(),
-                            blank_names.size(),
-                            words.entries,
-                            joined(blank)));
+                "{} of {} {} are left blank and left out: {}",
+                blank.size(),
+                blank_names.size(),
+                words.entries,
+                joined(blank));
   return kept;
 }
 
@@ -88,19 +89,18 @@ void check_orders(const std::vector<StatedOrder>& orders,
       problems.add(
           place_of(i, "order"),
           "",
-          fmt::format(
-              "the number of the visit, as for {} other points; either all points have it or none",
-              with_order),
-          ProblemKind::missing);
+          ProblemKind::missing,
+          "the number of the visit, as for {} other points; either all points have it or none",
+          with_order);
       continue;
     }
     const auto [other, is_new] = first_with.emplace(*orders[i].order, i);
     if (!is_new) {
       problems.add(place_of(i, "order"),
                    fmt::format("{}", *orders[i].order),
-                   fmt::format("a different number for each visit; {} has the same",
-                               place_of(other->second, "")),
-                   ProblemKind::repeated_value);
+                   ProblemKind::repeated_value,
+                   "a different number for each visit; {} has the same",
+                   place_of(other->second, ""));
     }
   }
 }

@@ -3,7 +3,7 @@
 /// How a file of measurements is read: values that it may omit, or that replace its own.
 ///
 /// \code
-///   const ReadGrid read = read_grid("grid.csv", {.machine = read_machine("machine.json")});
+///   const ReadGrid found = read(parse_grid, "grid.csv", {.machine = machine});
 /// \endcode
 #pragma once
 

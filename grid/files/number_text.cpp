@@ -60,6 +60,13 @@ std::optional<double> number_of(std::string_view text) {
   return std::isfinite(parsed.value) ? std::optional(parsed.value) : std::nullopt;
 }
 
+std::optional<int> whole_number_of(std::string_view text, int least, int most) {
+  const auto number = number_of(text);
+  const bool is_whole =
+      number && *number >= least && *number <= most && *number == std::floor(*number);
+  return is_whole ? std::optional(static_cast<int>(*number)) : std::nullopt;
+}
+
 std::vector<std::string> parts_at_commas(std::string_view text) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -120,10 +127,7 @@ std::optional<double> checked_number(std::string_view text,
         "; a spreadsheet converted {0} to a date: write 0 {0}, in a column formatted as text",
         *fraction);
   }
-  problems.add(place,
-               text,
-               fmt::format("{} ({}){}", range.expected(), name, hint),
-               kind_of_bad_number(text));
+  problems.add(place, text, kind_of_bad_number(text), "{} ({}){}", range.expected(), name, hint);
   return std::nullopt;
 }
 
@@ -162,7 +166,7 @@ std::optional<double> take_unit(std::string_view& text) {
 
 /// Digits alone: no sign, point or exponent.
 std::optional<double> whole(std::string_view text) {
-  const bool is_whole = !text.empty() && all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  const bool is_whole = !text.empty() && all_of(text, is_digit);
   return is_whole ? number_of(text) : std::nullopt;
 }
 

@@ -28,6 +28,9 @@ struct Range {
 /// rejected.
 [[nodiscard]] std::optional<double> number_of(std::string_view text);
 
+/// A whole number in this range; empty for any other text.
+[[nodiscard]] std::optional<int> whole_number_of(std::string_view text, int least, int most);
+
 /// "7x4" for 'x': two whole numbers from `least` to `most`; empty for any other text.
 [[nodiscard]] std::optional<std::array<int, 2>> pair_of(std::string_view text,
                                                         char between,

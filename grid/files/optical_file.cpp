@@ -5,12 +5,12 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/grid_checks.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -35,12 +35,12 @@ void check_shape(const std::vector<CsvRow>& rows, Problems& problems) {
       "two blocks of {} lines with {} numbers, an empty line between them", kRows, kColumns);
   if (rows.size() != kLines) {
     problems.add(
-        "", fmt::format("{} lines of numbers", rows.size()), expected, ProblemKind::bad_table);
+        "", fmt::format("{} lines of numbers", rows.size()), ProblemKind::bad_table, expected);
   } else if (rows[kRows].front().line == rows[kRows - 1].front().line + 1) {
     problems.add(line_and_column(rows[kRows].front().line, 1),
                  "no empty line before it",
-                 expected,
-                 ProblemKind::bad_table);
+                 ProblemKind::bad_table,
+                 expected);
   }
 }
 
@@ -49,10 +49,10 @@ void check_width(const CsvRow& row, char separator, Problems& problems) {
   const bool doubled = separator == ',' && row.size() >= 2 * kColumns - 1;
   problems.add(line_and_column(row.front().line, 1),
                fmt::format("{} numbers", row.size()),
-               fmt::format("{} numbers{}",
-                           kColumns,
-                           doubled ? " with decimal points; these look like decimal commas" : ""),
-               ProblemKind::bad_table);
+               ProblemKind::bad_table,
+               "{} numbers{}",
+               kColumns,
+               doubled ? " with decimal points; these look like decimal commas" : "");
 }
 
 Blocks read_blocks(const std::string& text, Problems& problems) {
@@ -61,7 +61,7 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
   std::vector<CsvRow> rows = split_csv(text, separator, problems);
   if (rows.empty())
     problems.add(
-        "", "an empty file", "the scan written by an optical calibration", ProblemKind::empty_file);
+        "", "an empty file", ProblemKind::empty_file, "the scan written by an optical calibration");
   problems.throw_if_any();
   check_shape(rows, problems);
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -104,15 +104,15 @@ void check_options(const OpticalOptions& options, Problems& problems) {
   if (!kOpticalPitchMm.holds(options.pitch_mm)) {
     problems.add("--pitch-mm",
                  fmt::format("{}", options.pitch_mm),
-                 kOpticalPitchMm.expected(),
-                 ProblemKind::out_of_range);
+                 ProblemKind::out_of_range,
+                 kOpticalPitchMm.expected());
   }
   if (options.machine.controller.kind == model::ControllerKind::ideal) {
     problems.add("the machine's /controller",
                  "",
+                 ProblemKind::missing,
                  "the controller that executed the commands (\"kind\": \"maslow_classic\", "
-                 "\"holey\" or \"fluidnc_wallplotter\") and its settings",
-                 ProblemKind::missing);
+                 "\"holey\" or \"fluidnc_wallplotter\") and its settings");
   }
 }
 
@@ -129,8 +129,8 @@ ReadOptical parse_optical(const std::string& text,
   std::vector<std::string> lines;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const auto r = static_cast<std::size_t>(row);
-      const auto c = static_cast<std::size_t>(column);
+      const auto r = as_size(row);
+      const auto c = as_size(column);
       if (blocks.x[r][c] == 0.0 && blocks.y[r][c] == 0.0) continue;
       StatedPoint point;
       point.x_mm = as_decimal((column - kColumns / 2) * options.pitch_mm);
@@ -154,10 +154,6 @@ ReadOptical parse_optical(const std::string& text,
   check_points_together(read.grid, kFewestPoints, places, problems);
   problems.throw_if_any();
   return read;
-}
-
-ReadOptical read_optical(const std::filesystem::path& path, const OpticalOptions& options) {
-  return parse_optical(read_whole_file(path), name_in_messages(path), options);
 }
 
 }  // namespace chaintrue::grid::files

@@ -14,7 +14,6 @@
 /// with a compensation switched on has the same form but another meaning; (1) does not hold for it.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -37,11 +36,8 @@ struct ReadOptical {
   int squares = 0;
 };
 
-/// "-" reads standard input. \throws InputError with every problem of the file, or if the machine
-/// has no controller.
-[[nodiscard]] ReadOptical read_optical(const std::filesystem::path& path,
-                                       const OpticalOptions& options);
-/// `file` is the name used in messages and, without its folder, the grid's.
+/// `file` is the name used in messages and, without its folder, the grid's. \throws InputError with
+/// every problem of the file, or if the machine has no controller.
 [[nodiscard]] ReadOptical parse_optical(const std::string& text,
                                         const std::string& file,
                                         const OpticalOptions& options);

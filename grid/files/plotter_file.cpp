@@ -12,7 +12,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-Record<FoundSetting> found_setting_record() {
+auto found_setting_record() {
   return Record<FoundSetting>("an estimated setting")
       .required("value", "Its value.", &FoundSetting::value, kMillimetres)
       .required("sigma", "Its uncertainty, 1 sigma.", &FoundSetting::sigma, kSigmaMm);
@@ -22,10 +22,10 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   constexpr std::size_t kPairs = 15;  // of six settings
   if (!at.clean()) return;
   if (found.correlations.size() != kPairs) {
-    at.problems().add(at.pointer() + "/correlations",
-                      fmt::format("{} numbers", found.correlations.size()),
-                      "15, of each of the six settings with those after it",
-                      ProblemKind::wrong_count);
+    at.child("correlations")
+        .report(fmt::format("{} numbers", found.correlations.size()),
+                ProblemKind::wrong_count,
+                "15, of each of the six settings with those after it");
     return;
   }
   // Rounding may move a correlation matrix's least eigenvalue below zero by this.
@@ -38,40 +38,40 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
     of_ones.col(i) /= scale[i];
   }
   if (linear::SymmetricEigen(of_ones).eigenvalues().minCoeff() >= -kRounding) return;
-  at.problems().add(at.pointer() + "/correlations",
-                    "correlations that six quantities can have",
-                    "the ones that chaintrue fit wrote",
-                    ProblemKind::impossible);
+  at.child("correlations")
+      .report("correlations that six quantities can have",
+              ProblemKind::impossible,
+              "the ones that chaintrue fit wrote");
 }
 
-Record<FoundPlotter> found_plotter_record() {
+auto found_plotter_record() {
   using Found = FoundPlotter;
-  const auto setting = [] { return object(found_setting_record()); };
+  const auto setting = found_setting_record();
   return Record<Found>("settings estimated from a drawing")
-      .required("pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting())
+      .required("pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting)
       .required(
-          "pin_rise_mm", "Height of the right pin above the left.", &Found::pin_rise_mm, setting())
+          "pin_rise_mm", "Height of the right pin above the left.", &Found::pin_rise_mm, setting)
       .required("zero_left_mm",
                 "Excess of the controller's length of the left cord.",
                 &Found::zero_left_mm,
-                setting())
+                setting)
       .required("zero_right_mm",
                 "Excess of the controller's length of the right cord.",
                 &Found::zero_right_mm,
-                setting())
+                setting)
       .required("scale_left_mm_per_m",
                 "Excess of the controller's length per metre of the left cord.",
                 &Found::scale_left_mm_per_m,
-                setting())
+                setting)
       .required("scale_right_mm_per_m",
                 "Excess of the controller's length per metre of the right cord.",
                 &Found::scale_right_mm_per_m,
-                setting())
+                setting)
       .required("correlations",
                 "Correlations of each of these six, in this order, with those after it: 15 "
                 "numbers, used for the expected error of compensated drawings.",
                 &Found::correlations,
-                list(number({"", -1.0, 1.0})))
+                list({"", -1.0, 1.0}))
       .check(check_correlations);
 }
 
@@ -80,10 +80,9 @@ void check_found(const Cursor& at, KnownPlotter& plotter) {
   if (!at.clean() || !plotter.found) return;
   const auto problems = model::problems_of(machine_found(plotter.set, *plotter.found));
   if (problems.empty()) return;
-  at.problems().add(at.pointer() + "/found",
-                    problems.front().parameter.substr(1) + " " + problems.front().value,
-                    problems.front().expected,
-                    ProblemKind::impossible);
+  at.child("found").report(problems.front().parameter.substr(1) + " " + problems.front().value,
+                           ProblemKind::impossible,
+                           problems.front().expected);
 }
 
 const Record<KnownPlotter>& plotter_record() {

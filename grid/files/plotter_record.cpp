@@ -7,7 +7,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::BedPoint;
 using model::ChainLengths;
 using model::Cord;
 using model::DrawingArea;
@@ -17,7 +16,7 @@ using model::PlotterFirmware;
 using model::PlotterMachine;
 using model::PlotterUncertainty;
 
-Record<Gondola> gondola_record() {
+auto gondola_record() {
   return Record<Gondola>("a gondola")
       .optional("spacing_mm",
                 "Between the two points where the cords hold it; 0: both cords end at the pen.",
@@ -47,7 +46,7 @@ Record<Gondola> gondola_record() {
                 kMillimetres);
 }
 
-Record<Cord> cord_record() {
+auto cord_record() {
   return Record<Cord>("a cord")
       .optional(
           "mass_kg_per_m", "Mass of a metre of cord.", &Cord::mass_kg_per_m, number_in("kg/m"))
@@ -61,7 +60,7 @@ Record<Cord> cord_record() {
                 kMillimetres);
 }
 
-Record<DrawingArea> area_record() {
+auto area_record() {
   return Record<DrawingArea>("a drawing area")
       .required("left_mm", "Left limit of the pen.", &DrawingArea::left_mm, kMillimetres)
       .required("right_mm", "Right limit of the pen.", &DrawingArea::right_mm, kMillimetres)
@@ -72,7 +71,7 @@ Record<DrawingArea> area_record() {
       .required("bottom_mm", "Lower limit of the pen.", &DrawingArea::bottom_mm, kMillimetres);
 }
 
-Record<ChainLengths> cord_zero_record() {
+auto cord_zero_record() {
   return Record<ChainLengths>("the zeros of the cords")
       .optional("left_mm",
                 "Excess of the controller's length of the left cord.",
@@ -84,7 +83,7 @@ Record<ChainLengths> cord_zero_record() {
                 kMillimetres);
 }
 
-Record<ChainLengths> cord_scale_record() {
+auto cord_scale_record() {
   return Record<ChainLengths>("the scales of the cords")
       .optional("left_mm_per_m",
                 "Excess of the controller's length per metre of the left cord.",
@@ -96,7 +95,7 @@ Record<ChainLengths> cord_scale_record() {
                 number_in("mm/m"));
 }
 
-Record<PlotterUncertainty> uncertainty_of_plotter_record() {
+auto uncertainty_of_plotter_record() {
   using Sigmas = PlotterUncertainty;
   return Record<Sigmas>("the uncertainties of a V-plotter")
       .optional("pin_spacing_mm",
@@ -120,7 +119,7 @@ void check_plotter_machine(const Cursor& at, PlotterMachine& machine) {
   report_impossible(at, model::problems_of(machine));
 }
 
-Record<PlotterMachine> plotter_machine_record() {
+auto plotter_machine_record() {
   using model::Feed;
   using Plotter = PlotterMachine;
   return Record<Plotter>("a V-plotter's machine")
@@ -137,7 +136,7 @@ Record<PlotterMachine> plotter_machine_record() {
       .required("motors",
                 "Location of the motors with the pulleys or spools that count.",
                 &Plotter::motors,
-                by_name({MotorPlace::wall, MotorPlace::gondola}))
+                by_name_to(MotorPlace::gondola))
       .optional(
           "feed", "Side of its pulley over which a cord leaves.", &Plotter::feed, choice(kFeeds))
       .optional("pulley_radius_mm",
@@ -162,20 +161,19 @@ Record<PlotterMachine> plotter_machine_record() {
       .check(check_plotter_machine);
 }
 
-Record<model::PerSide<double>> steps_record() {
+auto steps_record() {
   using Steps = model::PerSide<double>;
   return Record<Steps>("steps per millimetre")
-      .required("left", "For the left motor; 0: unknown.", &Steps::left, number({"", 0.0, 1e5}))
-      .required("right", "For the right motor; 0: unknown.", &Steps::right, number({"", 0.0, 1e5}));
+      .required("left", "For the left motor; 0: unknown.", &Steps::left, {"", 0.0, 1e5})
+      .required("right", "For the right motor; 0: unknown.", &Steps::right, {"", 0.0, 1e5});
 }
 
-Record<BedPoint> wall_point_record() {
-  return Record<BedPoint>("a place on the wall")
-      .required("x_mm", "x, to the right.", &BedPoint::x_mm, kPlaceMm)
-      .required("y_mm", "y, up.", &BedPoint::y_mm, kPlaceMm);
+auto wall_point_record() {
+  return Record<model::BedPoint>("a place on the wall")
+      .place("x, to the right.", "y, up.", kPlaceMm);
 }
 
-Record<PenCommands> pen_record() {
+auto pen_record() {
   return Record<PenCommands>("the pen's commands")
       .required("up", "The line of G-code that lifts the pen.", &PenCommands::up)
       .required("down", "The line of G-code that lowers it.", &PenCommands::down);
@@ -185,14 +183,17 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
   if (!at.clean()) return;
   const bool is_mural = set.firmware == PlotterFirmware::mural;
   if (is_mural && model::is_point(set.machine.gondola)) {
-    at.problems().add(at.pointer() + "/machine/gondola/spacing_mm",
-                      "0",
-                      "for a mural, the distance between its two pulleys, 85 as built",
-                      ProblemKind::out_of_range);
+    at.child("machine")
+        .child("gondola")
+        .child("spacing_mm")
+        .report("0",
+                ProblemKind::out_of_range,
+                "for a mural, the distance between its two pulleys, 85 as built");
   }
   if (!is_mural && !set.home) {
     at.child("home").missing(
-        "the position that the controller assumes when it is switched on, from the middle between the "
+        "the position that the controller assumes when it is switched on, from the middle between "
+        "the "
         "pins");
   }
 }
@@ -205,10 +206,7 @@ Record<SetPlotter> set_plotter_record() {
                 "The firmware, whose kinematics converts a command into cord lengths; a "
                 "Makelangelo is a marlin.",
                 &SetPlotter::firmware,
-                by_name({PlotterFirmware::fluidnc,
-                         PlotterFirmware::marlin,
-                         PlotterFirmware::polargraph,
-                         PlotterFirmware::mural}))
+                by_name_to(PlotterFirmware::mural))
       .required("machine",
                 "The machine with the controller's settings.",
                 &SetPlotter::machine,
@@ -227,20 +225,20 @@ Record<SetPlotter> set_plotter_record() {
       .optional("homed_offset_mm",
                 "Homed step offset of a mural.",
                 &SetPlotter::homed_offset_mm,
-                number({"mm", -1000.0, 1000.0}))
+                {"mm", -1000.0, 1000.0})
       .optional("pen", "Commands that lift and lower the pen.", &SetPlotter::pen, pen_record())
       .optional("feed_mm_per_min",
                 "Feed for the test page.",
                 &SetPlotter::feed_mm_per_min,
-                number({"mm/min", 1.0, 1e5}))
+                {"mm/min", 1.0, 1e5})
       .optional("longest_belt_mm",
                 "Longest belt that the controller allows; the test drawing stays within it.",
                 &SetPlotter::longest_belt_mm,
-                number({"mm", 1.0, 40000.0}))
+                {"mm", 1.0, 40000.0})
       .optional("segments_per_second",
                 "For Marlin: pieces per second into which it divides a move (S of M665).",
                 &SetPlotter::segments_per_second,
-                number({"1/s", 0.1, 1e4}))
+                {"1/s", 0.1, 1e4})
       .check(check_set_plotter);
 }
 

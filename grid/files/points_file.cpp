@@ -29,7 +29,7 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
                                   problems);
   if (table.rows.empty() && !problems.any()) {
     problems.add(
-        "", "a header line only", "at least one line of numbers below it", ProblemKind::empty_file);
+        "", "a header line only", ProblemKind::empty_file, "at least one line of numbers below it");
   }
   problems.throw_if_any();
   std::vector<model::MarkPoint> points;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/problems.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <utility>
 
 #include "grid/containers.hpp"
 
@@ -72,8 +69,8 @@ std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
 
 void Problems::add(std::string place,
                    std::string_view value,
-                   std::string expected,
-                   ProblemKind kind) {
+                   ProblemKind kind,
+                   std::string expected) {
   list_.push_back({file_, std::move(place), shortened(value), std::move(expected), {}, kind});
 }
 
@@ -81,7 +78,11 @@ void Problems::explain(std::string place, ProblemKind kind, std::string sentence
   list_.push_back({file_, std::move(place), {}, {}, std::move(sentence), kind});
 }
 
-void Problems::warn(std::string place, std::string sentence, std::optional<ProblemKind> kind) {
+void Problems::warn(std::string place, std::string sentence) {
+  warnings_.push_back({file_, std::move(place), std::move(sentence)});
+}
+
+void Problems::doubt(std::string place, std::string sentence, ProblemKind kind) {
   warnings_.push_back({file_, std::move(place), std::move(sentence), kind});
 }
 
@@ -142,7 +143,7 @@ std::string line_and_column(std::size_t line, std::size_t column) {
 
 std::string line_and_column_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const auto line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  const auto line = 1 + as_size(std::count(before.begin(), before.end(), '\n'));
   const std::size_t last_break = before.rfind('\n');
   const std::size_t column =
       last_break == std::string_view::npos ? before.size() + 1 : before.size() - last_break;

@@ -5,14 +5,17 @@
 ///
 /// \code
 ///   Problems problems("grid.csv");
-///   problems.add("line 4, column 12", "abc", "a number in mm", ProblemKind::not_a_number);
+///   problems.add("line 4, column 12", "abc", ProblemKind::not_a_number, "a number in mm");
 ///   problems.throw_if_any();
 /// \endcode
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
@@ -25,16 +28,33 @@ class Problems {
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
   /// `value` is shortened to 60 characters and made printable here.
-  void add(std::string place, std::string_view value, std::string expected, ProblemKind kind);
+  void add(std::string place, std::string_view value, ProblemKind kind, std::string expected);
+  template <class... Args>
+  requires(sizeof...(Args) > 0) void add(std::string place,
+                                         std::string_view value,
+                                         ProblemKind kind,
+                                         fmt::format_string<Args...> expected,
+                                         Args&&... args) {
+    add(std::move(place), value, kind, fmt::format(expected, std::forward<Args>(args)...));
+  }
   /// A value that no machine has.
   void add(std::string place, const model::MachineProblem& problem) {
-    add(std::move(place), problem.value, problem.expected, ProblemKind::impossible);
+    add(std::move(place), problem.value, ProblemKind::impossible, problem.expected);
+  }
+  /// Each at its parameter: "the machine's /bed/width_mm".
+  void add_all(const std::string& whose, const std::vector<model::MachineProblem>& found) {
+    for (const model::MachineProblem& problem : found) add(whose + problem.parameter, problem);
   }
   /// A recognised mistake: `sentence` describes it and what to do.
   void explain(std::string place, ProblemKind kind, std::string sentence);
-  void warn(std::string place,
-            std::string sentence,
-            std::optional<ProblemKind> kind = std::nullopt);
+  void warn(std::string place, std::string sentence);
+  template <class... Args>
+  requires(sizeof...(Args) >
+           0) void warn(std::string place, fmt::format_string<Args...> sentence, Args&&... args) {
+    warn(std::move(place), fmt::format(sentence, std::forward<Args>(args)...));
+  }
+  /// Warns of what may be a mistake of this kind.
+  void doubt(std::string place, std::string sentence, ProblemKind kind);
   /// Adds those of another file that this one names.
   void add_all(const InputError& error);
   void add_warnings(const std::vector<Warning>& warnings);

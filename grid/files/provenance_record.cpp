@@ -12,7 +12,7 @@ namespace chaintrue::grid::files {
 
 namespace {
 
-Record<SourceFile> source_file_record() {
+auto source_file_record() {
   return Record<SourceFile>("a file that was read")
       .required("name", "Its name, without folders.", &SourceFile::name)
       .required("sha256",
@@ -29,12 +29,11 @@ Record<Provenance> provenance_record() {
       .required("options",
                 "Options as given, with files without their folders and without those that "
                 "name an output.",
-                &Provenance::options,
-                list(text()))
+                &Provenance::options)
       .required("inputs",
                 "The files that were read, in order.",
                 &Provenance::inputs,
-                list(source_file_record()));
+                source_file_record());
 }
 
 Json with_made_by(Json document, const std::optional<Provenance>& made_by) {

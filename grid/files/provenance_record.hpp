@@ -24,7 +24,7 @@ Record<T>& add_made_by_key(Record<T>& record) {
       false,
       provenance_record().expected(),
       [](const Cursor& at, T&) { (void)provenance_record().read(at); },
-      [](const T&) { return std::optional<Json>(); });
+      [](const T&) { return kLeftOut; });
 }
 
 /// The document with that key at its end, if known.
@@ -54,7 +54,7 @@ Record<T>& add_content_hash(Record<T>& record, std::string_view meaning) {
       true,
       {"the hash of this file's content", text().expected.schema},
       [](const Cursor& at, T&) { (void)at.text(); },
-      [](const T&) { return std::optional<Json>(); });
+      [](const T&) { return kLeftOut; });
 }
 
 }  // namespace chaintrue::grid::files

@@ -67,11 +67,9 @@ Record<ExtraReading> reading_record() {
       .required("value",
                 "Its value, in the unit at the end of the quantity's name.",
                 &ExtraReading::value,
-                number({"", -kAny, kAny}))
-      .required("sigma",
-                "1 sigma, in the same unit.",
-                &ExtraReading::sigma,
-                number({"", kSmallestSigma, kAny}))
+                {"", -kAny, kAny})
+      .required(
+          "sigma", "1 sigma, in the same unit.", &ExtraReading::sigma, {"", kSmallestSigma, kAny})
       .check(check_reading);
 }
 

@@ -29,14 +29,17 @@ Value<std::uint64_t> seed_number() {
            }}};
 }
 
-Value<Eigen::Vector2d> pair_of_numbers(const Range& range) {
+Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order) {
   const Value<std::vector<double>> numbers = list(number(range), 2);
-  const std::string expected =
-      fmt::format("a pair of numbers{}{}", range.unit.empty() ? "" : " in ", range.unit);
-  return {[numbers, expected](const Cursor& at) -> std::optional<Eigen::Vector2d> {
+  const std::string expected = fmt::format("a pair of numbers{}{}{}",
+                                           range.unit.empty() ? "" : " in ",
+                                           range.unit,
+                                           in_order ? ", the lower one first" : "");
+  return {[numbers, expected, in_order](const Cursor& at) -> std::optional<Eigen::Vector2d> {
             const auto read = numbers.read(at);
             if (!read || read->size() < 2) return std::nullopt;
-            if (read->size() == 2) return Eigen::Vector2d((*read)[0], (*read)[1]);
+            const Eigen::Vector2d pair((*read)[0], (*read)[1]);
+            if (read->size() == 2 && (!in_order || pair[0] <= pair[1])) return pair;
             at.expect(expected);
             return std::nullopt;
           },

@@ -23,17 +23,30 @@ inline constexpr Range kShare{"", 0.0, 1.0};
 inline constexpr Range kMillimetres{"mm", -1e6, 1e6};
 inline constexpr Range kSigmaMm{"mm", 0.0, 1e6};
 inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
-/// Largest number of points, distances and positions.
-inline constexpr int kMostNumbered = 1000000;
-
-/// The number of a point, a distance or a position, from 0; or a count.
-[[nodiscard]] Value<std::size_t> index_number(int least = 0, int most = kMostNumbered);
-
 /// A seed of random numbers.
 [[nodiscard]] Value<std::uint64_t> seed_number();
 
-/// A vector in the plane, or a number for each chain, as a pair of numbers.
-[[nodiscard]] Value<Eigen::Vector2d> pair_of_numbers(const Range& range);
+/// A vector in the plane, or a number for each chain, as a pair of numbers; `in_order`: the lower
+/// one first.
+[[nodiscard]] Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order = false);
+
+/// Two members of an object as such a pair.
+template <class T>
+[[nodiscard]] Value<T> members_as_pair(const Value<Eigen::Vector2d>& pair,
+                                       double T::*first,
+                                       double T::*second) {
+  return partial<T>(
+      pair.expected,
+      [=](const Cursor& at, T& object) {
+        const auto read = pair.read(at);
+        if (!read) return;
+        object.*first = (*read)[0];
+        object.*second = (*read)[1];
+      },
+      [=](const T& object) {
+        return pair.write({object.*first, object.*second});
+      });
+}
 
 /// A list of numbers, or rows of numbers; rows of different lengths give a 0 x 0 matrix.
 [[nodiscard]] Value<Eigen::VectorXd> vector_of_numbers();
@@ -58,10 +71,7 @@ template <std::size_t N, class V>
               std::copy(found->begin(), found->end(), values.begin());
               return values;
             }
-            at.problems().add(at.pointer(),
-                              std::to_string(found->size()) + " of them",
-                              words,
-                              ProblemKind::wrong_count);
+            at.report(std::to_string(found->size()) + " of them", ProblemKind::wrong_count, words);
             return std::nullopt;
           },
           [all](const std::array<V, N>& values) {

@@ -36,8 +36,9 @@ bool is_first(std::map<std::string, std::string>& places,
   if (!is_new) {
     problems.add(place,
                  line,
-                 fmt::format("this key only once; it is already at {}", same->second),
-                 ProblemKind::repeated_key);
+                 ProblemKind::repeated_key,
+                 "this key only once; it is already at {}",
+                 same->second);
   }
   return is_new;
 }
@@ -61,7 +62,7 @@ SettingReader::SettingReader(SettingTexts texts,
                              std::vector<std::string> folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
   if (texts_.size() > kMostSettings)
-    problems.add("", "more settings", at_most_settings(), ProblemKind::too_many);
+    problems.add("", "more settings", ProblemKind::too_many, at_most_settings());
 }
 
 const SettingText* SettingReader::look(const std::string& key) {
@@ -87,12 +88,13 @@ std::optional<double> SettingReader::find(const std::string& key, const Range& r
 
 std::optional<double> SettingReader::need(const std::string& key, const Range& range) {
   if (look(key) == nullptr) {
-    problems_.add(key,
-                  "",
-                  folders_.empty()
-                      ? range.expected()
-                      : fmt::format("{}, in [{}]", range.expected(), fmt::join(folders_, "] or [")),
-                  ProblemKind::missing);
+    problems_.add(
+        key,
+        "",
+        ProblemKind::missing,
+        folders_.empty()
+            ? range.expected()
+            : fmt::format("{}, in [{}]", range.expected(), fmt::join(folders_, "] or [")));
   }
   return find(key, range);
 }
@@ -104,18 +106,18 @@ std::optional<std::string> SettingReader::find_word(const std::string& key,
   if (contains(words, setting->text)) return setting->text;
   problems_.add(setting->place,
                 setting->text.empty() ? "nothing" : setting->text,
-                fmt::format("{} ({})", fmt::join(words, " or "), key),
-                ProblemKind::unknown_word);
+                ProblemKind::unknown_word,
+                "{} ({})",
+                fmt::join(words, " or "),
+                key);
   return std::nullopt;
 }
 
 void SettingReader::refuse_others() {
   for (const auto& [path, setting] : texts_) {
     if (!read_.contains(path))
-      problems_.add(setting.place,
-                    path,
-                    fmt::format("one of {}", fmt::join(asked_, ", ")),
-                    ProblemKind::unknown_word);
+      problems_.add(
+          setting.place, path, ProblemKind::unknown_word, "one of {}", fmt::join(asked_, ", "));
   }
 }
 
@@ -139,10 +141,10 @@ void SettingReader::warn_of_others(std::string_view says_what) {
   const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
   names.resize(names.size() - more);
   problems_.warn("",
-                 fmt::format("ignored, because none of it {}: {}{}",
-                             says_what,
-                             fmt::join(names, ", "),
-                             more == 0 ? "" : fmt::format(" and {} more", more)));
+                 "ignored, because none of it {}: {}{}",
+                 says_what,
+                 fmt::join(names, ", "),
+                 more == 0 ? "" : fmt::format(" and {} more", more));
 }
 
 SettingTexts yaml_texts(const std::string& text, Problems& problems) {
@@ -200,7 +202,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
   text = without_byte_order_mark(text);
   SettingTexts texts;
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    problems.add("", "an empty file", "an ini file with [sections]", ProblemKind::empty_file);
+    problems.add("", "an empty file", ProblemKind::empty_file, "an ini file with [sections]");
   }
   std::map<std::string, std::string> places;
   std::string section;
@@ -220,13 +222,13 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
     if (sign == 0 || sign == std::string_view::npos || section.empty()) {
       problems.add(place,
                    line,
-                   "[a section] or key = value in a section, as in an ini file",
-                   ProblemKind::bad_syntax);
+                   ProblemKind::bad_syntax,
+                   "[a section] or key = value in a section, as in an ini file");
       if (++strange == kMostStrangeLines) break;
       continue;
     }
     if (settings++ == kMostSettings) {
-      problems.add(place, "more settings", at_most_settings(), ProblemKind::too_many);
+      problems.add(place, "more settings", ProblemKind::too_many, at_most_settings());
       break;
     }
     const std::string key = section + in_small_letters(trimmed(line.substr(0, sign)));

@@ -59,19 +59,19 @@ Value<GridLevel> grid_size(int least) {
            }}};
 }
 
-Record<NoiseLevel> noise_level_record() {
+auto noise_level_record() {
   return Record<NoiseLevel>("a noise")
       .required("length_mm",
                 "Noise of a chain reading, 1 sigma.",
                 &NoiseLevel::length_mm,
-                number({"mm", 0.0, 100.0}))
+                {"mm", 0.0, 100.0})
       .required("position_mm",
                 "Noise of a mark's position, 1 sigma on each axis.",
                 &NoiseLevel::position_mm,
-                number({"mm", 0.0, 100.0}));
+                {"mm", 0.0, 100.0});
 }
 
-Record<StatedMachine> stated_machine_record() {
+auto stated_machine_record() {
   return Record<StatedMachine>("a machine")
       .required("name", "Name of the machine in messages and pages.", &StatedMachine::name)
       .required(
@@ -84,25 +84,25 @@ Record<StatedMachine> stated_machine_record() {
       .optional("unmodelled_mm",
                 "Size of smooth errors outside every model.",
                 &StatedMachine::unmodelled_mm,
-                number({"mm", 0.0, 100.0}));
+                {"mm", 0.0, 100.0});
 }
 
-Record<EffectsLevel> effects_record() {
+auto effects_record() {
   return Record<EffectsLevel>("hidden effects")
       .required("name", "Name of this level in results.", &EffectsLevel::name)
       .required("effects",
                 "Effects of the true machine that are hidden from the fit.",
                 &EffectsLevel::effects,
-                list(effect_record()));
+                effect_record());
 }
 
-Record<UseLevel> use_record() {
+auto use_record() {
   return Record<UseLevel>("a machine that the map is used on")
       .required("name", "Name of this level in results.", &UseLevel::name)
       .sparse("effects",
               "Effects in addition to those of the measured machine.",
               &UseLevel::effects,
-              list(effect_record()))
+              effect_record())
       .optional("another_of_the_build",
                 "A different machine of the same build, with its settings drawn anew.",
                 &UseLevel::another_of_the_build);
@@ -132,13 +132,10 @@ MemberPath<StatedSweep, V> of_spec(V SweepSpec::*member) {
   return path(&StatedSweep::spec, member);
 }
 
-Record<StatedSweep> make_record() {
+auto make_record() {
   const auto spacing =
       choice<DesignKind>({{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
-  const auto surface = by_name({SurfaceLevel::residual,
-                                SurfaceLevel::direct,
-                                SurfaceLevel::direct_parabolic,
-                                SurfaceLevel::direct_natural});
+  const auto surface = by_name_to(SurfaceLevel::direct_natural);
   return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
       .required("name", "Name of the sweep.", of_spec(&SweepSpec::name))
       .optional(
@@ -222,7 +219,7 @@ void read_machines(const fs::path& path,
     const auto [at, is_new] = known.try_emplace(name);
     if (!is_new) return at->second;
     try {
-      ReadMachine read = read_machine_with_warnings(path.parent_path() / name);
+      ReadMachine read = files::read(parse_machine, path.parent_path() / name);
       problems.add_warnings(read.warnings);
       at->second = std::move(read.machine);
     } catch (const InputError& error) {
@@ -276,8 +273,9 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
   for (const std::string& id : given)
     problems.add("/effects",
                  "",
-                 fmt::format("a line that names {}, or --effects without its file", id),
-                 ProblemKind::missing);
+                 ProblemKind::missing,
+                 "a line that names {}, or --effects without its file",
+                 id);
 }
 
 Json median_and_worst(const std::vector<sweep::CellResult>& done,

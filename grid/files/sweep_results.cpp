@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
@@ -79,7 +80,7 @@ class LevelSums {
   [[nodiscard]] std::vector<LevelError> finished() && {
     std::erase_if(errors_, [](const LevelError& error) { return error.cells == 0; });
     for (LevelError& error : errors_)
-      error.tool_rms_mm = std::sqrt(error.tool_rms_mm / static_cast<double>(error.cells));
+      error.tool_rms_mm = std::sqrt(error.tool_rms_mm / as_double(error.cells));
     return std::move(errors_);
   }
 
@@ -106,7 +107,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
   std::string levels_text;
   Levels levels{};
   for (std::uint64_t cell = 0; cell < cells.size(); ++cell) {
-    const CellResult& result = *cells[static_cast<std::size_t>(cell)];
+    const CellResult& result = *cells[as_size(cell)];
     const std::uint64_t repetition = cell % repetitions;
     if (repetition == 0) {
       levels = levels_of(spec, cell / repetitions);

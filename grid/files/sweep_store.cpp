@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "grid/containers.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/sha256.hpp"
@@ -111,7 +112,7 @@ fs::path parts_of(const fs::path& directory) { return directory / "parts"; }
 }  // namespace
 
 FinishedCells finished_cells(const fs::path& directory, const ReadSweep& read) {
-  FinishedCells cells(static_cast<std::size_t>(sweep::cells(read.spec)));
+  FinishedCells cells(as_size(sweep::cells(read.spec)));
   const std::string header = header_of(read);
   std::error_code error;
   for (fs::directory_iterator entry(parts_of(directory), error), end; !error && entry != end;
@@ -135,9 +136,7 @@ sweep::CellStore cells_kept_in(const fs::path& directory,
                                const ReadSweep& read,
                                const sweep::Share& share) {
   const auto before = std::make_shared<const FinishedCells>(finished_cells(directory, read));
-  return {[before](std::uint64_t cell) {
-            return (*before)[static_cast<std::size_t>(cell)].has_value();
-          },
+  return {[before](std::uint64_t cell) { return (*before)[as_size(cell)].has_value(); },
           [path = parts_of(directory) / part_name(share), header = header_of(read)] {
             const auto part = std::make_shared<Part>(path, header);
             return [part](std::uint64_t cell, const CellResult& result) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace chaintrue::grid::files {
@@ -15,6 +16,19 @@ namespace chaintrue::grid::files {
 [[nodiscard]] std::string name_in_messages(const std::filesystem::path& path);
 /// \throws InputError if the path cannot be opened, is a directory, or reading fails half-way.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
+/// The file by one of the functions that parse a text: read(parse_grid, "grid.json", {.few = true}).
+/// "-" is standard input.
+template <class T>
+[[nodiscard]] T read(T (*parse)(const std::string& text, const std::string& file),
+                     const std::filesystem::path& path) {
+  return parse(read_whole_file(path), name_in_messages(path));
+}
+template <class T, class Options>
+[[nodiscard]] T read(T (*parse)(const std::string& text, const std::string& file, Options options),
+                     const std::filesystem::path& path,
+                     std::type_identity_t<Options> options = {}) {
+  return parse(read_whole_file(path), name_in_messages(path), options);
+}
 /// \throws InputError if the path is a directory, its directory is missing, or it cannot be
 /// written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);

@@ -7,7 +7,7 @@
 /// Lengths are what a reading would be without drift, skips and hysteresis.
 ///
 /// \code
-///   const CompensationMap map(contents);        // from fit() or files::read_map()
+///   const CompensationMap map(contents);        // from fit() or files::parse_map()
 ///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma);
 ///   if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
 /// \endcode

@@ -13,6 +13,7 @@
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/optical_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/observation/length_points.hpp"
 
@@ -50,11 +51,12 @@ grid::MeasuredGrid whole_of(const Scan& scan) {
   files::OpticalOptions options;
   options.machine =
       // The settings in force were not recorded, so the tolerances' purpose is unknown.
-      files::read_groundcontrol(data / "holey" / "groundcontrol_2018-09-01b.ini",
-                                files::Tolerances::unexplained)
+      files::read(files::parse_groundcontrol,
+                  data / "holey" / "groundcontrol_2018-09-01b.ini",
+                  files::Tolerances::unexplained)
           .machine;
   options.pitch_mm = kPitchMm;
-  return files::read_optical(data / "optical_grid" / scan.file, options).grid;
+  return files::read(files::parse_optical, data / "optical_grid" / scan.file, options).grid;
 }
 
 grid::MeasuredGrid few_of(const Scan& scan, grid::MeasuredGrid whole) {

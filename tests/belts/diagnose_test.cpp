@@ -10,6 +10,7 @@
 
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "model/belts/belt_effects.hpp"
 #include "tests/support/belt_frame.hpp"
 
@@ -194,7 +195,8 @@ TEST(BeltsDiagnosis, FailsWithTheMessageOfTheFit) {
 
 // With the causes only this uncertainty remains of the tool's error.
 TEST(BeltsDiagnosis, ErrorsOfTheToolIncludeTheirUncertainty) {
-  const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
+  const auto read =
+      files::read(files::parse_belts, CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
   const Diagnosis found = diagnosed(read.belts);
   EXPECT_GT(found.belts->tool.after_mm, 0.0);
   EXPECT_GE(found.belts->tool.before_mm, found.belts->tool.after_mm);
@@ -202,7 +204,8 @@ TEST(BeltsDiagnosis, ErrorsOfTheToolIncludeTheirUncertainty) {
 }
 
 TEST(BeltsDiagnosis, MarksAPlaceProposedTwice) {
-  const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
+  const auto read =
+      files::read(files::parse_belts, CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
   std::set<std::pair<double, double>> proposed;
   int repeated = 0;
   for (const diagnosis::NextMeasurement& next : diagnosed(read.belts).next_measurements) {

@@ -14,6 +14,7 @@
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/files/belts_file.hpp"
+#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -26,7 +27,8 @@ constexpr double kTurnMm = 43.975;
 
 /// A real layout of thirty-one places, with a wave of one turn of the motor in the top left belt.
 MeasuredBelts with_wave(double size_mm) {
-  MeasuredBelts belts = files::read_belts(CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;
+  MeasuredBelts belts =
+      files::read(files::parse_belts, CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;
   for (BeltPoint& point : belts.points) {
     double& own = point.lengths_mm[Belt::tl];
     own += size_mm * std::sin(2.0 * std::numbers::pi * own / kTurnMm + 0.5);

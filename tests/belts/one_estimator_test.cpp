@@ -11,6 +11,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/files/belts_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "tests/belts/published_readings.hpp"
 #include "tests/belts/simulated_belts.hpp"
@@ -71,9 +72,10 @@ std::vector<NamedSet> simulated_sets() {
 
 std::vector<NamedSet> every_set() {
   std::vector<NamedSet> all = simulated_sets();
-  all.push_back(
-      {"thirty_one",
-       files::read_belts(std::string(CHAINTRUE_FIXTURES) + "/belts/lower_belts_short.json").belts});
+  all.push_back({"thirty_one",
+                 files::read(files::parse_belts,
+                             std::string(CHAINTRUE_FIXTURES) + "/belts/lower_belts_short.json")
+                     .belts});
   for (const auto& [file, runs] : {std::pair("concrete_anchors.txt", 1),
                                    {"frame_rebuilt.txt", 1},
                                    {"mini_frame.txt", 1},

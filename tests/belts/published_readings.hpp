@@ -17,7 +17,7 @@ inline std::optional<grid::files::Maslow4Import> published_readings(const std::s
   const auto path = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / file;
   if (!std::filesystem::exists(path)) return std::nullopt;
   grid::files::Maslow4Options options;
-  options.part = run;
+  options.part.run = run;
   return grid::files::parse_maslow4(grid::files::read_whole_file(path), file, options);
 }
 

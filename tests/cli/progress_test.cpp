@@ -11,6 +11,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/grid_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/map/map_check.hpp"
 #include "grid/planning/holes_plan.hpp"
@@ -102,7 +103,8 @@ struct Told {
 };
 
 grid::MeasuredGrid demo_grid() {
-  return grid::files::read_grid(CHAINTRUE_FIXTURES "/grids/seven_by_four.json").grid;
+  return grid::files::read(grid::files::parse_grid, CHAINTRUE_FIXTURES "/grids/seven_by_four.json")
+      .grid;
 }
 
 TEST(LongWork, FitAndCheckReportEachStep) {

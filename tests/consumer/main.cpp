@@ -12,7 +12,7 @@ namespace files = chaintrue::grid::files;
 int main(int count, char** arguments) try {
   if (count != 3) return 2;
   // Bad input throws, with every problem in the message.
-  const auto read = files::read_grid(arguments[1]);
+  const auto read = files::read(files::parse_grid, arguments[1]);
 
   // A normal numeric outcome is a value: test it, and read its reason or sentence.
   const auto map = grid::fit(read.grid);

@@ -29,7 +29,7 @@ TEST(EffectFileContract, EveryEffectRoundTrips) {
       if (effect->part == Part::brackets) machine.attachment = Brackets{};
       machine.effects = {applied(*effect, side, values)};
       const std::string text = grid::files::write_machine(machine);
-      const Machine back = grid::files::parse_machine(text, "machine.json");
+      const Machine back = grid::files::parse_machine(text, "machine.json").machine;
       ASSERT_EQ(back.effects.size(), 1U);
       EXPECT_EQ(back.declared, machine.declared);
       EXPECT_EQ(back.effects[0].effect, machine.effects[0].effect);

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/drawn_measures.hpp"
@@ -27,7 +28,8 @@ namespace {
 
 const model::Machine& classic() {
   static const model::Machine machine =
-      files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+      files::read(files::parse_machine, std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json")
+          .machine;
   return machine;
 }
 

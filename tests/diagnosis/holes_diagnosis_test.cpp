@@ -7,6 +7,7 @@
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/holes_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "model/effects/catalogue.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -45,7 +46,7 @@ Diagnosis diagnosed(const MeasuredHoles& set, const DiagnosisOptions& options = 
 // no model remained.
 TEST(HolesDiagnosis, ToleratesNearlyEqualSingularValues) {
   const MeasuredHoles set =
-      files::read_holes(CHAINTRUE_FIXTURES "/holes/thirty_holes.json").holes;
+      files::read(files::parse_holes, CHAINTRUE_FIXTURES "/holes/thirty_holes.json").holes;
   const Diagnosis found = diagnosed(set);
   EXPECT_EQ(found.verdict, Verdict::model_discrepancy) << found.sentence;
 }

@@ -13,6 +13,7 @@
 #include "grid/diagnosis/belts_system.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/files/belts_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/random.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 using model::Belt;
 
 MeasuredBelts frame() {
-  return files::read_belts(CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;
+  return files::read(files::parse_belts, CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;
 }
 
 // For every variable, belt by belt: the residuals of the readings with the law, less those without.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -14,7 +15,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 model::Machine imported() {
-  return read_groundcontrol(CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini").machine;
+  return read(parse_groundcontrol, CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini").machine;
 }
 
 TEST(ControllerSettings, UseTheNamesOfTheirFile) {

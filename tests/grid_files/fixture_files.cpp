@@ -57,7 +57,7 @@ Outcome outcome_of(const std::string& kind, const std::string& text, const std::
   const auto plotter = [&](const auto& read) { return with_warnings(read, write_plotter(read.plotter)); };
   const auto holes = [&](const auto& read) { return with_warnings(read, write_holes(read.holes)); };
   if (kind == "grid") return grid(parse_grid(text, name));
-  if (kind == "machine") return machine(parse_machine_with_warnings(text, name));
+  if (kind == "machine") return machine(parse_machine(text, name));
   if (kind == "groundcontrol") return machine(parse_groundcontrol(text, name));
   if (kind == "holes") return holes(parse_holes(text, name));
   if (kind == "belts") return belts(parse_belts(text, name));

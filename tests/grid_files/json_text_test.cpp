@@ -155,7 +155,7 @@ TEST(Problems, ValuesAreShortenedAndPrintable) {
 TEST(Problems, ListTheFirstHundredAndCountTheRest) {
   Problems problems("file");
   for (int i = 0; i < 140; ++i)
-    problems.add("/x", "1", std::to_string(i), ProblemKind::out_of_range);
+    problems.add("/x", "1", ProblemKind::out_of_range, std::to_string(i));
   const auto messages = messages_of([&] { problems.throw_if_any(); });
   ASSERT_EQ(messages.size(), 101U);
   EXPECT_EQ(messages.back(), "file: found 40 more problems, expected the problems above to be corrected first");
@@ -164,8 +164,8 @@ TEST(Problems, ListTheFirstHundredAndCountTheRest) {
 TEST(Problems, ListFiveOfAKindAndCountTheRest) {
   Problems problems("file");
   for (int i = 0; i < 101; ++i)
-    problems.add("/x", "1", "a whole number", ProblemKind::not_a_number);
-  for (int i = 0; i < 6; ++i) problems.add("/y", "1", "a word", ProblemKind::unknown_word);
+    problems.add("/x", "1", ProblemKind::not_a_number, "a whole number");
+  for (int i = 0; i < 6; ++i) problems.add("/y", "1", ProblemKind::unknown_word, "a word");
   const auto messages = messages_of([&] { problems.throw_if_any(); });
   // A sixth line is no longer than its count.
   ASSERT_EQ(messages.size(), 6U + 6U);

@@ -8,6 +8,7 @@
 
 #include "grid/files/holes_file.hpp"
 #include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "tests/cli/command_fixture.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -28,7 +29,7 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   // tape's readings into the third column.
   const std::string list = content_of(folder_ / "list.csv");
   grid::files::MeasuredOptions with_machine;
-  with_machine.machine = grid::files::read_machine(classic_);
+  with_machine.machine = grid::files::read(grid::files::parse_machine, classic_).machine;
   const auto with_readings = [&list](const std::function<std::string(const std::string&)>& read) {
     std::istringstream lines(list);
     std::string filled;
@@ -60,7 +61,7 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   ASSERT_EQ(reading, made->set.distances.size());
   done("fit readings.csv --machine " + classic_ + " -o map.json");
   done("check map.json readings.csv --machine " + classic_);
-  const grid::CompensationMap map = grid::files::read_map(folder_ / "map.json");
+  const grid::CompensationMap map = grid::files::read(grid::files::parse_map, folder_ / "map.json");
   // Half a millimetre of tape and of the sheet's size; three times that would be a gross error.
   EXPECT_LT(testing_support::tool_rms_mm(map, made->truth, spec.sheet), 1.5);
 }
@@ -71,7 +72,8 @@ TEST_F(HolesCommands, SimulateMeasuresToTheEdgesOfASkewedSheet) {
                 "-o holes.json")
                 .code,
             0);
-  const grid::files::ReadHoles made = grid::files::read_holes(folder_ / "holes.json");
+  const grid::files::ReadHoles made =
+      grid::files::read(grid::files::parse_holes, folder_ / "holes.json");
   int edges = 0;
   for (const grid::HoleDistance& distance : made.holes.distances) {
     if (!distance.edge) continue;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
 #include "tests/map/synthetic_grid.hpp"
@@ -14,7 +15,9 @@
 namespace chaintrue::testing_support {
 
 inline model::Machine classic() {
-  return grid::files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+  return grid::files::read(grid::files::parse_machine,
+                           std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json")
+      .machine;
 }
 
 /// Nine holes and twenty distances as planned by chaintrue plan. Computed once: the search takes a

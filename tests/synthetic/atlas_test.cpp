@@ -9,6 +9,7 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/synthetic/atlas.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_mechanism.hpp"
@@ -26,7 +27,8 @@ using MechanismPointer = std::shared_ptr<const Mechanism>;
 
 MechanismPointer classic() {
   return model::make_chain_mechanism(
-      files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json"));
+      files::read(files::parse_machine, std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json")
+          .machine);
 }
 
 /// A pen on two cords from spools, so that effects of pulleys act too; heavy elastic cords, so that

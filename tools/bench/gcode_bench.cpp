@@ -15,6 +15,7 @@
 #include <string>
 
 #include "grid/files/grid_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/map_in_frame.hpp"
@@ -27,7 +28,9 @@ namespace {
 /// A map and the classic controller, fitted once.
 struct Fitted {
   Fitted()
-      : map(grid::fit(grid::files::read_grid(CHAINTRUE_FIXTURES "/grids/seven_by_four.json").grid)
+      : map(grid::fit(grid::files::read(grid::files::parse_grid,
+                                        CHAINTRUE_FIXTURES "/grids/seven_by_four.json")
+                          .grid)
                 .value()),
         target(map),
         machine(with_classic_controller(*grid::stated_machine(map))),

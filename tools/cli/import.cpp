@@ -41,7 +41,7 @@ int import_optical(const OpticalCommand& command) {
   options.machine = read_machine_input(command.machine);
   options.pitch_mm = command.pitch_mm;
   options.order = files::named(files::kVisitingOrders, command.order);
-  const files::ReadOptical read = files::read_optical(command.input, options);
+  const files::ReadOptical read = files::read(files::parse_optical, command.input, options);
   write_output(command.output, files::write_grid(read.grid));
   say("{} of {} squares were visited; the sheet is assumed to be placed by hand, within {} mm and "
       "{} mrad{}",
@@ -95,7 +95,8 @@ struct GroundcontrolCommand {
 };
 
 int import_groundcontrol(const GroundcontrolCommand& command) {
-  const files::ReadMachine read = files::read_groundcontrol(
+  const files::ReadMachine read = files::read(
+      files::parse_groundcontrol,
       command.input,
       command.nominal_pitch ? files::Tolerances::unexplained : files::Tolerances::are_pitch);
   std::vector<std::string> comments;
@@ -184,7 +185,7 @@ std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
   std::vector<files::Maslow4Import> runs;
   for (const std::string& input : command.inputs) {
     const std::string text = files::read_whole_file(input);
-    std::vector<files::LogPart> parts = {std::nullopt};
+    std::vector<files::LogPart> parts(1);
     if (!command.runs.empty()) parts = files::log_parts_of(command.runs, "--runs");
     for (const files::LogPart& part : parts) {
       options.part = part;

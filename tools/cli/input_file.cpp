@@ -53,7 +53,7 @@ Diagnosis load_diagnosis(const InputFile& file) {
 }
 
 Machine load_machine(const InputFile& file) {
-  files::ReadMachine read = files::parse_machine_with_warnings(file.text, file.name);
+  files::ReadMachine read = files::parse_machine(file.text, file.name);
   print_warnings(read.warnings);
   return std::move(read.machine);
 }
@@ -91,7 +91,7 @@ CompensationMap load_map(const InputFile& file) {
 
 Machine read_machine_input(const std::string& path) {
   static std::set<std::string> reported;
-  files::ReadMachine read = files::read_machine_with_warnings(path);
+  files::ReadMachine read = files::read(files::parse_machine, path);
   if (reported.insert(path).second) print_warnings(read.warnings);
   return std::move(read.machine);
 }

@@ -32,9 +32,9 @@ std::optional<double> read_number(const std::string& name,
     return number;
   problems().add(name,
                  text.empty() ? "nothing" : text,
+                 files::kind_of_bad_number(text),
                  expected(range, is_whole) +
-                     (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""),
-                 files::kind_of_bad_number(text));
+                     (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
   return std::nullopt;
 }
 

@@ -91,7 +91,7 @@ SettingsFile parse_settings_file(const std::string& path, const std::string& tex
   const std::string file = files::name_in_messages(path);
   const bool json = files::is_json(text) && text.find('{') < text.find('[');
   if (json && files::is_webcontrol(text, file)) return {file, files::parse_webcontrol(text, file)};
-  if (json) return {file, files::parse_machine_with_warnings(text, file), true};
+  if (json) return {file, files::parse_machine(text, file), true};
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".yaml" || ending == ".yml" || files::is_fluidnc(text))
     return {file, files::parse_fluidnc(text, file)};

@@ -2,6 +2,7 @@
 #include "tests/gcode_witness/support/compensated.hpp"
 
 #include "grid/files/grid_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/map_in_frame.hpp"
@@ -39,7 +40,9 @@ Shop::Shop(std::unique_ptr<const grid::LengthMap> machine, const model::Machine&
 
 std::unique_ptr<const Shop> measured_shop(const std::string& fixtures, model::ControllerKind kind) {
   static const grid::CompensationMap map =
-      grid::fit(grid::files::read_grid(fixtures + "/grids/seven_by_four.json").grid).value();
+      grid::fit(
+          grid::files::read(grid::files::parse_grid, fixtures + "/grids/seven_by_four.json").grid)
+          .value();
   return std::make_unique<Shop>(std::make_unique<grid::MapInFrame>(map),
                                 with_controller(*grid::stated_machine(map), kind));
 }

@@ -21,7 +21,7 @@ class RealFrames : public testing::Test {
   }
   [[nodiscard]] MeasuredBelts read(const std::string& file, int run = 1) const {
     files::Maslow4Options options;
-    options.part = run;
+    options.part.run = run;
     return files::parse_maslow4(files::read_whole_file(folder_ / file), file, options).belts;
   }
   [[nodiscard]] MeasuredBelts ten_runs(int run) const { return read("ten_runs_1_to_5.txt", run); }

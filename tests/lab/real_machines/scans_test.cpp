@@ -16,6 +16,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/optical_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/observation/length_points.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
@@ -44,11 +45,13 @@ class RealScans : public testing::Test {
     files::OpticalOptions options;
     options.order = assumed;
     // The settings in force were not recorded, so the tolerances' purpose is unknown.
-    options.machine = files::read_groundcontrol(data_ / "holey" / "groundcontrol_2018-09-01b.ini",
-                                                files::Tolerances::unexplained)
+    options.machine = files::read(files::parse_groundcontrol,
+                                  data_ / "holey" / "groundcontrol_2018-09-01b.ini",
+                                  files::Tolerances::unexplained)
                           .machine;
     options.pitch_mm = kPitchMm;
-    MeasuredGrid grid = files::read_optical(data_ / "optical_grid" / file, options).grid;
+    MeasuredGrid grid =
+        files::read(files::parse_optical, data_ / "optical_grid" / file, options).grid;
     grid.noise = StatedNoise{0.1, 0.3, 12.0};
     return grid;
   }

@@ -36,7 +36,7 @@ py::tuple parse(const std::string& kind,
     return py::make_tuple(written, sentences);
   };
   files::MeasuredOptions options{.few = few};
-  if (!machine.empty()) options.machine = files::parse_machine(machine, "");
+  if (!machine.empty()) options.machine = files::parse_machine(machine, "").machine;
   if (kind == "grid") {
     const files::ReadGrid read = files::parse_grid(text, file, options);
     return answer(files::write_grid(read.grid), read.warnings);
@@ -50,7 +50,7 @@ py::tuple parse(const std::string& kind,
     return answer(files::write_belts(read.belts), read.warnings);
   }
   if (kind == "machine") {
-    const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
+    const files::ReadMachine read = files::parse_machine(text, file);
     return answer(files::write_machine(read.machine), read.warnings);
   }
   const auto result = [&](auto parsed, auto written) {

@@ -10,6 +10,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/optical_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::planted {
@@ -116,11 +117,12 @@ Hidden drawn_cause(const CalibratedSession& session, std::uint64_t seed, Dice& d
 Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& groundcontrol_ini) {
   grid::files::OpticalOptions options;
   options.machine =
-      grid::files::read_groundcontrol(groundcontrol_ini, grid::files::Tolerances::unexplained)
+      grid::files::read(
+          grid::files::parse_groundcontrol, groundcontrol_ini, grid::files::Tolerances::unexplained)
           .machine;
   Scan result{scan.stem().string(),
               machine_of(options.machine),
-              grid::files::read_optical(scan, options).grid};
+              grid::files::read(grid::files::parse_optical, scan, options).grid};
   result.grid.noise = grid::StatedNoise{0.1, 0.3, 12.0};
   const auto lengths = grid::length_points(result.grid);
   if (!lengths) throw std::runtime_error(lengths.error().sentence());

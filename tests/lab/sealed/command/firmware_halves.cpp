@@ -19,7 +19,7 @@ using sealed::Spans;
 /// Frames by their logs; of five runs of one frame, their numbers.
 sealed::Outcome run_frame(const std::string& folder, const sealed::PlannedSet& set) {
   grid::files::Maslow4Options options;
-  options.part = static_cast<int>(set.seed);
+  options.part.run = static_cast<int>(set.seed);
   const std::string file = set.kind + ".txt";
   const auto belts = grid::files::parse_maslow4(grid::files::read_whole_file(folder + "/" + file), file, options).belts;
   std::vector<Spans> spans, halves[2];

@@ -20,6 +20,7 @@
 #include "generator/hidden/random.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/grid_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/observation/length_points.hpp"
 #include "sealed/command/campaign.hpp"
 #include "sealed/judge/map_errors.hpp"
@@ -124,7 +125,7 @@ int main(int argc, char** argv) {
   std::vector<sealed::RateRow> rows;
   grid::MeasuredGrid whole;
   const auto list = [&] {
-    if (!scan.empty()) whole = grid::files::read_grid(scan).grid;
+    if (!scan.empty()) whole = grid::files::read(grid::files::parse_grid, scan).grid;
     if (!scan.empty()) return campaign.sets_of({"scan"}, draws);
     if (zeros) return campaign.sets_of(sealed::zero_kinds());
     if (promised) return campaign.sets_of(sealed::promised_kinds());

@@ -9,6 +9,7 @@
 #include "generator/hidden/effects.hpp"
 #include "generator/hidden/random.hpp"
 #include "grid/files/holes_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/observation/tape_distances.hpp"
 
 namespace chaintrue::sealed {
@@ -34,7 +35,9 @@ Eigen::Vector2d reading(const generator::HiddenMachine& machine, Vec2 place) {
 
 const grid::MeasuredHoles& nine_holes() {
   static const grid::MeasuredHoles set =
-      grid::files::read_holes(std::string(CHAINTRUE_FIXTURES) + "/holes/nine_holes.json").holes;
+      grid::files::read(grid::files::parse_holes,
+                        std::string(CHAINTRUE_FIXTURES) + "/holes/nine_holes.json")
+          .holes;
   return set;
 }
 

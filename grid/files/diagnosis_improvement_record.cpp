@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Errors of points that were left out, row by row.
+
+#include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using diagnosis::HeldOut;
+using diagnosis::HeldOutImprovement;
+using diagnosis::Transfer;
+
+constexpr int kMostFolds = 1000;
+
+/// An object with one figure for every modelling scheme; the sheet's placement alone does not exist
+/// for every grid, and another grid is predicted with fewer schemes.
+template <class T>
+Record<T> figure_record(const Value<HeldOut>& figure) {
+  Record<T> record("an object with one number for each model");
+  record.required("as_delivered",
+                  "As delivered: with the machine file's settings, for commands with the "
+                  "controller's. At the measured points; tool_today is over the measured part.",
+                  &T::uncalibrated,
+                  figure);
+  if constexpr (requires { &T::placed; })
+    record.optional("placed", "After the best placement of the sheet.", &T::placed, figure);
+  record.required("calibrated", "With calibrated settings.", &T::calibrated, figure)
+      .required("extended", "With the named causes.", &T::extended, figure)
+      .required("extended_and_surface",
+                "With the causes and a smooth surface.",
+                &T::extended_and_surface,
+                figure);
+  if constexpr (requires { &T::surface_only; })
+    record.required(
+        "surface_only", "With a smooth surface and no cause.", &T::surface_only, figure);
+  return record;
+}
+
+Value<HeldOut> single(double HeldOut::*member) {
+  const Value<double> value = number(kSigmaMm);
+  return partial<HeldOut>(
+      value.expected,
+      [value, member](const Cursor& at, HeldOut& row) {
+        if (const auto read = value.read(at)) row.*member = *read;
+      },
+      [value, member](const HeldOut& row) { return value.write(row.*member); });
+}
+
+template <class T>
+void error_figures(Record<T>& record) {
+  record
+      .part("position_rms_mm",
+            "Rms error at the tool (for holes alone: of a distance).",
+            true,
+            figure_record<T>(single(&HeldOut::rms_mm))
+                .required("noise_floor", "From noise alone.", &T::noise_floor_mm, kSigmaMm))
+      .part("position_percentile_95_mm",
+            "95th percentile of the error.",
+            true,
+            figure_record<T>(single(&HeldOut::percentile_95_mm)))
+      .part("position_rms_90_percent_mm",
+            "90 % interval of the rms.",
+            true,
+            figure_record<T>(members_as_pair(
+                pair_of_numbers(kSigmaMm, true), &HeldOut::low_mm, &HeldOut::high_mm)));
+}
+
+}  // namespace
+
+Record<HeldOutImprovement> improvement_record() {
+  Record<HeldOutImprovement> improvement("the gain");
+  improvement.required("scheme", "How points were left out.", &HeldOutImprovement::scheme);
+  error_figures(improvement);
+  improvement
+      .required(
+          "drop_mm2", "Reduction of the mean square.", &HeldOutImprovement::drop_mm2, kSigmaMm)
+      .required("drop_share", "The same as a share.", &HeldOutImprovement::drop_share, kShare)
+      .required("folds",
+                "Number of times that points were left out.",
+                &HeldOutImprovement::folds,
+                integer(0, kMostFolds))
+      .required("folds_agree",
+                "Number of these in which the same was named.",
+                &HeldOutImprovement::folds_agree,
+                integer(0, kMostFolds))
+      .check([](const Cursor& at, HeldOutImprovement& object) {
+        if (at.clean() && object.folds_agree > object.folds)
+          at.child("folds_agree").expect("at most as many as folds");
+      });
+  return improvement;
+}
+
+Record<Transfer> transfer_record() {
+  Record<Transfer> transfer("another grid predicted");
+  transfer.required("to", "Name of the grid.", &Transfer::to)
+      .required("points", "Number of its points.", &Transfer::points);
+  error_figures(transfer);
+  return transfer;
+}
+
+}  // namespace chaintrue::grid::files

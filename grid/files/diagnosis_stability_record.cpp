@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The answers without some of the readings.
+
+#include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
+
+namespace chaintrue::grid::files {
+
+using diagnosis::PartFinding;
+using diagnosis::Removal;
+using diagnosis::Stability;
+using diagnosis::Verdict;
+
+Value<Verdict> verdict_word() { return by_name_to(Verdict::nothing_found); }
+
+namespace {
+
+bool is_line(const Removal& removal) {
+  return removal.what == Removal::What::column || removal.what == Removal::What::row;
+}
+
+/// Something numbered: a point, a distance or a hole.
+struct Numbered {
+  Removal::What what;
+  const char* key;
+  const char* meaning;
+  const char* expected;
+};
+constexpr Numbered kNumbered[] = {
+    {Removal::What::point, "point", "Index of the point.", "a point's index"},
+    {Removal::What::distance, "distance", "Index of the distance.", "a distance's index"},
+    {Removal::What::hole, "hole", "Index of the hole.", "a hole's index"}};
+
+/// The number, for the kind that is left out. Lines have none.
+void index_key(const Numbered& numbered, Record<Removal>& record) {
+  static const Value<std::size_t> index = index_number();
+  record.custom(
+      numbered.key,
+      numbered.meaning,
+      false,
+      index.expected,
+      [](const Cursor& at, Removal& object) {
+        object.index = index.read(at).value_or(object.index);
+      },
+      [what = numbered.what](const Removal& object) {
+        if (object.what == what) return Json(object.index);
+        return what == Removal::What::point ? Json(nullptr) : kLeftOut;
+      });
+}
+
+/// The position of a column or row.
+void line_key(Record<Removal>& record) {
+  record.custom(
+      "at_mm",
+      "x of a column, y of a row.",
+      false,
+      number(kMillimetres).expected,
+      [](const Cursor& at, Removal& object) {
+        object.at_mm = at.number(kMillimetres).value_or(object.at_mm);
+      },
+      [](const Removal& object) { return is_line(object) ? Json(object.at_mm) : Json(nullptr); });
+}
+
+auto removal_record() {
+  Record<Removal> removal("points left out");
+  removal.required("what",
+                   "What was left out.",
+                   &Removal::what,
+                   choice<Removal::What>({{"point", Removal::What::point},
+                                          {"column", Removal::What::column},
+                                          {"row", Removal::What::row},
+                                          {"distance", Removal::What::distance},
+                                          {"hole", Removal::What::hole}}));
+  for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
+  line_key(removal);
+  removal
+      .required("points", "Number of points left out with it.", &Removal::points, index_number(1))
+      .required("verdict", "Verdict without it.", &Removal::verdict, verdict_word())
+      .required("causes", "Causes named without it.", &Removal::causes, cause_id_record())
+      .required("stands", "True if the answer is the same.", &Removal::stands)
+      .required("probability", "Probability of the name without it.", &Removal::probability, kShare)
+      .required("support",
+                "Share of the log evidence that depends on it, in natural logarithms.",
+                &Removal::support,
+                kAnyNumber)
+      .check([](const Cursor& at, Removal& object) {
+        if (!at.clean() || !at.has("what")) return;
+        const char* key = "at_mm";
+        const char* expected = "a number in mm";
+        for (const Numbered& numbered : kNumbered) {
+          if (numbered.what != object.what) continue;
+          key = numbered.key;
+          expected = numbered.expected;
+        }
+        const Cursor place = at.child(key);
+        if (place.json().is_null()) place.missing(expected);
+      });
+  return removal;
+}
+
+}  // namespace
+
+Record<Stability> stability_record() {
+  return Record<Stability>("whether the name is stable")
+      .required("probability", "Smallest probability of the name.", &Stability::probability, kShare)
+      .required(
+          "removals", "What was left out, one at a time.", &Stability::removals, removal_record());
+}
+
+namespace {
+
+void part_keys(Record<PartFinding>& part, const char* leading, const char* named) {
+  part.required("units", "Number of readings in it.", &PartFinding::units)
+      .required("leading", leading, &PartFinding::likeliest, hypothesis_record())
+      .required("named", named, &PartFinding::named, hypothesis_record());
+}
+
+}  // namespace
+
+Record<PartFinding> bed_part_record() {
+  Record<PartFinding> part("the probabilities without a quarter of the bed");
+  part.required("towards_rad",
+                "Direction of the quarter from the middle of the readings; from x towards y.",
+                &PartFinding::towards_rad,
+                kAnyNumber);
+  part_keys(part,
+            "Most probable cause without it; nothing if none is more likely than not.",
+            "The named causes, with their probabilities without it.");
+  return part;
+}
+
+Record<PartFinding> session_record() {
+  Record<PartFinding> part("the probabilities of a session by itself");
+  part.required("session", "The file.", &PartFinding::session);
+  part_keys(part,
+            "Most probable cause for its readings alone; nothing if none is more likely than not.",
+            "The named causes, with their probabilities for these readings alone.");
+  return part;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Members of objects by their offsets, so that a table of fields needs no type of theirs:
+/// path(&Plan::bed, &Bed::width_mm). Private to grid/files.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "grid/files/json_value.hpp"
+
+namespace chaintrue::grid::files {
+
+/// Access to a std::optional whose value type the table does not know.
+struct OptionalAccess {
+  void* (*emplace)(void* member);
+  void (*reset)(void* member);
+  const void* (*value)(const void* member);  ///< null if it is empty
+};
+template <class V>
+inline constexpr OptionalAccess kOptionalAccess = {
+    [](void* member) -> void* { return &static_cast<std::optional<V>*>(member)->emplace(); },
+    [](void* member) { static_cast<std::optional<V>*>(member)->reset(); },
+    [](const void* member) -> const void* {
+      const auto& held = *static_cast<const std::optional<V>*>(member);
+      return held ? &*held : nullptr;
+    }};
+
+/// For a std::optional, or for a member at this offset of what it holds; null if it is empty.
+[[nodiscard]] std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
+                                                          const OptionalAccess& access,
+                                                          std::size_t offset = 0);
+
+/// What a member holds, which may be a std::optional.
+template <class V>
+struct Held {
+  using Type = V;
+  static constexpr bool kIsOptional = false;
+};
+template <class V>
+struct Held<std::optional<V>> {
+  using Type = V;
+  static constexpr bool kIsOptional = true;
+};
+
+/// A member of T, of a base, or of one of its members.
+template <class T, class V>
+struct MemberPath {
+  using Type = typename Held<V>::Type;
+  static constexpr bool kIsOptional = Held<V>::kIsOptional;
+  [[nodiscard]] V& of(T& object) const {
+    return *reinterpret_cast<V*>(reinterpret_cast<std::byte*>(&object) + offset);
+  }
+  [[nodiscard]] const V& of(const T& object) const { return of(const_cast<T&>(object)); }
+  [[nodiscard]] std::shared_ptr<const Codec> codec_for(const Value<Type>& value) const {
+    if constexpr (kIsOptional) return optional_codec(value.codec, kOptionalAccess<Type>);
+    return value.codec;
+  }
+  std::size_t offset = 0;
+};
+/// T itself has the member, or a base of it.
+template <class T, class B, class V>
+[[nodiscard]] MemberPath<T, V> path_in(V B::*member) {
+  static const T object{};
+  return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
+                                   reinterpret_cast<const std::byte*>(&object))};
+}
+template <class T, class V>
+[[nodiscard]] MemberPath<T, V> path_in(MemberPath<T, V> member) {
+  return member;
+}
+template <class T, class V>
+[[nodiscard]] MemberPath<T, V> path(V T::*member) {
+  return path_in<T>(member);
+}
+template <class T, class M, class V>
+[[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {
+  return {path_in<T>(outer).offset + path_in<M>(inner).offset};
+}
+
+/// A member of what a std::optional holds.
+template <class T, class M, class V>
+struct OptionalPath {
+  using Type = V;
+  static constexpr bool kIsOptional = true;
+  [[nodiscard]] std::shared_ptr<const Codec> codec_for(const Value<V>& value) const {
+    return optional_codec(value.codec, kOptionalAccess<M>, inner);
+  }
+  std::size_t offset = 0;  ///< of the std::optional
+  std::size_t inner = 0;
+};
+template <class T, class M, class V>
+[[nodiscard]] OptionalPath<T, M, V> path(std::optional<M> T::*outer, V M::*inner) {
+  return {path_in<T>(outer).offset, path_in<M>(inner).offset};
+}
+template <class T, class M, class V>
+[[nodiscard]] OptionalPath<T, M, V> path_in(OptionalPath<T, M, V> member) {
+  return member;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/map_surface_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "grid/containers.hpp"
+#include "grid/files/machine_record.hpp"
+#include "grid/files/names.hpp"
+#include "grid/files/record_values.hpp"
+
+namespace chaintrue::grid::files {
+
+Record<interp::Rectangle> rectangle_record() {
+  return Record<interp::Rectangle>("a rectangle in mm")
+      .required("x_min", "Left edge.", &interp::Rectangle::x_min, kPlaceMm)
+      .required("x_max", "Right edge.", &interp::Rectangle::x_max, kPlaceMm)
+      .required("y_min", "Lower edge.", &interp::Rectangle::y_min, kPlaceMm)
+      .required("y_max", "Upper edge.", &interp::Rectangle::y_max, kPlaceMm)
+      .check([](const Cursor& at, interp::Rectangle& r) {
+        if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
+          at.expect("a rectangle whose maxima exceed its minima");
+        }
+      });
+}
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+struct SplinePart {
+  interp::Rectangle rectangle;
+  int x_intervals = 0;
+  int y_intervals = 0;
+  model::PerSide<double> scale;
+  model::PerSide<Eigen::VectorXd> coefficients_mm;
+};
+
+/// A ModelSurface as its file has it: the basis by its intervals, and the triangle alone of the
+/// covariance.
+struct ModelPart {
+  model::Machine machine;
+  model::SheetPlacement sheet;
+  std::vector<model::Setting> settings;
+  SplinePart residual;
+  std::vector<Numbers> covariance_factor;
+  std::optional<LatticeResidual> lattice;
+};
+
+using model::PerSide;
+
+auto sheet_placement_record() {
+  return Record<model::SheetPlacement>("a sheet's placement")
+      .place(
+          "x of the marks' origin on the bed.", "y of the marks' origin on the bed, up.", kPlaceMm)
+      .required("rotation_rad",
+                "Rotation of the marks, counter-clockwise.",
+                &model::SheetPlacement::rotation_rad,
+                {"rad", -7.0, 7.0});
+}
+
+auto spline_record() {
+  return Record<SplinePart>("a residual surface")
+      .required("rectangle_mm",
+                "Where the splines are defined.",
+                &SplinePart::rectangle,
+                rectangle_record())
+      .required(
+          "x_intervals", "Equal intervals along x.", &SplinePart::x_intervals, integer(1, 1000))
+      .required(
+          "y_intervals", "Equal intervals along y.", &SplinePart::y_intervals, integer(1, 1000))
+      .required("scale_left",
+                "Correction of the left chain per mm of length.",
+                path(&SplinePart::scale, &PerSide<double>::left),
+                {"", -0.1, 0.1})
+      .required("scale_right",
+                "Correction of the right chain per mm of length.",
+                path(&SplinePart::scale, &PerSide<double>::right),
+                {"", -0.1, 0.1})
+      .required("coefficients_left_mm",
+                "Coefficients of cubic B-splines for the left chain, y varying fastest: "
+                "(x_intervals + 3) (y_intervals + 3) values.",
+                path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::left),
+                vector_of_numbers())
+      .required("coefficients_right_mm",
+                "Coefficients for the right chain, in the same order.",
+                path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::right),
+                vector_of_numbers())
+      .check([](const Cursor& at, SplinePart& part) {
+        if (!at.clean()) return;
+        const Eigen::Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
+        const std::string expected = fmt::format("{} coefficients, as the intervals require", size);
+        const auto& [left, right] = part.coefficients_mm;
+        if (left.size() != size) at.child("coefficients_left_mm").expect(expected);
+        if (right.size() != size) at.child("coefficients_right_mm").expect(expected);
+      });
+}
+
+void check_model_part(const Cursor& at, ModelPart& part) {
+  if (!at.clean()) return;
+  const std::size_t unknowns =
+      part.settings.size() + 2 + as_size(part.residual.coefficients_mm.left.size()) * 2;
+  bool triangle = part.covariance_factor.size() == unknowns;
+  for (std::size_t i = 0; triangle && i < unknowns; ++i)
+    triangle = part.covariance_factor[i].size() == i + 1;
+  if (!triangle) {
+    at.child("covariance_factor")
+        .expect(
+            fmt::format("the {} rows of a lower triangle, of 1 to {} numbers", unknowns, unknowns));
+  }
+}
+
+auto axis_ends_record() {
+  return Record<interp::AxisEnds>("the conditions at both ends of an axis")
+      .required("low", "At the smaller end.", &interp::AxisEnds::low, choice(kEndConditions))
+      .required("high", "At the larger end.", &interp::AxisEnds::high, choice(kEndConditions));
+}
+
+auto ends_record() {
+  return Record<interp::TensorEnds>("the conditions at the edges")
+      .required("x", "Along x.", &interp::TensorEnds::x, axis_ends_record())
+      .required("y", "Along y.", &interp::TensorEnds::y, axis_ends_record());
+}
+
+bool rises(const Numbers& values) {
+  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
+           return !(a < b);
+         }) == values.end();
+}
+
+struct NodeValues {
+  const char* key;
+  const Eigen::MatrixXd* values;
+};
+
+/// Checks that nodes increase, and that there are as many values as nodes.
+template <class Surface>
+void check_nodes(const Cursor& at,
+                 const Surface& surface,
+                 std::initializer_list<NodeValues> values) {
+  if (!at.clean()) return;
+  if (!rises(surface.x_nodes_mm)) at.child("x_nodes_mm").expect("increasing numbers");
+  if (!rises(surface.y_nodes_mm)) at.child("y_nodes_mm").expect("increasing numbers");
+  const std::size_t columns = surface.x_nodes_mm.size();
+  const std::size_t rows = surface.y_nodes_mm.size();
+  for (const NodeValues& own : values) {
+    if (as_size(own.values->rows()) != columns || as_size(own.values->cols()) != rows)
+      at.child(own.key).expect(
+          fmt::format("{} lists of {} lengths, one list for each x", columns, rows));
+  }
+}
+
+/// The nodes, and the chains at each of them.
+template <class Surface>
+void node_keys(Record<Surface>& record, model::PerSide<Eigen::MatrixXd> Surface::*chains) {
+  const auto values = matrix_of_numbers(kAnyNumber, 2);
+  record
+      .required(
+          "x_nodes_mm", "Nodes along x, increasing.", &Surface::x_nodes_mm, list(kAnyNumber, 2))
+      .required(
+          "y_nodes_mm", "Nodes along y, increasing.", &Surface::y_nodes_mm, list(kAnyNumber, 2))
+      .required("left_mm",
+                "Left chain at every node: one list for each x.",
+                path(chains, &PerSide<Eigen::MatrixXd>::left),
+                values)
+      .required("right_mm",
+                "Right chain at every node.",
+                path(chains, &PerSide<Eigen::MatrixXd>::right),
+                values);
+}
+
+constexpr const char* kBetweenNodes = "Error of the splines between nodes, 1 sigma.";
+
+auto lattice_record() {
+  Record<LatticeResidual> lattice("splines through the residuals at every node");
+  node_keys(lattice, &LatticeResidual::values_mm);
+  return lattice
+      .required("doubt_mm",
+                "Uncertainty of the value at each node.",
+                &LatticeResidual::doubt_mm,
+                matrix_of_numbers(kNotNegative, 2))
+      .required("interpolation_sigma_mm",
+                kBetweenNodes,
+                &LatticeResidual::interpolation_sigma_mm,
+                kNotNegative)
+      .check([](const Cursor& at, LatticeResidual& own) {
+        check_nodes(at,
+                    own,
+                    {{"left_mm", &own.values_mm.left},
+                     {"right_mm", &own.values_mm.right},
+                     {"doubt_mm", &own.doubt_mm}});
+      });
+}
+
+double seven_digits(double value) { return number_of(fmt::format("{:.7g}", value)).value(); }
+
+auto model_part_record() {
+  return Record<ModelPart>("a surface on a machine")
+      .required("machine", "The calibrated machine.", &ModelPart::machine, machine_record())
+      .required(
+          "sheet", "Placement of the marks' sheet.", &ModelPart::sheet, sheet_placement_record())
+      .required("unknown_settings",
+                "The settings that were calibrated, in the order of the covariance.",
+                &ModelPart::settings,
+                list(setting_word()))
+      .required("residual",
+                "Correction added to the machine's lengths.",
+                &ModelPart::residual,
+                spline_record())
+      .required("covariance_factor",
+                "Triangular root of the covariance of settings, scales and coefficients; lower "
+                "triangle, row by row.",
+                &ModelPart::covariance_factor,
+                list(list(kAnyNumber, 1)))
+      .optional("lattice",
+                "For a full grid of marks: splines through the residuals at every node.",
+                &ModelPart::lattice,
+                lattice_record())
+      .check(check_model_part);
+}
+
+auto direct_surface_record() {
+  Record<DirectSurface> direct("splines through the lengths");
+  node_keys(direct, &DirectSurface::lengths_mm);
+  return direct
+      .required("ends", "End conditions of the splines.", &DirectSurface::ends, ends_record())
+      .required("interpolation_sigma_mm",
+                kBetweenNodes,
+                &DirectSurface::interpolation_sigma_mm,
+                kNotNegative)
+      .check([](const Cursor& at, DirectSurface& own) {
+        check_nodes(
+            at, own, {{"left_mm", &own.lengths_mm.left}, {"right_mm", &own.lengths_mm.right}});
+      });
+}
+
+ModelPart part_of(const ModelSurface& surface) {
+  const auto& [basis, scale, coefficients] = surface.residual;
+  ModelPart part{surface.machine,
+                 surface.sheet,
+                 surface.settings,
+                 {basis.rectangle(),
+                  static_cast<int>(basis.columns_x()) - 3,
+                  static_cast<int>(basis.columns_y()) - 3,
+                  scale,
+                  coefficients},
+                 {},
+                 surface.lattice};
+  for (Eigen::Index i = 0; i < surface.covariance_factor.rows(); ++i) {
+    Numbers& row = part.covariance_factor.emplace_back();
+    for (Eigen::Index j = 0; j <= i; ++j)
+      row.push_back(seven_digits(surface.covariance_factor(i, j)));
+  }
+  return part;
+}
+
+ModelSurface surface_of(const ModelPart& part) {
+  const SplinePart& own = part.residual;
+  const interp::BsplineBasis basis(own.rectangle, own.x_intervals, own.y_intervals);
+  const FitColumns columns{as_index(part.settings.size()), basis.size()};
+  ModelSurface surface{part.machine,
+                       part.sheet,
+                       {basis, own.scale, own.coefficients_mm},
+                       columns,
+                       part.settings,
+                       Eigen::MatrixXd::Zero(columns.total(), columns.total()),
+                       part.lattice};
+  for (std::size_t i = 0; i < part.covariance_factor.size(); ++i) {
+    const Numbers& row = part.covariance_factor[i];
+    surface.covariance_factor.row(as_index(i)).head(as_index(row.size())) =
+        Eigen::Map<const Eigen::RowVectorXd>(row.data(), as_index(row.size()));
+  }
+  return surface;
+}
+
+/// Null if the map has the other kind of surface.
+template <class Surface>
+const Surface* surface_in(const MapContents& map) {
+  return std::get_if<Surface>(&map.surface);
+}
+
+}  // namespace
+
+void add_surface(Record<MapContents>& record) {
+  record
+      .computed(
+          "on_machine",
+          "A calibrated machine with residual surfaces; or direct.",
+          false,
+          object(model_part_record()),
+          [](MapContents& map, const ModelPart& part) { map.surface = surface_of(part); },
+          [](const MapContents& map) {
+            const auto* own = surface_in<ModelSurface>(map);
+            return own != nullptr ? std::optional(part_of(*own)) : std::nullopt;
+          })
+      .computed(
+          "direct",
+          "Splines through the lengths, without a machine; or on_machine.",
+          false,
+          object(direct_surface_record()),
+          [](MapContents& map, const DirectSurface& surface) { map.surface = surface; },
+          [](const MapContents& map) {
+            const auto* own = surface_in<DirectSurface>(map);
+            return own != nullptr ? std::optional(*own) : std::nullopt;
+          });
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "grid/containers.hpp"
+#include "grid/files/maslow4_places.hpp"
+#include "grid/files/setting_reader.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::Belt;
+using model::BeltMachine;
+using model::kBelts;
+using model::Orientation;
+
+/// Applies settings of maslow.yaml; missing ones keep their values and are noted.
+class Settings {
+ public:
+  Settings(const Maslow4Options& options, std::vector<std::string>& assumed)
+      : problems_(options.settings_file),
+        reader_(options.settings ? yaml_texts(*options.settings, problems_) : SettingTexts{},
+                problems_),
+        assumed_(assumed) {
+    if (options.settings && reader_.empty()) {
+      problems_.add("", "no settings", ProblemKind::missing, "the machine's maslow.yaml");
+    }
+  }
+
+  /// The value of the first of these keys that is present; false if none is.
+  bool take(const std::vector<std::string>& keys, double& value) {
+    constexpr Range kSetting{"", -1e6, 1e6};
+    for (const std::string& key : keys) {
+      if (reader_.look(key) == nullptr) continue;
+      value = reader_.find(key, kSetting).value_or(value);
+      return true;
+    }
+    return false;
+  }
+
+  void take_or_assume(const std::vector<std::string>& keys, double& value, std::string_view what) {
+    if (!take(keys, value)) assumed_.push_back(fmt::format("{} of {:g} mm", what, value));
+  }
+
+  [[nodiscard]] SettingReader& reader() { return reader_; }
+  [[nodiscard]] Problems& problems() { return problems_; }
+
+ private:
+  Problems problems_;
+  SettingReader reader_;
+  std::vector<std::string>& assumed_;
+};
+
+/// The keys of a setting: today's name, and that of releases before July 2025.
+std::vector<std::string> keys_of(const std::string& key) {
+  return {"kinematics/MaslowKinematics/" + key, "Maslow_" + key};
+}
+
+/// The settings file's names for the anchors, so that an export writes lines that its firmware
+/// accepts.
+void take_names(Settings& settings, BeltMachine& machine) {
+  const auto has = [&](std::size_t names) {
+    return any_of(kBelts, [&](Belt belt) {
+      return settings.reader().look(keys_of(std::string(name(belt)) + "X")[names]) != nullptr;
+    });
+  };
+  if (!has(0) && has(1)) machine.setting_names = model::SettingNames::top_level;
+}
+
+void take_anchors(Settings& settings, BeltMachine& machine, std::vector<std::string>& assumed) {
+  int known = 0;
+  std::string heights;
+  bool heights_known = true;
+  for (const Belt belt : kBelts) {
+    const std::string corner(name(belt));
+    model::Anchor& anchor = machine.anchors[belt];
+    const bool is_origin = belt == Belt::bl;
+    // bl and the y of br are 0 by definition of the frame, and not always among the settings.
+    known += settings.take(keys_of(corner + "X"), anchor.x_mm) || is_origin ? 1 : 0;
+    known +=
+        settings.take(keys_of(corner + "Y"), anchor.y_mm) || is_origin || belt == Belt::br ? 1 : 0;
+    heights_known = settings.take(keys_of(corner + "Z"), anchor.z_mm) && heights_known;
+    heights += fmt::format("{}{} {:g}", heights.empty() ? "" : ", ", corner, anchor.z_mm);
+  }
+  machine.anchors_known = known == 8;
+  if (!machine.anchors_known) {
+    for (const Belt belt : kBelts) machine.anchors[belt].x_mm = machine.anchors[belt].y_mm = 0.0;
+  }
+  if (!heights_known) assumed.push_back(fmt::format("heights of the anchors of {} mm", heights));
+}
+
+BeltMachine machine_of(const Maslow4Options& options,
+                       Settings& settings,
+                       std::vector<std::string>& assumed) {
+  BeltMachine machine;
+  take_names(settings, machine);
+  take_anchors(settings, machine, assumed);
+  settings.take_or_assume(keys_of("armLength"), machine.arm_mm, "an arm");
+  settings.take_or_assume(
+      keys_of("beltEndExtension"), machine.end_extension_mm, "an extension of the belt's end");
+  double spoilboard_mm = 0.0;
+  double work_mm = 0.0;
+  (void)settings.take(keys_of("spoilboardThickness"), spoilboard_mm);
+  (void)settings.take(keys_of("workThickness"), work_mm);
+  machine.surface_mm = spoilboard_mm + work_mm;
+  (void)settings.take(keys_of("Scale_X"), machine.scale_x);
+  (void)settings.take(keys_of("Scale_Y"), machine.scale_y);
+  const auto vertical = settings.reader().find_word("Maslow_vertical", {"true", "false"});
+  if (vertical)
+    machine.orientation = *vertical == "true" ? Orientation::upright : Orientation::flat;
+  if (options.orientation) {
+    machine.orientation = *options.orientation;
+  } else if (!vertical) {
+    assumed.emplace_back("a frame that stands upright, its lower belts pulled (--orientation)");
+  }
+  return machine;
+}
+
+/// The pull in the settings.
+std::optional<BeltPull> settings_pull(Settings& settings) {
+  double pull_ma = 0.0;
+  const bool is_known = settings.take({"Maslow_Calibration_Current_Threshold"}, pull_ma);
+  if (!is_known || !(pull_ma > 0.0)) return std::nullopt;
+  return BeltPull{pull_ma, BeltPull::Unit::milliampere};
+}
+
+}  // namespace
+
+void take_machine(const Maslow4Options& options, Maslow4Import& result, Problems& problems) {
+  Settings settings(options, result.assumed);
+  result.belts.machine = machine_of(options, settings, result.assumed);
+  result.settings_pull = settings_pull(settings);
+  settings.reader().warn_of_others("describes the anchors of the belts");
+  problems.add_warnings(settings.problems().warnings());
+  try {
+    settings.problems().throw_if_any();
+  } catch (const InputError& error) {
+    problems.add_all(error);
+  }
+  problems.add_all("the settings' ", model::problems_of(result.belts.machine));
+}
+
+}  // namespace chaintrue::grid::files

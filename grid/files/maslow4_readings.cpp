@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/containers.hpp"
+#include "grid/files/belts_record.hpp"
+#include "grid/files/maslow4_scan.hpp"
+#include "grid/files/maslow4_text.hpp"
+#include "grid/files/number_text.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+/// A reading has some 60 characters; a terminal breaks it over two lines, seldom three.
+constexpr std::size_t kLongestReading = 200;
+constexpr std::size_t kMostLines = 3;
+
+}  // namespace
+
+using model::Belt;
+using model::kBelts;
+
+void ReadingReader::begin(std::size_t number, std::size_t column) {
+  open_ = true;
+  text_.clear();
+  outside_.clear();
+  line_ = number;
+  column_ = column;
+  lines_ = 1;
+}
+
+ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t number) {
+  Found found;
+  const auto add = [&found](std::optional<ScannedReading> reading) {
+    if (reading) found.readings.push_back(*std::move(reading));
+  };
+  outside_.clear();
+  if (open_) ++lines_;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (open_ && (c == '}' || c == '{' || c == ']')) {
+      open_ = false;
+      // A number that another sign ends is whole, though the bracket is lost.
+      add(read(text_, End::closed));
+      found.list_ends = found.list_ends || c == ']';
+      if (c == '{') begin(number, at + 1);
+    } else if (open_) {
+      text_ += c;
+    } else if (c == '{') {
+      begin(number, at + 1);
+    } else if (c == '}') {
+      line_ = number;
+      column_ = 1;
+      add(read(outside_, End::closed));
+      outside_.clear();
+    } else if (c == ']') {
+      found.list_ends = true;
+    } else {
+      outside_ += c;
+    }
+  }
+  if (open_ && (text_.size() > kLongestReading || lines_ > kMostLines)) add(give_up());
+  return found;
+}
+
+std::optional<ScannedReading> ReadingReader::give_up() {
+  if (!open_) return std::nullopt;
+  open_ = false;
+  return read(text_, End::lost);
+}
+
+std::optional<ScannedReading> ReadingReader::read(const std::string& text, End end) const {
+  Problems problems(file_);
+  const std::string place = line_and_column(line_, column_);
+  model::PerBelt<double> lengths_mm;
+  model::PerBelt<bool> known;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string_view part = std::string_view(text).substr(begin, comma - begin);
+    begin = comma + 1;
+    const std::size_t colon = part.find(':');
+    if (colon == std::string_view::npos) continue;
+    const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
+    if (!belt) continue;
+    if (known[*belt]) {
+      problems.add(place,
+                   std::string(unquoted(part)),
+                   ProblemKind::repeated_value,
+                   "each belt once in a reading");
+      continue;
+    }
+    known[*belt] = true;
+    const auto value = checked_number(
+        unquoted(part.substr(colon + 1)), place, name(*belt), kBeltLengthMm, problems);
+    if (value) lengths_mm[*belt] = *value;
+  }
+  // Objects of other programs.
+  if (none_of(kBelts, [&](Belt belt) { return known[belt]; })) return std::nullopt;
+  const std::string whole = fmt::format("{{{}{}", unquoted(text), end == End::lost ? "" : "}");
+  for (const Belt belt : kBelts) {
+    if (!known[belt]) {
+      problems.add(place,
+                   whole,
+                   ProblemKind::missing,
+                   "a length of {} too; a reading has tl, tr, bl and br",
+                   name(belt));
+    }
+  }
+  if (end == End::lost && !problems.any())
+    problems.add(place,
+                 whole,
+                 ProblemKind::missing,
+                 "a complete reading; the log ends in the middle of this one");
+  ScannedReading reading;
+  reading.line = line_;
+  reading.problems = problems.list();
+  if (!problems.any()) reading.lengths_mm = lengths_mm;
+  return reading;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the settings of V-plotters have in common, and those of Marlin. Private to grid/files.
+#pragma once
+
+#include <string>
+
+#include "grid/files/setting_reader.hpp"
+#include "grid/plotter/found_plotter.hpp"
+
+namespace chaintrue::grid::files {
+
+inline constexpr Range kOnTheWall{"mm", -20000.0, 20000.0};
+inline constexpr Range kPositive{"", 1e-6, 1e6};
+inline constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
+
+/// For a required key; 0 if it is missing and reported.
+[[nodiscard]] inline double needed(SettingReader& settings,
+                                   const std::string& key,
+                                   const Range& range) {
+  return settings.need(key, range).value_or(0.0);
+}
+
+/// The settings of most controllers do not say what hangs on the cords.
+void warn_of_gondola(const model::PlotterMachine& machine, Problems& problems);
+
+/// Of M665 and M92 in a log, or of a Configuration.h.
+[[nodiscard]] SetPlotter plotter_of_marlin(const std::string& text, Problems& problems);
+
+}  // namespace chaintrue::grid::files
