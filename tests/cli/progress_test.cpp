@@ -16,8 +16,7 @@
 #include "grid/map/map_check.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/generator.hpp"
-#include "tools/cli/progress_state.hpp"
-#include "tools/cli/repeated_line.hpp"
+#include "tools/cli/progress_line.hpp"
 
 namespace chaintrue {
 namespace {

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <utility>
-
 #include "grid/containers.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/verb.hpp"
@@ -32,7 +30,7 @@ Option Option::required() const {
   return *this;
 }
 
-Option Option::one_of(const std::vector<std::string>& words) const {
+Option Option::one_of(const Words& words) const {
   option_->check(CLI::IsMember(words));
   return *this;
 }
@@ -96,16 +94,14 @@ Option Verb::add_option(const std::string& names,
   return Option(*app_->add_option(names, value, help));
 }
 
-Option Verb::add_option(const std::string& names,
-                        std::vector<std::string>& values,
-                        const std::string& help) const {
+Option Verb::add_option(const std::string& names, Words& values, const std::string& help) const {
   return Option(*app_->add_option(names, values, help));
 }
 
 Option Verb::add_option(const std::string& names,
-                        std::function<void(const std::vector<std::string>&)> take,
+                        std::function<void(const Words&)> take,
                         const std::string& help) const {
-  return Option(*app_->add_option_function<std::vector<std::string>>(names, std::move(take), help));
+  return Option(*app_->add_option_function<Words>(names, std::move(take), help));
 }
 
 Option Verb::add_option(const std::string& names,
@@ -158,18 +154,12 @@ std::string Verb::value_of(const std::string& name) const {
 
 std::vector<GivenOption> Verb::given_options() const {
   std::vector<GivenOption> given;
-  for (const CLI::Option* option : app_->get_options()) {
+  for (const CLI::Option* option : parts_of(*app_).options) {
     const bool has_long_name = !option->get_lnames().empty();
     if (option->count() == 0 || (!has_long_name && option->get_snames().empty())) continue;
     const bool is_flag = option->get_items_expected_max() == 0;
     given.push_back({(has_long_name ? "--" : "-") + option->get_single_name(),
-                     is_flag ? std::vector<std::string>{} : option->results()});
-  }
-  // A group of options has no name and belongs to its verb.
-  for (CLI::App* group : app_->get_subcommands([](const CLI::App*) { return true; })) {
-    if (!group->get_name().empty()) continue;
-    const std::vector<GivenOption> own = Verb(*group).given_options();
-    grid::append_all(given, own);
+                     is_flag ? Words{} : option->results()});
   }
   return given;
 }
@@ -215,7 +205,8 @@ std::vector<OptionRule> option_rules() {
 #undef CHAINTRUE_VERB
   std::vector<OptionRule> named;
   const auto gather = [&](const auto& self, CLI::App& verb) -> void {
-    for (const CLI::Option* option : verb.get_options()) {
+    const VerbParts parts = parts_of(verb);
+    for (const CLI::Option* option : parts.options) {
       for (const Rule& rule : rules()) {
         if (rule.option == option)
           named.push_back({Verb(verb).path(),
@@ -225,11 +216,37 @@ std::vector<OptionRule> option_rules() {
                            rule.harmless});
       }
     }
-    for (CLI::App* below : verb.get_subcommands([](const CLI::App*) { return true; }))
-      self(self, *below);
+    for (CLI::App* below : parts.verbs) self(self, *below);
   };
   gather(gather, app);
   return named;
+}
+
+VerbParts parts_of(CLI::App& verb) {
+  VerbParts parts{verb.get_options(), {}};
+  for (CLI::App* below : verb.get_subcommands([](CLI::App*) { return true; })) {
+    // A group of options has no name and belongs to its verb.
+    if (below->get_name().empty()) {
+      grid::append_all(parts.options, parts_of(*below).options);
+    } else {
+      parts.verbs.push_back(below);
+    }
+  }
+  return parts;
+}
+
+std::vector<std::string> long_names(const std::vector<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
+  return names;
 }
 
 void usage_error(const std::string& verb, const std::string& sentence) {

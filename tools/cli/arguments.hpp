@@ -29,6 +29,19 @@ class Option;
 
 namespace chaintrue::cli {
 
+/// Of a command line: all of them, or those given for an option.
+using Words = std::vector<std::string>;
+
+/// The command's exit codes, on which scripts may rely.
+enum ExitCode {
+  kDone = 0,
+  kCheckFailed = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kNotSupportedOrOutside = 4,
+  kInternal = 5,
+};
+
 // The kinds of input that an option applies to. An option without effect on its verb's input
 // is refused before any work; tests/inputs tries each with every kind of input.
 //
@@ -107,7 +120,7 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option required() const;
-  Option one_of(const std::vector<std::string>& words) const;
+  Option one_of(const Words& words) const;
   /// Using this without `other` is an error; `excludes`: with it.
   Option needs(Option other) const;
   Option excludes(Option other) const;
@@ -145,7 +158,7 @@ void forget_option_rules();
 /// flag.
 struct GivenOption {
   std::string name;
-  std::vector<std::string> words;
+  Words words;
 };
 
 class Verb {
@@ -159,12 +172,10 @@ class Verb {
   /// One of the verbs below is required.
   void require_verb() const;
   Option add_option(const std::string& names, std::string& value, const std::string& help) const;
-  Option add_option(const std::string& names,
-                    std::vector<std::string>& values,
-                    const std::string& help) const;
+  Option add_option(const std::string& names, Words& values, const std::string& help) const;
   /// `take` gets all texts that were given.
   Option add_option(const std::string& names,
-                    std::function<void(const std::vector<std::string>&)> take,
+                    std::function<void(const Words&)> take,
                     const std::string& help) const;
   /// `take` gets the text of each occurrence.
   Option add_option(const std::string& names,
@@ -205,7 +216,6 @@ class Verb {
   [[nodiscard]] bool is_chosen() const;
   /// The verb of a group of options; for a verb, itself.
   [[nodiscard]] Verb with_name() const;
-  /// For completion and manual pages.
   [[nodiscard]] CLI::App& app() const { return *app_; }
 
  private:
@@ -213,6 +223,15 @@ class Verb {
 
   CLI::App* app_ = nullptr;
 };
+
+/// What a verb has, including what its groups of options have.
+struct VerbParts {
+  std::vector<CLI::Option*> options;  ///< and arguments
+  std::vector<CLI::App*> verbs;
+};
+[[nodiscard]] VerbParts parts_of(CLI::App& verb);
+[[nodiscard]] std::vector<std::string> long_names(const std::vector<CLI::Option*>& options);
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs);
 
 /// Of the verb that was chosen.
 [[nodiscard]] Run& chosen_run();

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/belts_frame_chart.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 
@@ -61,8 +59,7 @@ double ellipse_magnification(const BeltsFindings& found) {
 DataTable anchors_table(const BeltsFindings& found) {
   DataTable table{
       "anchors",
-      {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"},
-      {}};
+      {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"}};
   for (const Belt belt : kBelts) {
     const model::Anchor& anchor = found.machine.anchors[belt];
     table.rows.push_back({std::string(model::words(belt)),
@@ -80,8 +77,7 @@ DataTable anchors_table(const BeltsFindings& found) {
 DataTable strokes_table(const BeltsFindings& found,
                         model::PerBelt<double> BeltPlacePicture::*which) {
   DataTable table{"strokes",
-                  {"name", "x_mm", "y_mm", "way_x", "way_y", "off_mm", "words", "color", "is_bad"},
-                  {}};
+                  {"name", "x_mm", "y_mm", "way_x", "way_y", "off_mm", "words", "color", "is_bad"}};
   for (std::size_t k = 0; k < found.places.size(); ++k) {
     const BeltPlacePicture& place = found.places[k];
     for (const Belt belt : kBelts) {
@@ -112,7 +108,7 @@ Chart frame_chart(const BeltsFindings& found,
                   std::string title,
                   model::PerBelt<double> BeltPlacePicture::*which) {
   Chart chart{.specification = "belt_frame", .title = std::move(title)};
-  DataTable frame{"frame", {"x_mm", "y_mm"}, {}};
+  DataTable frame{"frame", {"x_mm", "y_mm"}};
   const auto& a = found.machine.anchors;
   double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
   for (const model::Anchor& corner : {a.bl, a.tl, a.tr, a.br, a.bl}) {

@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue check: checks by a few new points whether a map, or anchors, are still valid.
-#include <fmt/format.h>
-
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
+#include "grid/map/check.hpp"
 #include "grid/belts/anchors_check.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/controller_settings.hpp"
-#include "grid/files/whole_file.hpp"
-#include "grid/map/check.hpp"
-#include "grid/map/map_check.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/document.hpp"
 
@@ -68,7 +54,7 @@ Document map_check_document(const grid::Check& check) {
   for (const grid::CheckResidual& one : check.residuals)
     table.rows.push_back({{one.name, one.residual_mm, one.sigma_mm}});
   Document document = document_of(check, std::move(table));
-  for (const std::string& note : check.notes) document.remarks.blocks.emplace_back(Paragraph{note});
+  for (const std::string& note : check.notes) document.remarks.say(note);
   return document;
 }
 
@@ -89,33 +75,40 @@ struct CheckCommand {
   /// The controller's settings when the new points were commanded.
   std::string settings;
   /// Further files of new points.
-  std::vector<std::string> with;
+  Words with;
   bool json = false;
   std::string output = "-";
   std::string report;
 };
 
+/// A check with its page, its numbers (JSON), and the next command.
+struct Answer {
+  grid::Check check;
+  Document document;
+  std::string numbers;
+  Words next;
+};
+
 /// For a valid map its error; after re-zeroing, and if the points do not decide, a few more points;
 /// a map that is no longer valid is replaced. \param is_after the map is for numbers that were
 /// typed in
-void say_next_of_map(const grid::Check& check, const CheckCommand& command, bool is_after) {
+Words next_of(const grid::Check& check, const CheckCommand& command, bool is_after) {
   if (check.settings_have_changed && !is_after) {
-    return say_next({"export",
-                     "groundcontrol",
-                     command.map,
-                     "-o",
-                     "settings.ini",
-                     "--map-after",
-                     after_name(command.map)});
+    return {"export",
+            "groundcontrol",
+            command.map,
+            "-o",
+            "settings.ini",
+            "--map-after",
+            after_name(command.map)};
   }
-  if (check.is_valid_as_it_is()) {
-    return say_next({"report", command.map, "--certificate", "-o", "certificate.html"});
-  }
+  if (check.is_valid_as_it_is())
+    return {"report", command.map, "--certificate", "-o", "certificate.html"};
   if (check.decided && check.verdict == grid::CheckVerdict::measure_again &&
       !command.input.machine.empty()) {
-    return say_next({"plan", "--machine", command.input.machine, "-o", "marks.csv"});
+    return {"plan", "--machine", command.input.machine, "-o", "marks.csv"};
   }
-  say_next({"plan", "--check", command.map, "-o", "check.csv"});
+  return {"plan", "--check", command.map, "-o", "check.csv"};
 }
 
 /// For a file with a machine whose controller has settings other than the map's: its commands used
@@ -137,15 +130,10 @@ void say_other_settings(const CompensationMap& map, const grid::Measured& measur
   }
 }
 
-using CheckResult = tl::expected<grid::Check, grid::CheckFailure>;
-
-CheckResult check_of_map(const CheckCommand& command,
-                         const std::vector<InputFile>& files,
-                         const InputFile& map,
-                         bool& is_after) {
+Answer check_of_map(const CheckCommand& command, const InputFiles& files, const InputFile& map) {
   const CompensationMap as_measured = load_map(map);
   std::optional<model::ControllerSettings> before = settings_before(command.map);
-  is_after = before.has_value();
+  const bool is_after = before.has_value();
   if (!command.settings.empty() && as_measured.machine() != nullptr)
     before = as_measured.machine()->controller.settings;
   grid::Measured measured;
@@ -157,64 +145,51 @@ CheckResult check_of_map(const CheckCommand& command,
       command.settings.empty()
           ? as_measured
           : with_settings_of(command.settings, command.map, as_measured, measured);
-  CheckResult check = grid::check_map(in_force, measured, shown_progress());
-  if (!check) return check;
-  if (auto changed = with_typed_settings(in_force, measured, *check, before))
+  grid::Check check =
+      value_of(grid::check_map(in_force, measured, shown_progress()), files.front().name);
+  if (auto changed = with_typed_settings(in_force, measured, check, before))
     check = *std::move(changed);
-  return check;
-}
-
-CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
-  const files::FittedAnchors loaded = load_anchors(anchors);
-  require_kind(belts,
-               {FileKind::belts},
-               "anchors are checked only against new belt lengths; fit holes and belts together "
-               "(chaintrue fit BELTS --with HOLES)");
-  const files::ReadBelts read = load_belts(belts, "a check");
-  return grid::check_anchors(loaded.fit, read.belts);
-}
-
-void write_check(const grid::Check& check, const CheckCommand& command, bool of_belts) {
-  const Document document = of_belts ? anchors_check_document(check) : map_check_document(check);
-  std::string text;
-  if (!command.json) {
-    text = report::render_text(document);
-  } else {
-    text = of_belts ? files::write_anchors_check(check) : files::write_map_check(check);
-  }
-  std::vector<files::OutputFile> outputs = {{command.output, text}};
-  if (!command.report.empty()) outputs.push_back({command.report, report::render_html(document)});
-  write_outputs(outputs);
+  return {check,
+          map_check_document(check),
+          files::write_map_check(check),
+          next_of(check, command, is_after)};
 }
 
 /// Valid anchors are reported; others are diagnosed.
-void say_next_of_anchors(const grid::Check& check, const CheckCommand& command) {
-  if (check.is_valid_as_it_is()) return say_next({"report", command.map, "-o", "anchors.html"});
-  say_next({"diagnose", command.input.grid, "-o", "diagnosis.json"});
+Answer check_of_anchors(const CheckCommand& command,
+                        const InputFiles& files,
+                        const InputFile& anchors) {
+  const files::FittedAnchors loaded = load_anchors(anchors);
+  require_kind(files.front(),
+               {FileKind::belts},
+               "anchors are checked only against new belt lengths; fit holes and belts together "
+               "(chaintrue fit BELTS --with HOLES)");
+  const files::ReadBelts read = load_belts(files.front(), "a check");
+  const grid::Check check =
+      value_of(grid::check_anchors(loaded.fit, read.belts), files.front().name);
+  return {check,
+          anchors_check_document(check),
+          files::write_anchors_check(check),
+          check.is_valid_as_it_is()
+              ? Words{"report", command.map, "-o", "anchors.html"}
+              : Words{"diagnose", command.input.grid, "-o", "diagnosis.json"}};
 }
 
 int run_check(Verb verb, const CheckCommand& command) {
   const InputFile map = open_input(command.map);
   require_kind(map, {FileKind::map, FileKind::anchors});
   const bool of_belts = map.kind == FileKind::anchors;
-  const std::vector<InputFile> files = open_inputs(command.input.grid, command.with);
-  Facts facts = (of_belts ? facts::anchors : facts::map) | facts_of_tables(files);
-  for (const InputFile& file : files) {
-    if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
-    if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
-  }
-  verb.refuse_idle_options(facts);
-  bool is_after = false;
-  const CheckResult check =
-      of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map, is_after);
-  if (!check) throw Failed(files.front().name, check.error());
-  write_check(*check, command, of_belts);
-  if (of_belts) {
-    say_next_of_anchors(*check, command);
-  } else {
-    say_next_of_map(*check, command, is_after);
-  }
-  return check->is_valid_as_it_is() ? kDone : kCheckFailed;
+  const InputFiles files = open_inputs(command.input.grid, command.with);
+  verb.refuse_idle_options(map.fact() | (facts_of(files) & (of_belts ? facts::table : facts::any)));
+  const Answer answer =
+      of_belts ? check_of_anchors(command, files, map) : check_of_map(command, files, map);
+  Outputs outputs = {
+      {command.output, command.json ? answer.numbers : report::render_text(answer.document)}};
+  if (!command.report.empty())
+    outputs.push_back({command.report, report::render_html(answer.document)});
+  write_outputs(outputs);
+  say_next(answer.next);
+  return answer.check.is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 
 }  // namespace

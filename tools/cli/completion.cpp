@@ -2,74 +2,41 @@
 /// \file
 /// chaintrue completion and chaintrue man: completion for shells and manual pages, made from the
 /// verbs and options themselves, the text of --help.
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "grid/containers.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-/// A verb as typed, and its options.
+/// A verb as typed, and what it has.
 struct Command {
-  std::vector<std::string> words;  ///< {"gcode", "verify"}; none: chaintrue itself
+  Words words;  ///< {"gcode", "verify"}; none: chaintrue itself
   const CLI::App* app = nullptr;
-  std::vector<const CLI::Option*> options;
-  std::vector<const CLI::Option*> arguments;
-  std::vector<const CLI::App*> verbs;
+  VerbParts parts;
+  std::vector<CLI::Option*> arguments;  ///< not among the parts' options
 };
 
-void gather(const CLI::App& app, Command& command) {
-  for (const CLI::Option* option : app.get_options()) {
-    (option->get_positional() ? command.arguments : command.options).push_back(option);
-  }
-  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
-    // Groups of options have no name.
-    if (below->get_name().empty()) {
-      gather(*below, command);
-    } else {
-      command.verbs.push_back(below);
-    }
-  }
-}
-
-void walk(const CLI::App& app, std::vector<std::string> words, std::vector<Command>& all) {
-  Command command{std::move(words), &app, {}, {}, {}};
-  gather(app, command);
-  const std::vector<std::string> own = command.words;
-  const std::vector<const CLI::App*> verbs = command.verbs;
+void walk(CLI::App& app, const Words& words, std::vector<Command>& all) {
+  Command command{words, &app, parts_of(app), {}};
+  std::erase_if(command.parts.options, [&](CLI::Option* option) {
+    if (option->get_positional()) command.arguments.push_back(option);
+    return option->get_positional();
+  });
+  const std::vector<CLI::App*> verbs = command.parts.verbs;
   all.push_back(std::move(command));
-  for (const CLI::App* verb : verbs) {
-    std::vector<std::string> below = own;
+  for (CLI::App* verb : verbs) {
+    Words below = words;
     below.push_back(verb->get_name());
-    walk(*verb, std::move(below), all);
+    walk(*verb, below, all);
   }
 }
 
-std::vector<Command> commands_of(const CLI::App& app) {
+std::vector<Command> commands_of(CLI::App& app) {
   std::vector<Command> all;
   walk(app, {}, all);
   return all;
-}
-
-std::vector<std::string> long_names(const Command& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.options) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-std::vector<std::string> verb_names(const Command& command) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : command.verbs) names.push_back(verb->get_name());
-  return names;
 }
 
 /// The branches of a shell's case: "gcode verify") and its words.
@@ -79,9 +46,9 @@ std::string branches(const std::vector<Command>& commands, const char* verbs, co
     text += fmt::format("    \"{}\") {}=\"{}\" {}=\"{}\" ;;\n",
                         fmt::join(command.words, " "),
                         verbs,
-                        fmt::join(verb_names(command), " "),
+                        fmt::join(names_of(command.parts.verbs), " "),
                         options,
-                        fmt::join(long_names(command), " "));
+                        fmt::join(long_names(command.parts.options), " "));
   }
   return text;
 }
@@ -158,13 +125,13 @@ std::string fish(const std::vector<Command>& commands) {
     const std::string when =
         command.words.empty() ? "__fish_use_subcommand"
                               : fmt::format("__fish_seen_subcommand_from {}", command.words.back());
-    for (const CLI::App* verb : command.verbs) {
+    for (const CLI::App* verb : command.parts.verbs) {
       text += fmt::format("complete -c chaintrue -f -n '{}' -a {} -d '{}'\n",
                           when,
                           verb->get_name(),
                           fish_quoted(verb->get_description()));
     }
-    for (const CLI::Option* option : command.options) {
+    for (const CLI::Option* option : command.parts.options) {
       for (const std::string& name : option->get_lnames()) {
         text += fmt::format("complete -c chaintrue -n '{}' -l {}{} -d '{}'\n",
                             when,
@@ -206,7 +173,7 @@ std::string item_of(const CLI::Option& option) {
 }
 
 std::string manual_of(const Command& command) {
-  std::vector<std::string> words = {"chaintrue"};
+  Words words = {"chaintrue"};
   grid::append_all(words, command.words);
   const std::string title = fmt::format("{}", fmt::join(words, "-"));
   std::string text =
@@ -216,18 +183,18 @@ std::string manual_of(const Command& command) {
                   troff(title),
                   troff(command.app->get_description()),
                   fmt::join(words, " "));
-  if (!command.verbs.empty()) text += ".I verb\n";
+  if (!command.parts.verbs.empty()) text += ".I verb\n";
   for (const CLI::Option* argument : command.arguments)
     text += fmt::format("[\\fI{}\\fR]\n", troff(argument->get_name()));
   text += "[\\fIoptions\\fR]\n";
-  if (!command.verbs.empty()) text += ".SH VERBS\n";
-  for (const CLI::App* verb : command.verbs) {
+  if (!command.parts.verbs.empty()) text += ".SH VERBS\n";
+  for (const CLI::App* verb : command.parts.verbs) {
     text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", verb->get_name(), troff(verb->get_description()));
   }
   if (!command.arguments.empty()) text += ".SH ARGUMENTS\n";
   for (const CLI::Option* argument : command.arguments) text += item_of(*argument);
   text += ".SH OPTIONS\n";
-  for (const CLI::Option* option : command.options) text += item_of(*option);
+  for (const CLI::Option* option : command.parts.options) text += item_of(*option);
   if (!command.app->get_footer().empty())
     text += fmt::format(".SH NOTES\n.nf\n{}\n.fi\n", troff(command.app->get_footer()));
   return text +
@@ -235,7 +202,7 @@ std::string manual_of(const Command& command) {
          "supported or outside the map; 5 internal.\n";
 }
 
-int print_manual(const CLI::App& app, const std::vector<std::string>& words) {
+int print_manual(CLI::App& app, const Words& words) {
   for (const Command& command : commands_of(app)) {
     if (command.words != words) continue;
     fmt::print("{}", manual_of(command));
@@ -263,12 +230,11 @@ void add_completion(Verb app) {
 }
 
 void add_man(Verb app) {
-  auto words = std::make_shared<std::vector<std::string>>();
+  auto words = std::make_shared<Words>();
   Verb verb = app.add_verb("man", "Print a manual page (troff), as man -l - shows it");
   verb.add_option("verb", *words, "The verb; by default the command itself");
   verb.footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
-  verb.runs(words,
-            [app](const std::vector<std::string>& own) { return print_manual(app.app(), own); });
+  verb.runs(words, [app](const Words& own) { return print_manual(app.app(), own); });
 }
 
 }  // namespace chaintrue::cli

@@ -2,60 +2,36 @@
 /// \file
 /// chaintrue diagnose: what the simulation gets wrong at these points, why, the gain from naming
 /// the cause, and what to measure next.
-#include <fmt/format.h>
-#include <tl/expected.hpp>
-
-#include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/order_search.hpp"
-#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"
-#include "grid/files/input_error.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/sources.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/threads/use_threads.hpp"
-#include "tools/cli/diagnosis_document.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
-#include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-// Makes a diagnosis from the options of `chaintrue diagnose` and its input.
-
 struct DiagnoseCommand {
   GridInput input;
   files::TapeOptions tape;
-  std::vector<std::string> with;
+  Words with;
   std::string output;
   std::string report;
   std::string extended_machine;
@@ -69,8 +45,6 @@ struct DiagnoseCommand {
   std::uint64_t seed = 1;
   bool json = false;
 };
-
-// Each throws Failed if there is no diagnosis.
 
 void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
   if (command.assume_order.empty()) return;
@@ -91,37 +65,22 @@ void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
   for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
 }
 
-template <class T>
-T value_of(tl::expected<T, diagnosis::DiagnosisFailure> result, const std::string& path) {
-  if (result) return *std::move(result);
-  throw Failed(files::name_in_messages(path), result.error());
-}
-
-/// "28 points and 20 distances"
-std::string counted(const grid::Measured& measured) {
-  std::size_t points = 0;
-  std::size_t distances = 0;
-  for (const auto* own : measured.grids()) points += own->points.size();
-  for (const auto* set : measured.holes()) distances += set->distances.size();
-  if (distances == 0) return fmt::format("{} points", points);
-  if (points == 0) return fmt::format("{} distances", distances);
-  return fmt::format("{} points and {} distances", points, distances);
-}
-
 /// The cost grows with the square of the number and more (docs/reliability.md): these take half a
 /// minute, and more would change no name.
 constexpr std::size_t kMostDiagnosed = 1200;
 
 void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::string& path) {
-  std::size_t units = 0;
-  for (const auto* own : measured.grids()) units += own->points.size();
-  for (const auto* set : measured.holes()) units += set->distances.size();
-  if (units <= kMostDiagnosed) return;
+  const auto [points, distances, holes] = counts_of(measured);
+  if (points + distances <= kMostDiagnosed) return;
+  const std::string counted = distances == 0 ? fmt::format("{} points", points)
+                              : points == 0
+                                  ? fmt::format("{} distances", distances)
+                                  : fmt::format("{} points and {} distances", points, distances);
   throw Failed(files::name_in_messages(path),
                "too_many",
                fmt::format("{} are more than a diagnosis accepts ({}): leave some out, evenly over "
                            "the bed, and keep those measured twice; chaintrue fit accepts them all",
-                           counted(measured),
+                           counted,
                            kMostDiagnosed));
 }
 
@@ -148,10 +107,11 @@ diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
   return options;
 }
 
-/// With the file's name where the readings have none.
+/// With the file's name where the readings have none. \throws Failed if there is no diagnosis, like
+/// those below.
 Diagnosis named(tl::expected<Diagnosis, diagnosis::DiagnosisFailure> result,
                 const DiagnoseCommand& command) {
-  Diagnosis found = value_of(std::move(result), command.input.grid);
+  Diagnosis found = value_of(std::move(result), files::name_in_messages(command.input.grid));
   if (found.grid_name.empty()) found.grid_name = files::name_without_folders(command.input.grid);
   return found;
 }
@@ -163,7 +123,8 @@ diagnosis::Transfer held_out(const DiagnoseCommand& command,
   GridInput other = command.input;
   other.grid = command.held_out;
   const MeasuredGrid to = read_grid_input(other);
-  auto transferred = value_of(diagnosis::transfer(measured, found, to), command.held_out);
+  auto transferred =
+      value_of(diagnosis::transfer(measured, found, to), files::name_in_messages(command.held_out));
   if (transferred.to.empty())
     transferred.to = to.name.empty() ? files::name_without_folders(command.held_out) : to.name;
   return transferred;
@@ -261,7 +222,7 @@ tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next({"report", command.output, "-o", page_alongside(command.output)});
-  std::vector<std::string> words;
+  Words words;
   const bool parts_causes = grid::any_of(found.next_measurements, [&](const auto& next) {
     return !found.belts || next.kind != diagnosis::MeasurementKind::distance;
   });
@@ -281,28 +242,14 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   say_next(words);
 }
 
-/// Belts and drawings are diagnosed alone, whatever is given with them.
-Facts facts_of(const std::vector<InputFile>& files) {
-  if (files.front().kind == FileKind::drawing) return facts::drawing;
-  if (files.front().kind == FileKind::belts) return facts::belts;
-  Facts facts = 0;
-  for (const InputFile& file : files) {
-    if (file.kind == FileKind::grid) facts |= facts::grid;
-    if (file.kind == FileKind::holes) facts |= facts::holes;
-  }
-  if (files.size() == 1) facts |= facts & facts::grid ? facts::one_grid : 0U;
-  return facts | facts_of_tables(files);
-}
-
 int run_diagnose(Verb verb, const DiagnoseCommand& command) {
-  const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
+  const InputFiles opened = open_inputs(command.input.grid, command.with);
   const InputFile& file = opened.front();
-  require_kind(file,
-               {FileKind::grid, FileKind::holes, FileKind::belts, FileKind::drawing},
-               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
-  verb.refuse_idle_options(facts_of(opened));
+  require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belts, FileKind::drawing});
   const bool of_belts = file.kind == FileKind::belts;
   const bool of_drawing = file.kind == FileKind::drawing;
+  // Belts and drawings are diagnosed alone, whatever is given with them.
+  verb.refuse_idle_options(of_belts || of_drawing ? file.fact() : facts_of(opened));
   grid::Measured input;
   if (!of_belts && !of_drawing)
     input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
@@ -312,7 +259,7 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   const std::string source = files::name_without_folders(command.input.grid);
   const grid::Provenance origin = made_by(verb);
   const std::string written = files::write_diagnosis(found, origin);
-  std::vector<files::OutputFile> outputs;
+  Outputs outputs;
   const auto add = [&outputs](const std::string& path, auto&& text) {
     if (!path.empty()) outputs.push_back({path, text()});
   };

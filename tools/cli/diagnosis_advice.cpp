@@ -2,8 +2,6 @@
 // The sections of a diagnosis on what to do, and what it does not cover.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
@@ -68,17 +66,16 @@ std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& b
 
 Section next_section(const Diagnosis& found) {
   const std::vector<std::string> sentences = follow_ups_in_words(found);
-  List list{List::Mark::number, {}};
+  List list{List::Mark::number};
   for (std::size_t i = 0; i < sentences.size(); ++i)
     list.items.push_back({sentences[i] + chance_then(found, i)});
   Section section{fmt::format("What to measure next (chaintrue plan {} --after diagnosis.json)",
                               files_in_words(found)),
                   {std::move(list)}};
-  section.blocks.emplace_back(
-      Paragraph{fmt::format("Measure in this order; each probability includes all lines above it. "
-                            "{}; the command prints the lines.",
-                            where_it_goes(found)),
-                Detail::page});
+  section.say(fmt::format("Measure in this order; each probability includes all lines above it. "
+                          "{}; the command prints the lines.",
+                          where_it_goes(found)),
+              Detail::page);
   const bool has_places =
       grid::any_of(found.next_measurements, [](const auto& next) { return next.mark.has_value(); });
   if (found.belts) return section;
@@ -118,18 +115,16 @@ Section not_testable_section(const Diagnosis& found) {
 }
 
 Section remarks_section(const Diagnosis& found) {
-  Section section{"Basis of this answer", {}};
-  for (const std::string& note : found.notes)
-    section.blocks.emplace_back(Paragraph{note, Detail::always, true});
+  Section section{"Basis of this answer"};
+  for (const std::string& note : found.notes) section.say(note, Detail::always, true);
   if (found.belts) return section;
-  section.blocks.emplace_back(
-      Paragraph{noise_in_words(found) +
-                    fmt::format("the estimated noise is {:.2f} times that.", found.noise_factor),
-                Detail::page});
+  section.say(noise_in_words(found) +
+                  fmt::format("the estimated noise is {:.2f} times that.", found.noise_factor),
+              Detail::page);
   for (const auto& correction : found.data_corrections) {
-    section.blocks.emplace_back(Paragraph{
+    section.say(
         fmt::format("Corrected in the data, not in the machine: {}.", cause_title(correction)),
-        Detail::page});
+        Detail::page);
   }
   return section;
 }

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "grid/diagnosis/workshop_units.hpp"
-#include "tools/cli/belts_frame_chart.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
@@ -19,16 +18,12 @@ Section frame_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
   Chart before = frame_chart(belts, "Anchors alone", &BeltPlacePicture::before_mm);
   before.caption = kFrameCaption;
-  Section section{"The frame, and the residuals of its belts", {}};
-  if (found.causes.empty()) {
-    section.blocks.emplace_back(std::move(before));
-    return section;
-  }
+  Section section{"The frame, and the residuals of its belts", {std::move(before)}};
+  if (found.causes.empty()) return section;
   Chart after = frame_chart(belts,
                             found.causes.size() > 1 ? "With the causes" : "With the cause",
                             &BeltPlacePicture::after_mm);
   after.caption = "The same scale. Strokes in random directions are noise.";
-  section.blocks.emplace_back(std::move(before));
   section.blocks.emplace_back(std::move(after));
   return section;
 }
@@ -99,10 +94,10 @@ Section drawn_settings_section(const Diagnosis& found) {
                           {.gap = 2}}};
   for (const DrawnSetting& own : found.drawing->settings) {
     const auto words = diagnosis::parameter_words(own.name);
-    Row row{{fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma},
-            own.off};
-    if (own.off) row.cells.emplace_back("off");
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(report::row_with_flag(
+        {fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma},
+        own.off,
+        "off"));
   }
   return {.title = "Settings of the plotter", .blocks = {std::move(table)}};
 }
@@ -113,9 +108,8 @@ Section drawn_measures_section(const Diagnosis& found) {
                           number_column("explained", 11),
                           {.gap = 2}}};
   for (const DrawnValue& own : found.drawing->measures) {
-    Row row{{own.name, own.measured_mm, own.explained_mm}, own.rejected};
-    if (own.rejected) row.cells.emplace_back("left out");
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(report::row_with_flag(
+        {own.name, own.measured_mm, own.explained_mm}, own.rejected, "left out"));
   }
   return {.title = "What was measured", .blocks = {std::move(table)}};
 }

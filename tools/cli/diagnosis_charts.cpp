@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -47,22 +45,11 @@ double correlation(const Diagnosis& found,
   return spread > 0.0 ? (n * sum_ab - sum_a * sum_b) / std::sqrt(spread) : 0.0;
 }
 
-double rms(const Diagnosis& found, Eigen::Vector2d PointPicture::*residual, int chain) {
-  double squares = 0.0, count = 0.0;
-  for (const PointPicture& point : found.points) {
-    if (point.bad) continue;
-    squares += (point.*residual)[chain] * (point.*residual)[chain];
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
-}
-
 double largest(const Diagnosis& found, Eigen::Vector2d PointPicture::*residual) {
-  double value = 0.0;
-  for (const PointPicture& point : found.points) {
-    if (!point.bad) value = std::max(value, (point.*residual).lpNorm<Eigen::Infinity>());
-  }
-  return value;
+  return summary_of_good(
+             found.points,
+             [&](const PointPicture& point) { return (point.*residual).lpNorm<Eigen::Infinity>(); })
+      .maximum_mm;
 }
 
 std::vector<Panel> panels_of(const Diagnosis& found) {
@@ -98,11 +85,12 @@ Chart strip_chart(const Diagnosis& found,
                              "have the same scale: the largest measured circle is {:.2f} mm.{}",
                              full_mm,
                              clipped_in_words(found, full_mm))};
-  DataTable heads{"heads", {"panel", "title", "note"}, {}};
-  DataTable points{"points", {"panel", "name", "x_mm", "y_mm", "value_mm", "is_bad"}, {}};
+  DataTable heads{"heads", {"panel", "title", "note"}};
+  DataTable points{"points", {"panel", "name", "x_mm", "y_mm", "value_mm", "is_bad"}};
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const Panel& panel = panels[k];
-    std::string note = fmt::format("rms {:.2f} mm", rms(found, panel.residual, chain));
+    const auto of_chain = [&](const PointPicture& p) { return (p.*panel.residual)[chain]; };
+    std::string note = fmt::format("rms {:.2f} mm", summary_of_good(found.points, of_chain).rms_mm);
     if (panel.residual == &PointPicture::best_mm || panel.residual == &PointPicture::rival_mm) {
       note += fmt::format(
           ", the same to {}",
@@ -182,10 +170,10 @@ Chart next_points_chart(const Diagnosis& found) {
   Chart chart{.specification = "next_points",
               .title = "On the bed",
               .caption = "Crosses: to be measured, in this order. Grey: already measured."};
-  DataTable measured{"measured", {"name", "x_mm", "y_mm"}, {}};
+  DataTable measured{"measured", {"name", "x_mm", "y_mm"}};
   for (const PointPicture& point : found.points)
     measured.rows.push_back({point_name(point.index), point.mark.x_mm, point.mark.y_mm});
-  DataTable next{"next", {"number", "what", "x_mm", "y_mm", "text"}, {}};
+  DataTable next{"next", {"number", "what", "x_mm", "y_mm", "text"}};
   std::vector<Arrow> marks = arrows_of(found, &PointPicture::before_mm);
   for (const FollowUpPlace& place : follow_up_places(found)) {
     marks.push_back({.x_mm = place.mark.x_mm, .y_mm = place.mark.y_mm});

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/diagnosis_document.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
 
@@ -106,66 +103,42 @@ void put_the_verdict(const Diagnosis& found, Document& document) {
     document.not_proved = {"What this does not prove: " + found.not_proved};
 }
 
-/// Omits empty sections and, if no page is requested, those of the page. Folded: the basis of the
-/// answer.
-class Sections {
- public:
-  Sections(std::vector<Section>& sections, Detail detail) : sections_(sections), detail_(detail) {}
-  void add_open(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
-    if (has_any) sections_.push_back(section(found));
-  }
-  void add(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
-    add_open(has_any, section, found);
-    if (has_any) sections_.back().is_folded = true;
-  }
-  void add_to_page(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
-    add_open_to_page(has_any, section, found);
-    if (has_any && detail_ == Detail::page) sections_.back().is_folded = true;
-  }
-  /// Folded as the section states.
-  void add_open_to_page(bool has_any,
-                        Section (*section)(const Diagnosis&),
-                        const Diagnosis& found) {
-    if (!has_any || detail_ != Detail::page) return;
-    add_open(true, section, found);
-    sections_.back().detail = Detail::page;
-  }
+/// Folded: the basis of the answer. On the page only: pictures.
+enum Show { kOpen, kFolded, kOpenOnPage, kFoldedOnPage };
 
- private:
-  std::vector<Section>& sections_;
-  Detail detail_;
-};
-
-void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& all) {
+void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& sections) {
+  const auto add = [&](Show show, bool has_any, Section (*section_of)(const Diagnosis&)) {
+    const bool is_of_page = show >= kOpenOnPage;
+    if (!has_any || (is_of_page && detail != Detail::page)) return;
+    Section& section = sections.emplace_back(section_of(found));
+    if (is_of_page) section.detail = Detail::page;
+    if (show == kFolded || show == kFoldedOnPage) section.is_folded = true;
+  };
   const bool has_readings = !found.points.empty() || !found.distances.empty();
   const bool named = !found.causes.empty();
-  Sections sections(all, detail);
-  sections.add(found.budget && !found.budget->lines.empty(), budget_section, found);
-  sections.add_open(named, causes_section, found);
-  sections.add_open(found.unexplained && !found.unexplained->laws.empty(), laws_section, found);
-  sections.add_open(!found.declared.empty(), declared_section, found);
-  sections.add_open_to_page(found.belts.has_value(), frame_section, found);
-  sections.add(found.belts.has_value(), anchors_section, found);
-  sections.add_open(found.drawing.has_value(), drawn_settings_section, found);
-  sections.add(found.belts.has_value(), belts_improvement_section, found);
+  add(kFolded, found.budget && !found.budget->lines.empty(), budget_section);
+  add(kOpen, named, causes_section);
+  add(kOpen, found.unexplained && !found.unexplained->laws.empty(), laws_section);
+  add(kOpen, !found.declared.empty(), declared_section);
+  add(kOpenOnPage, found.belts.has_value(), frame_section);
+  add(kFolded, found.belts.has_value(), anchors_section);
+  add(kOpen, found.drawing.has_value(), drawn_settings_section);
+  add(kFolded, found.belts.has_value(), belts_improvement_section);
   // Without a cause to draw, the picture shows the errors.
-  if (named) {
-    sections.add_to_page(has_readings, arrows_section, found);
-  } else {
-    sections.add_open_to_page(has_readings, arrows_section, found);
-  }
-  sections.add_to_page(has_readings && named, signature_section, found);
-  sections.add(found.improvement.has_value(), improvement_section, found);
-  sections.add(found.transferred.has_value(), transfer_section, found);
-  sections.add_open(!found.next_measurements.empty(), next_section, found);
-  sections.add_to_page(has_readings, residuals_section, found);
-  sections.add(!found.hypotheses.empty(), probabilities_section, found);
-  sections.add_open_to_page(found.stability.has_value(), stability_section, found);
-  sections.add(found.drawing.has_value(), drawn_measures_section, found);
-  sections.add(!found.settings.empty(), settings_section, found);
-  sections.add(!found.outliers.empty(), outliers_section, found);
-  sections.add(!found.bounds.empty(), bounds_section, found);
-  sections.add(!found.not_testable.empty(), not_testable_section, found);
+  add(named ? kFoldedOnPage : kOpenOnPage, has_readings, arrows_section);
+  add(kFoldedOnPage, has_readings && named, signature_section);
+  add(kFolded, found.improvement.has_value(), improvement_section);
+  add(kFolded, found.transferred.has_value(), transfer_section);
+  add(kOpen, !found.next_measurements.empty(), next_section);
+  add(kFoldedOnPage, has_readings, residuals_section);
+  add(kFolded, !found.hypotheses.empty(), probabilities_section);
+  // Folded as the section decides.
+  add(kOpenOnPage, found.stability.has_value(), stability_section);
+  add(kFolded, found.drawing.has_value(), drawn_measures_section);
+  add(kFolded, !found.settings.empty(), settings_section);
+  add(kFolded, !found.outliers.empty(), outliers_section);
+  add(kFolded, !found.bounds.empty(), bounds_section);
+  add(kFolded, !found.not_testable.empty(), not_testable_section);
 }
 
 const std::string& machine_name(const Diagnosis& found) {

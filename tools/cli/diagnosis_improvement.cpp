@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -159,7 +156,7 @@ Chart probability_chart(const Diagnosis& found) {
               .caption =
                   "Causes can act together, so the probabilities need not add up to 100 %. Those "
                   "below 0.2 % are omitted. Blue: named by the verdict."};
-  DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
+  DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}};
   for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);
     bool is_named = false;
@@ -182,7 +179,7 @@ Chart improvement_chart(const Diagnosis& found) {
                            : "Error of the tool at points left out, rms",
               .caption = "The thin line on a bar is its 90 % interval. Left out: " +
                          found.improvement->scheme + "."};
-  DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
+  DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}};
   const auto color_of = [&](const diagnosis::HeldOut* row) {
     if (row == &found.improvement->extended || row == &found.improvement->extended_and_surface)
       return report::kAfterColor;

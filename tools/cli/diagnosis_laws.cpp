@@ -10,7 +10,6 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
-#include "grid/diagnosis/workshop_units.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
@@ -65,12 +64,11 @@ Section laws_section(const Diagnosis& found) {
     if (!found.points.empty()) grid::append_all(section.blocks, law_rest_charts(found));
   }
   const bool is_claimed = laws.front().probability >= diagnosis::kLawClaimed;
-  section.blocks.emplace_back(
-      Paragraph{is_claimed && found.belts ? "No listed cause explains this."
-                : is_claimed ? "No listed cause explains this. --law writes it as a declared "
-                               "cause, to be named, edited and used with --effects."
-                             : fmt::format("These {} do not show which of these acts, if any.",
-                                           name(found.observations))});
+  section.say(is_claimed && found.belts ? "No listed cause explains this."
+              : is_claimed ? "No listed cause explains this. --law writes it as a declared "
+                             "cause, to be named, edited and used with --effects."
+                           : fmt::format("These {} do not show which of these acts, if any.",
+                                         name(found.observations)));
   return section;
 }
 

@@ -211,12 +211,12 @@ Chart residual_scatter_chart(const ResidualScatter& scatter) {
   }
   for (const auto& [x, y_mm] : scatter.curve) up.push_back(y_mm);
   const Window x = window_of(along, 0.03, 1e-6), y = window_of(up, 0.08, scatter.least_span_mm);
-  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
+  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}};
   for (const ResidualDot& dot : scatter.dots) {
     points.rows.push_back(
         {dot.name, dot.x, std::clamp(dot.y_mm, y.low, y.high), dot.is_first, dot.is_bad});
   }
-  DataTable curve{"curve", {"x", "y_mm"}, {}};
+  DataTable curve{"curve", {"x", "y_mm"}};
   for (const auto& [at, y_mm] : scatter.curve) curve.rows.push_back({at, y_mm});
   Chart chart{
       .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};

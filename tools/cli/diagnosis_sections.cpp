@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "grid/containers.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
@@ -39,18 +36,10 @@ std::string what_words(const BudgetLine& line) {
   return "";
 }
 
-std::string changes_words(const BudgetLine& line) {
-  switch (line.changes_with) {
-    case BudgetLine::ChangesWith::place:
-      return "the place";
-    case BudgetLine::ChangesWith::order:
-      return "the order of the visits";
-    case BudgetLine::ChangesWith::direction:
-      return "the direction of the move";
-    case BudgetLine::ChangesWith::nothing:
-      break;
-  }
-  return "";
+std::string_view changes_words(const BudgetLine& line) {
+  constexpr std::string_view kWords[] = {
+      "", "the place", "the order of the visits", "the direction of the move"};  // by ChangesWith
+  return kWords[static_cast<std::size_t>(line.changes_with)];
 }
 
 std::string budget_words(const Diagnosis& found) {
@@ -132,8 +121,7 @@ Section probabilities_section(const Diagnosis& found) {
   Chart chart = probability_chart(found);
   chart.alternative = std::move(table);
   Section section{"Separate probabilities: causes can act together", {std::move(chart)}};
-  if (!found.belts && !found.drawing)
-    section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
+  if (!found.belts && !found.drawing) section.say(left_over_sentence(found.left_over));
   return section;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sections of a diagnosis that consist of text and tables, for chains and belts.
+/// A diagnosis as a document for the terminal and for a browser: the answer first, then its basis. Its
+/// sections that consist of text and tables, for chains and belts.
 #pragma once
 
 #include <string_view>
@@ -11,6 +12,12 @@
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
+
+/// `source` is the input file's name, for the page's last line. Pictures are made if `detail` is
+/// page.
+[[nodiscard]] Document diagnosis_document(const Diagnosis& diagnosis,
+                                          std::string_view source,
+                                          Detail detail = Detail::page);
 
 /// The parts of the error. Precondition: the diagnosis has a budget.
 [[nodiscard]] Section budget_section(const Diagnosis& found);

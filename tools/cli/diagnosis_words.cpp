@@ -16,16 +16,16 @@ using diagnosis::Hypothesis;
 using diagnosis::MeasurementKind;
 using diagnosis::ParameterEstimate;
 
-struct Words {
+struct HypothesisWords {
   std::string_view word;
   std::string_view words;
 };
 
-constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
-                                 {"unknown", "an unknown pattern"},
-                                 {"law", "a law that no listed cause has"},
-                                 {"noise", "readings worse than entered"},
-                                 {"bad_points", "bad points alone"}};
+constexpr HypothesisWords kHypotheses[] = {{"nothing", "nothing hidden"},
+                                           {"unknown", "an unknown pattern"},
+                                           {"law", "a law that no listed cause has"},
+                                           {"noise", "readings worse than entered"},
+                                           {"bad_points", "bad points alone"}};
 
 /// A reading covers this many of the file's quantity, in this unit.
 struct ReadingUnit {
@@ -112,7 +112,7 @@ std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found) {
 }
 
 std::string hypothesis_title(const Hypothesis& hypothesis) {
-  for (const Words& known : kHypotheses) {
+  for (const HypothesisWords& known : kHypotheses) {
     if (known.word == hypothesis.effect) return std::string(known.words);
   }
   return title(hypothesis.effect, hypothesis.side);

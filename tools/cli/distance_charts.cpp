@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "grid/containers.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -53,14 +51,9 @@ struct DistancePanel {
   double DistancePicture::*residual;
 };
 
-double rms(const Diagnosis& found, double DistancePicture::*residual) {
-  double squares = 0.0, count = 0.0;
-  for (const DistancePicture& distance : found.distances) {
-    if (distance.bad) continue;
-    squares += std::pow(distance.*residual, 2);
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+grid::ErrorSummary summary_of(const Diagnosis& found, double DistancePicture::*residual) {
+  return summary_of_good(found.distances,
+                         [&](const DistancePicture& distance) { return distance.*residual; });
 }
 
 /// The panels' tables, filled one by one.
@@ -110,32 +103,23 @@ class Panels {
   const Diagnosis& found_;
   double number_ = 0.0;
   std::vector<Arrow> marks_;
-  DataTable heads_{"heads", {"panel", "title", "note"}, {}};
+  DataTable heads_{"heads", {"panel", "title", "note"}};
   DataTable lines_{
       "lines",
-      {"panel", "name", "x1_mm", "y1_mm", "x2_mm", "y2_mm", "text", "color", "width_px", "is_bad"},
-      {}};
-  DataTable holes_{"holes", {"panel", "name", "x_mm", "y_mm"}, {}};
+      {"panel", "name", "x1_mm", "y1_mm", "x2_mm", "y2_mm", "text", "color", "width_px", "is_bad"}};
+  DataTable holes_{"holes", {"panel", "name", "x_mm", "y_mm"}};
 };
-
-double largest(const Diagnosis& found, const std::vector<DistancePanel>& panels) {
-  double value = 0.0;
-  for (const DistancePicture& distance : found.distances) {
-    if (distance.bad) continue;
-    for (const DistancePanel& panel : panels)
-      value = std::max(value, std::abs(distance.*panel.residual));
-  }
-  return value;
-}
 
 Chart residual_panels(const Diagnosis& found,
                       const std::vector<DistancePanel>& panels,
                       std::string title) {
-  const double full_mm = largest(found, panels);
-  double noise_mm = 0.0;
+  double full_mm = 0.0, noise_mm = 0.0;
+  for (const DistancePanel& panel : panels)
+    full_mm = std::max(full_mm, summary_of(found, panel.residual).maximum_mm);
   Panels drawn(found);
   for (const DistancePanel& panel : panels) {
-    drawn.begin(panel.title, fmt::format("rms {:.2f} mm", rms(found, panel.residual)));
+    drawn.begin(panel.title,
+                fmt::format("rms {:.2f} mm", summary_of(found, panel.residual).rms_mm));
     for (const DistancePicture& distance : found.distances) {
       const double mm = distance.*panel.residual;
       noise_mm = std::max(noise_mm, distance.noise_sigma_mm);

@@ -81,8 +81,7 @@ void OptionProblems::throw_if_any() const {
   if (!problems_.empty()) throw InputError(problems_);
 }
 
-std::vector<AppliedEffect> parse_effect_words(const std::vector<std::string>& arguments,
-                                              OptionProblems& problems) {
+std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProblems& problems) {
   std::vector<AppliedEffect> effects;
   for (const std::string& argument : arguments) {
     effects.push_back(parse_form(argument, problems).value_or(AppliedEffect{}));
@@ -90,7 +89,7 @@ std::vector<AppliedEffect> parse_effect_words(const std::vector<std::string>& ar
   return effects;
 }
 
-std::vector<AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
+std::vector<AppliedEffect> parse_effects(const Words& arguments,
                                          const Machine& machine,
                                          OptionProblems& problems) {
   std::vector<AppliedEffect> effects;

@@ -11,6 +11,7 @@
 
 #include "grid/files/input_error.hpp"
 #include "model/machine.hpp"
+#include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
@@ -31,12 +32,12 @@ class OptionProblems {
 
 /// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
 /// argument of another form is a problem, as is an effect without a name.
-[[nodiscard]] std::vector<AppliedEffect> parse_effect_words(
-    const std::vector<std::string>& arguments, OptionProblems& problems);
+[[nodiscard]] std::vector<AppliedEffect> parse_effect_words(const Words& arguments,
+                                                            OptionProblems& problems);
 
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` in addition to
 /// its own.
-[[nodiscard]] std::vector<AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
+[[nodiscard]] std::vector<AppliedEffect> parse_effects(const Words& arguments,
                                                        const Machine& machine,
                                                        OptionProblems& problems);
 

@@ -1,30 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue effects: the catalogue as text, and the change that one effect makes to a machine.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numbers>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/synthetic/effect_picture.hpp"
 #include "model/reading_model.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
-#include "tools/cli/effects_atlas.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -38,7 +25,7 @@ struct EffectsOptions {
   std::string id;
   std::string machine;
   std::string side;
-  std::vector<std::string> values;
+  Words values;
   double length_noise_mm = StatedNoise{}.length_mm;
   double position_noise_mm = StatedNoise{}.position_mm;
   std::string drawing;
@@ -48,7 +35,7 @@ struct EffectsOptions {
   bool json = false;
   bool markdown = false;
   /// Files of declared effects.
-  std::vector<std::string> declared;
+  Words declared;
 };
 
 /// The machine to show an effect on, or any, with what is declared.
@@ -95,10 +82,13 @@ void list_catalogue(const std::vector<const Effect*>& effects) {
 }
 
 void describe(const Effect& effect) {
-  fmt::print("{} ({}, {})\n", effect.id, name(effect.station), sides_of(effect));
-  fmt::print("  cause         {}\n", effect.cause);
-  fmt::print("  shows as      {}\n", effect.signature);
-  fmt::print("  equation      {}\n", effect.equation);
+  fmt::print("{} ({}, {})\n  cause         {}\n  shows as      {}\n  equation      {}\n",
+             effect.id,
+             name(effect.station),
+             sides_of(effect),
+             effect.cause,
+             effect.signature,
+             effect.equation);
   for (const EffectParameter& p : effect.parameters) {
     fmt::print("  {}  {}{}: {}, {} to {}, usually {}\n",
                p.role == model::effects::ParameterRole::size ? "size        " : "place       ",
@@ -109,11 +99,15 @@ void describe(const Effect& effect) {
                short_number(p.upper),
                short_number(p.nominal));
   }
-  fmt::print("  usual size    {}\n", effect.typical);
-  fmt::print("  needs         {}\n", name(effect.needs));
-  fmt::print("  remedy        {}: {}\n", name(effect.remedy_kind), effect.remedy);
-  fmt::print("  not modelled  {}\n", effect.not_modelled);
-  fmt::print("  source        {}\n", effect.source);
+  fmt::print(
+      "  usual size    {}\n  needs         {}\n  remedy        {}: {}\n  not modelled  {}\n"
+      "  source        {}\n",
+      effect.typical,
+      name(effect.needs),
+      name(effect.remedy_kind),
+      effect.remedy,
+      effect.not_modelled,
+      effect.source);
 }
 
 // The arrow's glyph for a shift, a dot if it is below a hundredth of a millimetre.

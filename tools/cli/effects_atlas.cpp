@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/effects_atlas.hpp"
-
-#include <fmt/format.h>
+#include "tools/cli/effect_drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string_view>
 
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/drawing_file.hpp"
@@ -14,9 +10,6 @@
 #include "grid/synthetic/atlas.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 #include "model/reading_model.hpp"
-#include "tools/cli/effect_drawing.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/names.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A map for other controllers: as a kinematics module, or as the closest settings.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <string>
 
 #include "grid/containers.hpp"
 #include "grid/files/klipper_kinematics.hpp"
 #include "grid/files/linuxcnc_kinematics.hpp"
 #include "grid/map/map_in_frame.hpp"
 #include "grid/map/straight_settings.hpp"
-#include "tools/cli/input_file.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/option_checks.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -201,7 +192,7 @@ int export_map(Verb verb, const MapCommand& command, const Controller& controlle
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map});
   const CompensationMap map = load_map(file);
-  if (!verb.is_given("--force") && refuses_to_cut_with(map)) return kCheckFailed;
+  require_fit_for_cutting(not_to_cut_with(map), verb.is_given("--force"));
   const auto written =
       controller.write({map, std::filesystem::path(file.name).filename().string()}, command.output);
   if (!written) {

@@ -4,16 +4,18 @@
 /// the reason by a name that stays the same if sentences change.
 ///
 /// \code
-///   if (!check) throw Failed(file.name, check.error());
+///   const grid::Check check = value_of(grid::check_map(map, points), file.name);
 /// \endcode
 #pragma once
 
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tl/expected.hpp>
+#include <utility>
 
+#include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
-#include "tools/cli/verb.hpp"
 
 namespace chaintrue::grid {
 enum class BeltsFitReason;
@@ -56,5 +58,12 @@ class Failed : public std::runtime_error {
   std::string reason_;
   int code_;
 };
+
+/// \throws Failed as above without a result
+template <class T, class Failure>
+T value_of(tl::expected<T, Failure> result, std::string about, int code = kBadInput) {
+  if (!result) throw Failed(std::move(about), result.error(), code);
+  return *std::move(result);
+}
 
 }  // namespace chaintrue::cli

@@ -1,42 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue fit: measured points become a compensation map, and the fit is reported in words.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include "tools/cli/fit.hpp"
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/names.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/failed.hpp"
-#include "tools/cli/fit.hpp"
 #include "tools/cli/holes_words.hpp"
-#include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
-
-bool is_of_four_belts(const InputFile& file) {
-  return file.kind == FileKind::belts || file.kind == FileKind::belt_holes;
-}
 
 /// A fit of these takes some ten seconds (docs/reliability.md).
 constexpr std::size_t kMostPoints = 10000;
@@ -49,18 +32,6 @@ constexpr files::Range kWishMm{"mm", 0.001, 50.0};
 
 /// \throws Failed
 void refuse_too_many(const grid::Measured& measured) {
-  std::size_t points = 0;
-  std::size_t distances = 0;
-  std::size_t holes = 0;
-  for (const grid::MeasuredFile& file : measured.files()) {
-    if (const auto* grid = std::get_if<MeasuredGrid>(&file.measured)) {
-      points += grid->points.size();
-    } else {
-      const auto& set = std::get<MeasuredHoles>(file.measured);
-      distances += set.distances.size();
-      holes += set.holes.size();
-    }
-  }
   const auto refuse = [&](std::size_t found, const char* what, std::size_t most) {
     if (found <= most) return;
     throw Failed(
@@ -71,9 +42,10 @@ void refuse_too_many(const grid::Measured& measured) {
                     what,
                     most));
   };
-  refuse(points, "points", kMostPoints);
-  refuse(distances, "distances", kMostDistances);
-  refuse(holes, "holes", kMostHoles);
+  const ReadingCounts counts = counts_of(measured);
+  refuse(counts.points, "points", kMostPoints);
+  refuse(counts.distances, "distances", kMostDistances);
+  refuse(counts.holes, "holes", kMostHoles);
 }
 
 /// \throws Failed for a map that its reader rejects
@@ -143,11 +115,10 @@ tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
 
 /// The file and those of --with in one estimate.
 int fit_jointly(Verb verb, const FitCommand& command, const grid::Measured& measured) {
-  const auto fit = fit_of(command, measured);
-  if (fit) return finish(verb, command, fit->map, distances_of(measured, *fit));
-  throw Failed(
-      measured.files().size() == 1 ? files::name_in_messages(command.input.grid) : "chaintrue fit",
-      fit.error());
+  const grid::JointFit fit = value_of(
+      fit_of(command, measured),
+      measured.files().size() == 1 ? files::name_in_messages(command.input.grid) : "chaintrue fit");
+  return finish(verb, command, fit.map, distances_of(measured, fit));
 }
 
 /// Splines through the lengths of one grid; the options' rules refuse anything else.
@@ -158,28 +129,27 @@ int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile&
   options.ends = {{end, end}, {end, end}};
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
-  const auto map = grid::fit(*file.grid(), options);
-  if (!map) throw Failed(files::name_in_messages(command.input.grid), map.error());
-  return finish(verb, command, *map, {});
+  const CompensationMap map =
+      value_of(grid::fit(*file.grid(), options), files::name_in_messages(command.input.grid));
+  return finish(verb, command, map, {});
 }
 
-Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
-  const bool of_belts = grid::any_of(files, is_of_four_belts);
-  Facts facts = command.surface == "direct" ? facts::direct : facts::residual;
+Facts facts_of(const FitCommand& command, const InputFiles& files) {
+  Facts facts = facts_of(files);
+  Facts of_belts = facts::nothing;
+  for (const InputFile& file : files) of_belts |= file.fact() & (facts::belts | facts::belt_holes);
+  if (of_belts != 0) {
+    if ((facts & facts::holes) != 0) of_belts |= facts::belt_holes;
+    facts = (facts & ~facts::chains) | of_belts;
+  }
+  facts |= command.surface == "direct" ? facts::direct : facts::residual;
   if (!command.plain) facts |= facts::causes;
   if (command.outside.way == "fade") facts |= facts::fade;
-  for (const InputFile& file : files) {
-    if (file.kind == FileKind::belts) facts |= facts::belts;
-    if (file.kind == FileKind::belt_holes) facts |= facts::belt_holes;
-    if (file.kind == FileKind::holes) facts |= of_belts ? facts::belt_holes : facts::holes;
-    if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
-  }
-  if (files.size() == 1 && files.front().kind == FileKind::grid) facts |= facts::one_grid;
-  return facts | facts_of_tables(files);
+  return facts;
 }
 
 int run_fit(Verb verb, const FitCommand& command) {
-  const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
+  const InputFiles opened = open_inputs(command.input.grid, command.with);
   if (opened.front().kind == FileKind::drawing) {
     verb.refuse_idle_options(facts::drawing);
     return fit_the_drawing(verb, command, opened.front());
@@ -204,7 +174,7 @@ void write_fitted(const FitCommand& command,
                   const std::string& text,
                   const std::string& json,
                   const Document& document) {
-  std::vector<files::OutputFile> outputs = {{command.output, text}};
+  Outputs outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", json});
   write_outputs(outputs);
   fmt::print(stderr, "{}", report::render_text(document, command.detail()));

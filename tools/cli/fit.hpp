@@ -16,7 +16,7 @@ struct FitCommand {
   GridInput input;
   files::TapeOptions tape;
   /// Further files of the same machine.
-  std::vector<std::string> with;
+  Words with;
   std::string output;
   std::string surface = "residual";
   std::string ends = "not_a_knot";
@@ -42,9 +42,7 @@ void write_fitted(const FitCommand& command,
 
 /// `files` are a chaintrue_belts file, holes that a four-belt machine cut, or both. These return
 /// the exit code.
-[[nodiscard]] int fit_the_belts(Verb verb,
-                                const FitCommand& command,
-                                const std::vector<InputFile>& files);
+[[nodiscard]] int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files);
 /// \throws InputError for a drawing with a mistake, which is reported; nothing is written then.
 [[nodiscard]] int fit_the_drawing(Verb verb, const FitCommand& command, const InputFile& file);
 

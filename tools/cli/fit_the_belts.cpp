@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/fit.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
-#include <cstdint>
-#include <cstdio>
-#include <utility>
 
-#include "grid/belts/belts_and_holes.hpp"
-#include "grid/belts/belts_error.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
-#include "grid/files/anchors_file.hpp"
-#include "grid/files/belts_file.hpp"
 #include "grid/files/holes_file.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/random.hpp"
 #include "tools/cli/anchors_document.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/made_by.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -177,7 +164,7 @@ void read_holes_file(const InputFile& file, const files::TapeOptions& tape, Belt
 }
 
 /// Belts first, whatever their position: holes may use their machine.
-BeltFiles read_all(const FitCommand& command, const std::vector<InputFile>& files) {
+BeltFiles read_all(const FitCommand& command, const InputFiles& files) {
   BeltFiles all;
   for (const InputFile& file : files) {
     if (file.kind == FileKind::belts) read_belts_file(file, points_left_out(command.without), all);
@@ -214,24 +201,23 @@ files::FittedAnchors with_file_numbers(files::FittedAnchors found, const BeltFil
 
 }  // namespace
 
-int fit_the_belts(Verb verb, const FitCommand& command, const std::vector<InputFile>& files) {
+int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files) {
   const BeltFiles all = read_all(command, files);
-  const auto found = fitted(all);
-  if (!found) throw Failed(files.front().name, found.error());
-  const std::string text = files::write_anchors(with_file_numbers(*found, all), made_by(verb));
+  const files::FittedAnchors found = value_of(fitted(all), files.front().name);
+  const std::string text = files::write_anchors(with_file_numbers(found, all), made_by(verb));
   const MeasuredBelts belts = all.belts.value_or(MeasuredBelts{});
-  const grid::HolesWithBelts* holes = found->holes ? &*found->holes : nullptr;
-  const auto error = grid::error_of_belts(found->fit, holes);
+  const grid::HolesWithBelts* holes = holes_of(found);
+  const auto error = grid::error_of_belts(found.fit, holes);
   Document document =
-      anchors_document({found->fit, holes, &belts, all.indices}, found->name, command.output);
+      anchors_document({found.fit, holes, &belts, all.indices}, found.name, command.output);
   if (command.wish_mm) {
     auto& remarks = document.remarks.blocks;
     remarks.insert(
         remarks.begin(),
-        Paragraph{belts_wish_sentence(belts, all.holes, *found, error, *command.wish_mm)});
+        Paragraph{belts_wish_sentence(belts, all.holes, found, error, *command.wish_mm)});
   }
   write_fitted(command, text, text, document);
-  if (!not_to_paste(found->fit, error).empty()) return kCheckFailed;
+  if (!not_to_paste(found.fit, error).empty()) return kCheckFailed;
   say_next({"export", "maslow4", command.output});
   return kDone;
 }

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/fit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <utility>
-#include <vector>
 
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"
@@ -15,7 +10,6 @@
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
-#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -82,10 +76,10 @@ Table table_of_settings(const DrawingFit& fit) {
   for (std::size_t k = 0; k < fit.settings.size(); ++k) {
     const PlotterSetting& own = fit.settings[k];
     const PlotterSettingWords words = plotter_setting_words(k);
-    Row row{{fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
-            own.is_off};
-    if (own.is_off) row.cells.emplace_back("off");
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(report::row_with_flag(
+        {fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
+        own.is_off,
+        "off"));
   }
   return table;
 }
@@ -98,10 +92,10 @@ Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
                           {.gap = 2}}};
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     const FittedMeasure& own = fit.measures[i];
-    Row row{{grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
-            own.rejected};
-    if (own.rejected) row.cells.emplace_back("left out");
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(report::row_with_flag(
+        {grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
+        own.rejected,
+        "left out"));
   }
   return table;
 }
@@ -114,17 +108,17 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
                   "the next page will bow by up to {:.1f} mm.",
                   largest_bow(drawing, fit, &FittedMeasure::measured_mm),
                   largest_bow(drawing, fit, &FittedMeasure::after_mm))};
-  document.remarks.blocks.emplace_back(Paragraph{sentence_of_settings(fit)});
+  document.remarks.say(sentence_of_settings(fit));
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     if (!fit.measures[i].rejected) continue;
-    document.remarks.blocks.emplace_back(
-        Paragraph{fmt::format("{} was left out: {:.1f} mm was read, but the others predict {:.1f} "
-                              "mm. Measure it again.",
-                              grid::words_of(drawing, i),
-                              fit.measures[i].measured_mm,
-                              fit.measures[i].found_mm),
-                  Detail::always,
-                  true});
+    document.remarks.say(
+        fmt::format("{} was left out: {:.1f} mm was read, but the others predict {:.1f} "
+                    "mm. Measure it again.",
+                    grid::words_of(drawing, i),
+                    fit.measures[i].measured_mm,
+                    fit.measures[i].found_mm),
+        Detail::always,
+        true);
   }
   document.sections.push_back({"Settings", {table_of_settings(fit)}});
   Section measures{"Measures", {table_of_measures(drawing, fit)}};

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "grid/containers.hpp"
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/fields.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -27,6 +27,18 @@ std::optional<int> next_visit(const MeasuredGrid& measured) {
 /// Points of this grid give commands in place of lengths.
 bool gives_commands(const MeasuredGrid& measured) {
   return !measured.points.empty() && !measured.points.front().lengths;
+}
+
+/// Below what to do with them; nothing without any.
+std::string json_lines(const std::string& what_to_do, const std::vector<Fields>& lines) {
+  std::string text = lines.empty() ? "" : what_to_do;
+  for (const auto& fields : lines) text += "  " + json_of(fields) + ",\n";
+  return text;
+}
+
+std::string csv_lines(std::string text, const std::vector<Fields>& lines) {
+  for (const auto& fields : lines) text += csv_values(fields);
+  return text;
 }
 
 bool is_point(const NextMeasurement& next) {
@@ -52,49 +64,38 @@ bool proposes(const Diagnosis& found, MeasurementKind kind) {
                       [&](const NextMeasurement& next) { return next.kind == kind; });
 }
 
-std::string points_json(const Diagnosis& found, const MeasuredGrid& measured) {
-  const std::string_view values = gives_commands(measured)
-                                      ? R"("commanded_x_mm": null, "commanded_y_mm": null)"
-                                      : R"("left_mm": null, "right_mm": null)";
-  std::optional<int> visit = next_visit(measured);
-  std::string points;
-  for (const NextMeasurement& next : found.next_measurements) {
-    if (!is_point(next)) continue;
-    points += fmt::format("  {{\"x_mm\": {:.1f}, \"y_mm\": {:.1f}, {}{}}},\n",
-                          next.mark->x_mm + 0.0,
-                          next.mark->y_mm + 0.0,
-                          values,
-                          visit ? fmt::format(", \"order\": {}", (*visit)++) : "");
-  }
-  return points.empty() ? points : "add to \"points\", replacing each null\n" + points;
-}
-
-std::string points_csv(const Diagnosis& found, const MeasuredGrid& measured) {
+std::string point_lines(const Diagnosis& found, const MeasuredGrid& measured, bool is_json) {
   std::optional<int> visit = next_visit(measured);
   const bool commands = gives_commands(measured);
-  std::string text = fmt::format("x_mm,y_mm,{}{}\n",
-                                 commands ? "commanded_x_mm,commanded_y_mm" : "left_mm,right_mm",
-                                 visit ? ",order" : "");
+  std::vector<Fields> points;
   for (const NextMeasurement& next : found.next_measurements) {
     if (!is_point(next)) continue;
-    text += fmt::format("{:.1f},{:.1f},,{}\n",
-                        next.mark->x_mm + 0.0,
-                        next.mark->y_mm + 0.0,
-                        visit ? fmt::format(",{}", (*visit)++) : "");
+    Fields& fields =
+        points.emplace_back(Fields{{"x_mm", fmt::format("{:.1f}", next.mark->x_mm + 0.0)},
+                                   {"y_mm", fmt::format("{:.1f}", next.mark->y_mm + 0.0)},
+                                   {commands ? "commanded_x_mm" : "left_mm", ""},
+                                   {commands ? "commanded_y_mm" : "right_mm", ""}});
+    if (visit) fields.push_back({"order", fmt::format("{}", (*visit)++)});
   }
-  return text;
+  return is_json ? json_lines("add to \"points\", replacing each null\n", points)
+                 : csv_lines(
+                       fmt::format("x_mm,y_mm,{}{}\n",
+                                   commands ? "commanded_x_mm,commanded_y_mm" : "left_mm,right_mm",
+                                   visit ? ",order" : ""),
+                       points);
 }
 
 std::string readings_json(const Diagnosis& found) {
-  std::string readings;
+  std::vector<Fields> readings;
   for (const NextMeasurement& next : found.next_measurements) {
     if (next.kind != MeasurementKind::reading) continue;
-    readings += fmt::format("  {{\"what\": \"{}\"{}, \"value\": null, \"sigma\": {}}},\n",
-                            name(next.reading.value()),
-                            next.side.empty() ? "" : fmt::format(", \"side\": \"{}\"", next.side),
-                            next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : "null");
+    Fields& fields = readings.emplace_back();
+    fields.push_back({"what", std::string(name(next.reading.value())), true});
+    if (!next.side.empty()) fields.push_back({"side", next.side, true});
+    fields.push_back({"value", ""});
+    fields.push_back({"sigma", next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : ""});
   }
-  return readings.empty() ? readings : "add to \"readings\", replacing each null\n" + readings;
+  return json_lines("add to \"readings\", replacing each null\n", readings);
 }
 
 namespace {
@@ -183,40 +184,23 @@ bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& s
                     });
 }
 
-std::string distances_json(const Diagnosis& found,
+std::string distance_lines(const Diagnosis& found,
                            const std::vector<MeasuredHoles>& sets,
-                           std::size_t position) {
+                           std::size_t position,
+                           bool is_json) {
   const Lines lines = lines_of(found, sets, position);
-  std::string text;
-  if (!lines.holes.empty()) text += "cut, and add to \"holes\"\n";
+  std::vector<Fields> holes, distances;
   for (const grid::Hole& hole : lines.holes) {
-    text += fmt::format("  {{\"name\": \"{}\", \"x_mm\": {:.0f}, \"y_mm\": {:.0f}}},\n",
-                        hole.name,
-                        hole.commanded.x_mm + 0.0,
-                        hole.commanded.y_mm + 0.0);
+    holes.push_back({{"name", hole.name, true},
+                     {"x_mm", fmt::format("{:.0f}", hole.commanded.x_mm + 0.0)},
+                     {"y_mm", fmt::format("{:.0f}", hole.commanded.y_mm + 0.0)}});
   }
-  if (!lines.distances.empty()) text += "add to \"distances\", replacing each null\n";
-  for (const auto& [from, to] : lines.distances) {
-    text +=
-        fmt::format("  {{\"from\": \"{}\", \"to\": \"{}\", \"distance_mm\": null}},\n", from, to);
-  }
-  return text;
-}
-
-std::string distances_csv(const Diagnosis& found,
-                          const std::vector<MeasuredHoles>& sets,
-                          std::size_t position) {
-  const Lines lines = lines_of(found, sets, position);
-  std::string text = "hole,x_mm,y_mm\n";
-  for (const grid::Hole& hole : lines.holes) {
-    text += fmt::format(
-        "{},{:.0f},{:.0f}\n", hole.name, hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0);
-  }
-  text += "from,to,distance_mm\n";
-  for (const auto& [from, to] : lines.distances) {
-    text += fmt::format("{},{},\n", from, to);
-  }
-  return text;
+  for (const auto& [from, to] : lines.distances)
+    distances.push_back({{"from", from, true}, {"to", to, true}, {"distance_mm", ""}});
+  return is_json
+             ? json_lines("cut, and add to \"holes\"\n", holes) +
+                   json_lines("add to \"distances\", replacing each null\n", distances)
+             : csv_lines("hole,x_mm,y_mm\n", holes) + csv_lines("from,to,distance_mm\n", distances);
 }
 
 }  // namespace chaintrue::cli

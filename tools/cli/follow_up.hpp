@@ -23,8 +23,9 @@ namespace chaintrue::cli {
 
 /// The points to add to the grid's file, with empty lengths or commands, and with visit numbers if
 /// the grid has them.
-[[nodiscard]] std::string points_json(const Diagnosis& found, const MeasuredGrid& measured);
-[[nodiscard]] std::string points_csv(const Diagnosis& found, const MeasuredGrid& measured);
+[[nodiscard]] std::string point_lines(const Diagnosis& found,
+                                      const MeasuredGrid& measured,
+                                      bool is_json);
 /// The readings of the machine to add to a file of either kind.
 [[nodiscard]] std::string readings_json(const Diagnosis& found);
 
@@ -35,14 +36,11 @@ namespace chaintrue::cli {
 /// Whether the diagnosis used exactly these holes and distances.
 [[nodiscard]] bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& sets);
 
-/// Holes to cut, with unused names, and distances without values, for the set at this position;
-/// empty if none is in this set.
-[[nodiscard]] std::string distances_json(const Diagnosis& found,
+/// Holes to cut, with unused names, and distances without values, for the set at this position. If
+/// none is in this set, JSON is empty, and a table has only its two headers.
+[[nodiscard]] std::string distance_lines(const Diagnosis& found,
                                          const std::vector<MeasuredHoles>& sets,
-                                         std::size_t position);
-/// As above; only the two headers if none is in this set.
-[[nodiscard]] std::string distances_csv(const Diagnosis& found,
-                                        const std::vector<MeasuredHoles>& sets,
-                                        std::size_t position);
+                                         std::size_t position,
+                                         bool is_json);
 
 }  // namespace chaintrue::cli

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue formats: the reference page and the JSON Schema of each file format.
-#include <fmt/format.h>
-
-#include <memory>
-#include <string>
-
 #include "grid/files/format_pages.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode: the verbs check, lengths, compensate, verify, explain and their options.
-#include <memory>
-#include <string>
-
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/start_plotter.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -19,11 +15,6 @@ constexpr const char* kNothingIsWritten =
     "to be left out without --map, because it applies to compensated output";
 
 constexpr files::Range kToleranceMm{"mm", 1e-4, 100.0};
-
-Facts facts_of_map(FileKind kind) {
-  if (kind == FileKind::map) return facts::map;
-  return kind == FileKind::anchors ? facts::anchors : facts::plotter;
-}
 
 /// \throws InputError for a plotter that takes pictures.
 void require_gcode(const InputFile& file) {
@@ -40,9 +31,8 @@ void open_map(Verb verb, GcodeOptions& options) {
   options.verb = verb;
   Facts facts = facts::no_map;
   if (!options.map.empty()) {
-    options.map_file = open_input(options.map);
-    require_kind(*options.map_file, {FileKind::map, FileKind::anchors, FileKind::plotter});
-    facts = facts_of_map(options.map_file->kind);
+    options.map_file = open_target_file(options.map);
+    facts = options.map_file->fact();
     if (facts == facts::plotter) require_gcode(*options.map_file);
   }
   verb.refuse_idle_options(facts);
@@ -84,16 +74,7 @@ void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
   const Option map =
       add_input(verb, "--map", options.map, "The compensation map, or the anchors of four belts");
   if (map_required) map.required();
-  verb.add_option("--frame", options.frame, "Zero of the program: the marks' or the bed's")
-      .one_of({"marks", "bed"})
-      .shows_default()
-      .acts_on(facts::target, "to be left out without --map", "marks")
-      .acts_on(facts::map | facts::anchors,
-               "\"marks\", because a plotter has only its controller's frame",
-               "marks")
-      .acts_on(facts::map,
-               "\"marks\", because belts have only one frame, from the crossing of its diagonals",
-               "marks");
+  add_frame_option(verb, options.frame, "Zero of the program: the marks' or the bed's");
 }
 
 void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode check and lengths: what a program does, without changing it.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <string>
-#include <vector>
 
-#include "grid/files/input_error.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -94,7 +89,7 @@ void say_next_of_program(const GcodeOptions& options) {
     if (options.program != "-") say_next({"gcode", "explain", options.program + ":1"});
     return;
   }
-  std::vector<std::string> next = with_map_words(options, {"gcode", "compensate", options.program});
+  Words next = with_map_words(options, {"gcode", "compensate", options.program});
   add_option_words(next, "-o", options.program == "-" ? "-" : compensated_name(options.program));
   say_next(next);
 }
@@ -108,7 +103,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   Findings findings;
   const gcode::Sheet sheet = machine == nullptr
                                  ? gcode::Sheet{sheet_of(options), options.machine.empty()}
-                                 : gcode::Sheet{machine->controller().sheet};
+                                 : gcode::Sheet{machine->controller.sheet};
   const auto survey = gcode::survey(source, options.dialect(), sheet, findings);
   if (!survey) {
     report(options.program, findings);
@@ -133,7 +128,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
       [&cuts](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
         if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
       };
-  gcode::Compensator compensator(machine->corrector(), settings, [](std::string_view) {});
+  gcode::Compensator compensator(machine->corrector, settings, [](std::string_view) {});
   auto again = text.open({"its compensation", steps, steps});
   const auto outcome = compensator.run(again, options.dialect());
   print_survey(*survey, options.json);
@@ -149,14 +144,14 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
                outcome->largest_correction_mm,
                outcome->largest_correction_line);
     // The error of a two-chain map is reported by fit; that of anchors only along cuts.
-    if (machine->map() == nullptr)
+    if (machine->target.as<CompensationMap>() == nullptr)
       fmt::print("{}", in_words(promised_along(cuts, *machine, options.tolerance_mm)));
   }
   if (code == kDone) say_next_of_program(options);
   return code;
 }
 
-int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
+int write_lengths(const Target& target, const GcodeOptions& options) {
   const GcodeText text(options.program);
   const double rows = rows_of_lengths(options, text);
   auto source = text.open();

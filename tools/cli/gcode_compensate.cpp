@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode compensate.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"
@@ -34,7 +28,7 @@ Proof prove(const GcodeOptions& options,
   auto original = text.open({"the result on the simulated machine", 2, 2});
   auto written = written_so_far(output);
   const auto outcome = gcode::verify(
-      original, written, machine.corrector(), options.dialect(), verify_options(options, machine));
+      original, written, machine.corrector, options.dialect(), verify_options(options, machine));
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
 }
@@ -50,7 +44,7 @@ bool is_usual(const GcodeOptions& options) {
 
 /// A sentence for the page: whether the file is safe to run.
 std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, const Proof& proof) {
-  const char* controller = machine.corrector().firmware().name;
+  const char* controller = machine.corrector.firmware().name;
   if (options.no_verify) {
     return "The file was not run on the simulated machine (--no-verify), so it may not be safe. "
            "Run gcode verify before cutting.";
@@ -96,7 +90,7 @@ std::string map_after(const std::string& map) {
 
 /// Conditions at the machine for the program to be cut correctly.
 void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
-  if (machine.map() == nullptr) return;
+  if (machine.target.as<CompensationMap>() == nullptr) return;
   if (options.settings.empty() && options.machine.empty()) {
     if (const std::string after = map_after(options.map); !after.empty()) {
       say("Have you typed in the numbers for {0}? {1} is for the controller without them; with "
@@ -105,7 +99,7 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
           options.map);
     }
   }
-  const gcode::Firmware* firmware = &machine.corrector().firmware();
+  const gcode::Firmware* firmware = &machine.corrector.firmware();
   const bool adds_home = firmware == &gcode::firmware(ControllerKind::maslow_classic) ||
                          firmware == &gcode::firmware(ControllerKind::holey);
   if (!adds_home || options.home_is_zero) return;
@@ -120,12 +114,17 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   }
 }
 
-/// \param strays_mm how far the tool leaves the path on the simulated machine; "null": it was not run
-std::string json_of(const gcode::CompensateSummary& summary,
+/// A compensated program before it is written.
+struct Compensated {
+  gcode::CompensateSummary summary;
+  Proof proof;
+  PromisedError promised;
+  report::PathReport picture;  ///< filled for --report and --json
+};
+
+std::string json_of(const Compensated& result,
                     const gcode::Findings& findings,
-                    const std::string& strays_mm,
-                    const PromisedError& promised,
-                    const report::PathReport& picture) {
+                    const GcodeOptions& options) {
   std::vector<std::string> notes, pieces;
   for (const gcode::Note& note : findings.notes) {
     notes.push_back(fmt::format("{{\"line\": {}, \"name\": {}, \"sentence\": {}}}",
@@ -133,7 +132,7 @@ std::string json_of(const gcode::CompensateSummary& summary,
                                 in_quotes(note.name),
                                 in_quotes(note.sentence)));
   }
-  for (const report::PathPiece& piece : picture.pieces()) {
+  for (const report::PathPiece& piece : result.picture.pieces()) {
     pieces.push_back(fmt::format("[{}, {}, {}, {}, {}, {}, {}, {}, {}, {}]",
                                  piece.line,
                                  piece.is_rapid ? 1 : 0,
@@ -146,6 +145,7 @@ std::string json_of(const gcode::CompensateSummary& summary,
                                  piece.correction1.x_mm,
                                  piece.correction1.y_mm));
   }
+  const gcode::CompensateSummary& summary = result.summary;
   return fmt::format(
       "{{\"moves\": {}, \"commands\": {}, \"path_mm\": {}, \"largest_correction_mm\": {}, "
       "\"largest_correction_line\": {}, \"strays_mm\": {}, {},\n\"notes\": [{}],\n"
@@ -155,29 +155,58 @@ std::string json_of(const gcode::CompensateSummary& summary,
       summary.path_mm,
       summary.largest_correction_mm,
       summary.largest_correction_line,
-      strays_mm,
-      as_members(promised),
+      options.no_verify ? "null" : fmt::format("{:.6f}", result.proof.largest_mm),
+      as_members(result.promised),
       fmt::join(notes, ", "),
       fmt::join(pieces, ",\n"));
 }
 
-int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
-  const GcodeText text(options.program);
-  auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
-  gcode::CompensateOptions settings = compensate_options(options, machine);
-  files::note_source(text.source());
-  settings.made_by = made_by(options.verb);
-  report::PathReport picture;
-  gcode::CutPlaces cuts;
-  settings.on_command =
-      [&](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
-        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
-        if ((options.json || !options.report.empty()) && move.names_xy)
-          picture.add(drawn(move, from, to));
-      };
-  files::PendingFile output(options.output);
-  gcode::Compensator compensator(
-      machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
+/// The page of --report.
+std::string page_of(Compensated& result,
+                    const GcodeMachine& machine,
+                    const GcodeOptions& options,
+                    const std::optional<grid::Provenance>& made_by) {
+  const bool holds = result.proof.fault.empty();
+  const gcode::CompensateSummary& summary = result.summary;
+  const interp::Rectangle& sheet = machine.controller.sheet;
+  report::PathReport& picture = result.picture;
+  picture.name = options.program == "-"
+                     ? "A program"
+                     : std::filesystem::path(options.program).filename().string();
+  picture.verdict = verdict(options, machine, result.proof);
+  if (holds) {
+    std::string expected = in_words(result.promised);
+    std::replace(expected.begin(), expected.end(), '\n', ' ');
+    picture.verdict += " " + expected;
+  }
+  picture.sheet = {sheet.x_min, sheet.x_max, sheet.y_min, sheet.y_max};
+  if (const auto expected = result.promised.measured_mm(); expected && holds) {
+    picture.figures.push_back(
+        {fmt::format("{:.2f} mm", *expected),
+         result.promised.is_without_scale
+             ? "expected error of the tool without that of the scale, one sigma"
+             : "expected error of the tool, one sigma"});
+  }
+  if (!options.no_verify) {
+    picture.figures.push_back(
+        {fmt::format("{:.3f} mm", result.proof.largest_mm), "largest distance from the path"});
+  }
+  grid::append_all(
+      picture.figures,
+      std::vector<Figure>{
+          {fmt::format("{:.2f} mm", summary.largest_correction_mm), "largest correction"},
+          {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
+          {fmt::format("{:.1f} m", summary.path_mm / 1000.0), "path"},
+          {fmt::format("{}", summary.commands), holds ? "commands written" : "commands"}});
+  Document document = report::page_of(picture);
+  add_made_by(made_by, document.sections);
+  return report::render_html(document);
+}
+
+/// Runs the compensator; its problems are printed. \throws GcodeRefused
+gcode::CompensateSummary compensated(gcode::Compensator& compensator,
+                                     gcode::LineSource source,
+                                     const GcodeOptions& options) {
   const auto summary = compensator.run(source, options.dialect());
   const gcode::Findings& findings = compensator.findings();
   report(options.program, findings);
@@ -189,77 +218,30 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
     say("nothing is written");
     throw GcodeRefused(findings.problems);
   }
-  Proof proof;
-  if (!options.no_verify) proof = prove(options, machine, text, output);
-  const bool holds = proof.fault.empty();
-  const PromisedError promised =
-      promised_along(cuts, machine, options.no_verify ? options.tolerance_mm : proof.largest_mm);
-  const std::string words = fmt::format(
-      "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
+  return *summary;
+}
+
+/// What was done and, if it does not hold, why it is not written. \throws Failed
+void report_result(const Compensated& result,
+                   const GcodeMachine& machine,
+                   const GcodeOptions& options) {
+  const char* controller = machine.corrector.firmware().name;
+  const auto& [summary, proof, promised, picture] = result;
+  say("{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
-      summary->blocks,
-      summary->moves,
-      summary->path_mm / 1000.0,
-      summary->commands,
-      machine.corrector().firmware().name,
-      summary->largest_correction_mm,
-      summary->largest_correction_line);
-  std::string page;
-  if (!options.report.empty()) {
-    const interp::Rectangle& sheet = machine.controller().sheet;
-    picture.name = options.program == "-"
-                       ? "A program"
-                       : std::filesystem::path(options.program).filename().string();
-    picture.verdict = verdict(options, machine, proof);
-    if (holds) {
-      std::string expected = in_words(promised);
-      std::replace(expected.begin(), expected.end(), '\n', ' ');
-      picture.verdict += " " + expected;
-    }
-    picture.sheet = {sheet.x_min, sheet.x_max, sheet.y_min, sheet.y_max};
-    picture.figures = {
-        {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
-        {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
-        {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
-        {fmt::format("{}", summary->commands), holds ? "commands written" : "commands"}};
-    if (!options.no_verify) {
-      picture.figures.insert(
-          picture.figures.begin(),
-          {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
-    }
-    if (const auto expected = promised.measured_mm(); expected && holds) {
-      picture.figures.insert(
-          picture.figures.begin(),
-          {fmt::format("{:.2f} mm", *expected),
-           promised.is_without_scale
-               ? "expected error of the tool without that of the scale, one sigma"
-               : "expected error of the tool, one sigma"});
-    }
-    Document document = report::page_of(picture);
-    add_made_by(settings.made_by, document.sections);
-    page = report::render_html(document);
-  }
-  if (holds) {
-    std::vector<files::OutputFile> others = {{options.report, page}};
-    if (options.json)
-      others.push_back(
-          {"-",
-           json_of(*summary,
-                   findings,
-                   options.no_verify ? "null" : fmt::format("{:.6f}", proof.largest_mm),
-                   promised,
-                   picture)});
-    take_place(output, options.output, others);
-  } else if (!options.report.empty()) {
-    write_output(options.report, page);
-  }
-  say("{}", words);
-  if (!holds) {
+      summary.blocks,
+      summary.moves,
+      summary.path_mm / 1000.0,
+      summary.commands,
+      controller,
+      summary.largest_correction_mm,
+      summary.largest_correction_line);
+  if (!proof.fault.empty()) {
     say("{}: run on a simulated {} controller, the compensated program is not within {} mm: "
         "{}\nthe program is not written; try another --tolerance-mm, or --no-verify to inspect "
         "that line",
         files::name_in_messages(options.program),
-        machine.corrector().firmware().name,
+        controller,
         options.tolerance_mm,
         proof.fault);
     throw Failed("", "not_held", proof.fault, kCheckFailed);
@@ -267,11 +249,44 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   if (!options.no_verify) {
     say("run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
         "tolerance {} mm",
-        machine.corrector().firmware().name,
+        controller,
         proof.largest_mm,
         options.tolerance_mm);
   }
   fmt::print(stderr, "{}", in_words(promised));
+}
+
+int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
+  const GcodeText text(options.program);
+  gcode::LineSource source = text.open({"the program", 1, options.no_verify ? 1 : 2});
+  gcode::CompensateOptions settings = compensate_options(options, machine);
+  files::note_source(text.source());
+  settings.made_by = made_by(options.verb);
+  Compensated result;
+  gcode::CutPlaces cuts;
+  settings.on_command =
+      [&](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+        if ((options.json || !options.report.empty()) && move.names_xy)
+          result.picture.add(drawn(move, from, to));
+      };
+  files::PendingFile output(options.output);
+  gcode::Compensator compensator(
+      machine.corrector, settings, [&](std::string_view bytes) { output.write(bytes); });
+  result.summary = compensated(compensator, std::move(source), options);
+  if (!options.no_verify) result.proof = prove(options, machine, text, output);
+  result.promised = promised_along(
+      cuts, machine, options.no_verify ? options.tolerance_mm : result.proof.largest_mm);
+  Outputs others;
+  if (!options.report.empty())
+    others.push_back({options.report, page_of(result, machine, options, settings.made_by)});
+  if (!result.proof.fault.empty()) {
+    write_outputs(others);
+  } else {
+    if (options.json) others.push_back({"-", json_of(result, compensator.findings(), options)});
+    take_place(output, options.output, others);
+  }
+  report_result(result, machine, options);
   describe_use(machine, options);
   if (is_usual(options))
     say_next(with_map_words(options, {"gcode", "verify", options.program, options.output}));
@@ -282,9 +297,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
 
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
-  const CompensationMap* map = machine.map();
-  if (map != nullptr && !options.forced && refuses_to_cut_with(*map))
-    throw Failed("", "not_to_cut_with", not_to_cut_with(*map), kCheckFailed);
+  if (const CompensationMap* map = machine.target.as<CompensationMap>())
+    require_fit_for_cutting(not_to_cut_with(*map), options.forced);
   return compensate_for(machine, options);
 }
 

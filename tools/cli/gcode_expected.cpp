@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/belts/belt_map.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -34,8 +35,13 @@ std::optional<double> PromisedError::outside_mm() const {
 PromisedError promised_along(const gcode::CutPlaces& cuts,
                              const GcodeMachine& machine,
                              double path_mm) {
-  const grid::LengthMap* but_scale = machine.in_belts_mm();
-  return {cuts.expected(but_scale ? *but_scale : machine.target()), path_mm, but_scale != nullptr};
+  const auto* found = machine.target.as<files::FittedAnchors>();
+  if (found == nullptr || found->fit.scale)
+    return {cuts.expected(*machine.target.lengths), path_mm};
+  // A scale that was not taped is taken as true, so that the error excludes it.
+  BeltsFit taken_as_true = found->fit;
+  taken_as_true.scale = grid::BeltScale{};
+  return {cuts.expected(grid::BeltMap(taken_as_true, holes_of(*found))), path_mm, true};
 }
 
 std::string in_words(const PromisedError& error) {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode explain.
-#include <fmt/format.h>
-
 #include <charconv>
-#include <string>
-#include <vector>
 
-#include "grid/files/input_error.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/talk.hpp"
 
@@ -43,8 +38,8 @@ void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
                move.arc->sweep_rad * 57.29577951308232);
   }
   if (machine == nullptr) return;
-  const auto answer = machine->target().query(target);
-  const auto command = machine->corrector().command(target);
+  const auto answer = machine->target.lengths->query(target);
+  const auto command = machine->corrector.command(target);
   if (!answer || !command) {
     fmt::print("    {}\n", answer ? command.error().sentence() : answer.error().sentence());
     return;
@@ -55,7 +50,7 @@ void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
              answer->lengths_mm[1],
              answer->sigma.right_mm);
   fmt::print("    command for {}: X{:.4f} Y{:.4f}, corrected by X{:+.4f} Y{:+.4f} mm\n",
-             machine->corrector().firmware().name,
+             machine->corrector.firmware().name,
              command->x_mm,
              command->y_mm,
              command->x_mm - target.x_mm,

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/gcode_job.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 #include "grid/files/file_identity.hpp"
-#include "grid/files/input_error.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
@@ -58,9 +52,9 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
   result.largest_correction_mm = options.largest_correction_mm;
   result.steepest_correction = options.steepest_correction;
   result.keep_rapids_whole = options.keep_rapids_whole;
-  result.clamp_box = machine.controller().clamp_box;
-  result.half_play_mm = machine.controller().half_play_mm;
-  for (const files::NamedSetting& setting : machine.controller().settings)
+  result.clamp_box = machine.controller.clamp_box;
+  result.half_play_mm = machine.controller.half_play_mm;
+  for (const files::NamedSetting& setting : machine.controller.settings)
     result.settings.push_back(setting.name + " " + setting.text);
   return result;
 }
@@ -117,8 +111,7 @@ grid::SourceFile GcodeText::source() const {
   return {std::move(name), hash.text()};
 }
 
-std::vector<std::string> with_map_words(const GcodeOptions& options,
-                                        std::vector<std::string> words) {
+Words with_map_words(const GcodeOptions& options, Words words) {
   add_option_words(words, "--map", options.map);
   add_option_words(words, "--settings", options.settings);
   return words;

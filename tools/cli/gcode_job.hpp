@@ -11,14 +11,11 @@
 
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/pending_file.hpp"
-#include "grid/map/compensation_map.hpp"
-#include "grid/plotter/found_plotter.hpp"
 #include "grid/progress.hpp"
 #include "grid/provenance.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/verb.hpp"
+#include "tools/cli/target.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/expected_error.hpp"
 #include "tools/gcode/verifier.hpp"
@@ -66,19 +63,8 @@ struct GcodeOptions {
 /// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
-/// What a program aims at: a map, the fit of four belts, or the plotter that a drawing found.
-struct GcodeTarget {
-  std::unique_ptr<const CompensationMap> map = {};  ///< null for four belts and for a V-plotter
-  std::optional<grid::KnownPlotter> plotter = {};
-  /// For four belts: the machine in force when they were measured.
-  std::optional<BeltMachine> belts_in_force = {};
-  std::unique_ptr<const grid::LengthMap> lengths = {};
-  /// For four belts whose scale was not taped: the map whose error excludes the scale; otherwise
-  /// null.
-  std::unique_ptr<const grid::LengthMap> in_belts_mm = {};
-};
-/// Of --map. \throws InputError for a bad file.
-[[nodiscard]] GcodeTarget open_target(const GcodeOptions& options);
+/// Of --map; reports a scale that is unknown. \throws InputError for a bad file.
+[[nodiscard]] Target open_target(const GcodeOptions& options);
 
 /// How the machine's controller executes a program.
 struct GcodeController {
@@ -98,26 +84,16 @@ struct GcodeController {
 };
 
 /// Map, machine and controller, which belong together.
-class GcodeMachine {
- public:
+struct GcodeMachine {
   /// \throws InputError for bad files, or if neither map nor --machine states the controller's
   /// settings.
   explicit GcodeMachine(const GcodeOptions& options);
-  [[nodiscard]] const grid::LengthMap& target() const { return *target_.lengths; }
-  /// See GcodeTarget::in_belts_mm.
-  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm.get(); }
-  /// Null for four belts and for a V-plotter.
-  [[nodiscard]] const CompensationMap* map() const { return target_.map.get(); }
-  [[nodiscard]] const grid::KnownPlotter* plotter() const {
-    return target_.plotter ? &*target_.plotter : nullptr;
-  }
-  [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
-  [[nodiscard]] const GcodeController& controller() const { return controller_; }
+  GcodeMachine(const GcodeMachine&) = delete;
+  GcodeMachine& operator=(const GcodeMachine&) = delete;
 
- private:
-  GcodeTarget target_;
-  GcodeController controller_;
-  gcode::Corrector corrector_;
+  const Target target;
+  const GcodeController controller;
+  const gcode::Corrector corrector;
 };
 
 /// The area for programs with --machine; without it the usual bed. \throws InputError.
@@ -150,8 +126,7 @@ class GcodeText {
 };
 
 /// A command on the map of these options, with their --settings.
-[[nodiscard]] std::vector<std::string> with_map_words(const GcodeOptions& options,
-                                                      std::vector<std::string> words);
+[[nodiscard]] Words with_map_words(const GcodeOptions& options, Words words);
 
 /// part.nc becomes part.true.nc.
 [[nodiscard]] std::string compensated_name(const std::string& program);

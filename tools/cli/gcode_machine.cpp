@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/gcode_job.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "grid/belts/belt_map.hpp"
-#include "grid/files/anchors_file.hpp"
-#include "grid/files/input_error.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
-#include "grid/map/map_in_frame.hpp"
 #include "model/belts/belt_controller.hpp"
 #include "model/plotter/plotter_commands.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
@@ -98,14 +92,17 @@ std::vector<files::NamedSetting> settings_of(const BeltMachine& machine) {
   return settings;
 }
 
-GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarget& target) {
+GcodeController controller_of(const GcodeOptions& options,
+                              const Target& target,
+                              const files::FittedAnchors&) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
     refuse("--controller",
            options.controller,
            "\"maslow4\", or to be left out, because anchors of four belts belong to a Maslow 4");
   }
-  const BeltMachine believed =
-      options.machine.empty() ? *target.belts_in_force : read_belt_machine_input(options.machine);
+  const BeltMachine believed = options.machine.empty()
+                                   ? dynamic_cast<const grid::BeltMap&>(*target.lengths).in_force()
+                                   : read_belt_machine_input(options.machine);
   return {std::make_unique<const model::BeltController>(believed),
           &gcode::firmware_of_four_belts(),
           std::nullopt,
@@ -135,15 +132,16 @@ std::vector<files::NamedSetting> settings_of(const grid::SetPlotter& set) {
 }
 
 /// The present settings of a V-plotter's controller.
-GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTarget& target) {
-  const grid::SetPlotter set = options.machine.empty()
-                                   ? target.plotter->set
-                                   : load_plotter(open_input(options.machine)).plotter.set;
-  if (set.firmware != target.plotter->set.firmware) {
+GcodeController controller_of(const GcodeOptions& options,
+                              const Target&,
+                              const grid::KnownPlotter& plotter) {
+  const grid::SetPlotter set =
+      options.machine.empty() ? plotter.set : load_plotter(open_input(options.machine)).plotter.set;
+  if (set.firmware != plotter.set.firmware) {
     refuse(options.machine,
            "/set/firmware",
            std::string(model::name(set.firmware)),
-           fmt::format("\"{}\", as in {}", model::name(target.plotter->set.firmware), options.map));
+           fmt::format("\"{}\", as in {}", model::name(plotter.set.firmware), options.map));
   }
   const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
   if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
@@ -187,18 +185,25 @@ void say_other_controller(const CompensationMap& map, ControllerKind kind) {
       name_of(kind));
 }
 
-GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
-  if (target.plotter) return controller_of_plotter(options, target);
-  if (target.map == nullptr) return controller_of_belts(options, target);
+GcodeController controller_of(const GcodeOptions& options,
+                              const Target&,
+                              const CompensationMap& map) {
+  if (options.controller == kFourBeltsName) {
+    refuse(options.map,
+           "/file_type",
+           "",
+           "\"chaintrue_anchors\", which chaintrue fit writes for belts; a Maslow 4 uses these "
+           "instead of a map");
+  }
   if (options.controller == kMarlinName) {
     refuse("--controller",
            options.controller,
            "a router's controller; Marlin is for V-plotters, which use the fit of a drawing "
            "instead of a map");
   }
-  Machine machine = believed_machine(options, *target.map);
+  Machine machine = believed_machine(options, map);
   if (const auto kind = controller_kind(options.controller)) {
-    say_other_controller(*target.map, *kind);
+    say_other_controller(map, *kind);
     machine.controller.kind = *kind;
   }
   return {model::make_controller_kinematics(machine),
@@ -209,71 +214,32 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
           files::settings_in_force(machine)};
 }
 
-GcodeTarget target_of_plotter(const GcodeOptions& options) {
-  GcodeTarget target{.plotter = load_plotter(*options.map_file).plotter};
-  target.lengths = load_plotter_map(*options.map_file, *target.plotter);
-  return target;
-}
-
-GcodeTarget target_of_belts(const GcodeOptions& options) {
-  const files::FittedAnchors found = load_anchors(*options.map_file);
-  const grid::HolesWithBelts* holes = found.holes ? &*found.holes : nullptr;
-  if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
-    refuse("command line",
-           "--map",
-           options.map,
-           "anchors fitted to a file with the anchors in force, which define the origin of "
-           "commands (import maslow4 --settings maslow.yaml)",
-           ProblemKind::missing);
-  }
-  auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
-  GcodeTarget target{.belts_in_force = map->in_force()};
-  if (!found.fit.scale) {
-    BeltsFit taken_as_true = found.fit;
-    taken_as_true.scale = grid::BeltScale{};
-    target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
-    say("The scale is unknown. An encoder turn is assumed to be {:g} mm of belt, and parts can be "
-        "no more accurate than that. One long taped distance, or holes, determine the scale.",
-        found.fit.machine.belt_turn_mm);
-  }
-  target.lengths = std::move(map);
-  return target;
-}
-
-GcodeTarget target_of_map(const GcodeOptions& options) {
-  if (options.controller == kFourBeltsName) {
-    refuse(options.map,
-           "/file_type",
-           "",
-           "\"chaintrue_anchors\", which chaintrue fit writes for belts; a Maslow 4 uses these "
-           "instead of a map");
-  }
-  GcodeTarget target{std::make_unique<const CompensationMap>(load_map(*options.map_file))};
-  target.lengths = std::make_unique<const grid::MapInFrame>(
-      *target.map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
-  return target;
-}
-
 }  // namespace
 
-GcodeTarget open_target(const GcodeOptions& options) {
-  if (options.map_file->kind == FileKind::anchors) return target_of_belts(options);
-  return options.map_file->kind == FileKind::plotter ? target_of_plotter(options)
-                                                     : target_of_map(options);
+Target open_target(const GcodeOptions& options) {
+  Target target = open_target(*options.map_file, options.frame);
+  const auto* found = target.as<files::FittedAnchors>();
+  if (found != nullptr && !found->fit.scale) {
+    say("The scale is unknown. An encoder turn is assumed to be {:g} mm of belt, and parts can be "
+        "no more accurate than that. One long taped distance, or holes, determine the scale.",
+        found->fit.machine.belt_turn_mm);
+  }
+  return target;
 }
 
 GcodeMachine::GcodeMachine(const GcodeOptions& options)
-    : target_(open_target(options)),
-      controller_(controller_of(options, target_)),
-      corrector_(*target_.lengths, *controller_.kinematics, *controller_.firmware) {}
+    : target(open_target(options)),
+      controller(
+          std::visit([&](const auto& content) { return controller_of(options, target, content); },
+                     *target.content)),
+      corrector(*target.lengths, *controller.kinematics, *controller.firmware) {}
 
 interp::Rectangle sheet_of(const GcodeOptions& options) {
   if (options.machine.empty()) return rectangle_of(Bed{});
-  const FileKind kind = open_input(options.machine).kind;
-  if (kind == FileKind::plotter)
-    return rectangle_of(load_plotter(open_input(options.machine)).plotter.set);
-  const bool of_belts = kind == FileKind::belts || kind == FileKind::anchors;
-  return of_belts ? rectangle_of(read_belt_machine_input(options.machine))
+  const InputFile file = open_input(options.machine);
+  if (file.kind == FileKind::plotter) return rectangle_of(load_plotter(file).plotter.set);
+  const bool of_belts = file.kind == FileKind::belts || file.kind == FileKind::anchors;
+  return of_belts ? rectangle_of(load_belt_machine(file))
                   : rectangle_of(read_machine_input(options.machine).bed);
 }
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode verify.
-#include <fmt/format.h>
-
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"
@@ -85,7 +79,7 @@ gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMach
   gcode::VerifyOptions result;
   result.tolerance_mm = options.tolerance_mm;
   result.decimals = options.decimals;
-  result.half_play_mm = machine.controller().half_play_mm;
+  result.half_play_mm = machine.controller.half_play_mm;
   result.rapids_whole = options.keep_rapids_whole;
   // The rounding of F, and of short pieces, takes a hundredth.
   result.speed_share = options.steepest_correction + 0.01;
@@ -151,15 +145,13 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
   auto intended = original.open({"the program on the simulated machine", 1, 2});
   auto run = other.open();
-  const auto summary =
-      gcode::verify(intended, run, machine.corrector(), options.dialect(), settings);
+  const auto summary = gcode::verify(intended, run, machine.corrector, options.dialect(), settings);
   if (!summary) {
     report(summary.error().in_original ? options.program : options.other, summary.error().problem);
     throw GcodeRefused({summary.error().problem});
   }
   auto again = original.open({"the same without compensation", 2, 2});
-  const auto control =
-      gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
+  const auto control = gcode::uncompensated(again, machine.corrector, options.dialect(), settings);
   if (assumed) {
     gcode::Findings findings;
     findings.add(*assumed);
@@ -171,10 +163,9 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   if (options.json) {
     print_json(*summary, control, promised, options.tolerance_mm);
   } else {
-    print_words(*summary, control, promised, options, machine.corrector().firmware().name);
+    print_words(*summary, control, promised, options, machine.corrector.firmware().name);
   }
-  const bool has_belts =
-      machine.corrector().firmware().name == gcode::firmware_of_four_belts().name;
+  const bool has_belts = machine.corrector.firmware().name == gcode::firmware_of_four_belts().name;
   if (summary->holds() && has_belts) {
     say_next({"export", "maslow4", options.map});
   } else if (summary->holds()) {

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/grid_input.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "grid/containers.hpp"
-#include "grid/files/belts_file.hpp"
 #include "grid/files/effect_file.hpp"
-#include "grid/files/file_type.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
@@ -99,10 +92,14 @@ MeasuredGrid grid_of(const InputFile& file,
 
 }  // namespace
 
-Facts facts_of_tables(const std::vector<InputFile>& files) {
-  const bool any =
-      grid::any_of(files, [](const InputFile& file) { return !files::is_json(file.text); });
-  return any ? facts::table : facts::nothing;
+Facts facts_of(const InputFiles& files) {
+  Facts facts = facts::nothing;
+  for (const InputFile& file : files) {
+    facts |= file.fact() & facts::chains;
+    if (!files::is_json(file.text)) facts |= facts::table;
+  }
+  const bool is_one_grid = files.size() == 1 && (facts & facts::grid) != 0;
+  return is_one_grid ? facts | facts::one_grid : facts;
 }
 
 namespace {
@@ -154,9 +151,7 @@ grid::MeasuredFile load_measured(const InputFile& file,
                                  const files::TapeOptions& tape,
                                  MeasuredUse use,
                                  const Machine* otherwise) {
-  require_kind(file,
-               {FileKind::grid, FileKind::holes},
-               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
+  require_kind(file, {FileKind::grid, FileKind::holes});
   files::MeasuredOptions options{.machine = machine_of(input),
                                  .few = use == MeasuredUse::check,
                                  .inches = input.inches,
@@ -169,13 +164,23 @@ grid::MeasuredFile load_measured(const InputFile& file,
   return {file.name, std::move(read.holes)};
 }
 
-std::vector<InputFile> open_inputs(const std::string& path, const std::vector<std::string>& with) {
-  std::vector<InputFile> files = {open_input(path)};
+ReadingCounts counts_of(const grid::Measured& measured) {
+  ReadingCounts counts;
+  for (const auto* grid : measured.grids()) counts.points += grid->points.size();
+  for (const auto* set : measured.holes()) {
+    counts.distances += set->distances.size();
+    counts.holes += set->holes.size();
+  }
+  return counts;
+}
+
+InputFiles open_inputs(const std::string& path, const Words& with) {
+  InputFiles files = {open_input(path)};
   for (const std::string& other : with) files.push_back(open_input(other));
   return files;
 }
 
-grid::Measured load_measured(const std::vector<InputFile>& files,
+grid::Measured load_measured(const InputFiles& files,
                              const GridInput& input,
                              const files::TapeOptions& tape,
                              MeasuredUse use) {

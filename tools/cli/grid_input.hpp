@@ -10,9 +10,7 @@
 #include "grid/files/measured_options.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/observation/measured.hpp"
-#include "tools/cli/arguments.hpp"
 #include "tools/cli/input_file.hpp"
-#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 
@@ -25,14 +23,15 @@ struct GridInput {
   /// Readings are in inches, in tables whose header says mm.
   bool inches = false;
   /// Files of declared effects.
-  std::vector<std::string> effects;
+  Words effects;
 };
 
 /// Adds GRID, --machine and the --noise options to a verb.
 void add_grid_options(Verb verb, GridInput& input);
 
-/// Whether any of them is a table, to which --inches applies.
-[[nodiscard]] Facts facts_of_tables(const std::vector<InputFile>& files);
+/// For measured files: those of two chains, whether it is a single grid, and whether any of them is a
+/// table.
+[[nodiscard]] Facts facts_of(const InputFiles& files);
 
 /// Adds --effects: declared effects may act on the machine of every input file.
 void add_effects_option(Verb verb, GridInput& input);
@@ -48,11 +47,6 @@ void add_without_option(Verb verb, std::string& without);
 /// Its points, from 1. \throws InputError.
 [[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
 
-/// For a verb that reads only holes of two chains but gets those of four belts.
-inline constexpr const char* kBeltHolesAreFitted =
-    "holes cut by four belts are fitted together with belt lengths: chaintrue fit belts.json "
-    "--with FILE";
-
 /// Enough data for a fit, or only for a check of a map.
 enum class MeasuredUse { fit, check };
 
@@ -66,14 +60,21 @@ enum class MeasuredUse { fit, check };
 
 /// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
 /// settings. \throws InputError.
-[[nodiscard]] grid::Measured load_measured(const std::vector<InputFile>& files,
+[[nodiscard]] grid::Measured load_measured(const InputFiles& files,
                                            const GridInput& input,
                                            const files::TapeOptions& tape,
                                            MeasuredUse use);
 
+struct ReadingCounts {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  std::size_t holes = 0;
+};
+/// Of all files.
+[[nodiscard]] ReadingCounts counts_of(const grid::Measured& measured);
+
 /// The file, and those of --with.
-[[nodiscard]] std::vector<InputFile> open_inputs(const std::string& path,
-                                                 const std::vector<std::string>& with);
+[[nodiscard]] InputFiles open_inputs(const std::string& path, const Words& with);
 
 // --outside and --fade-mm: a map's continuation beyond its points, shared by several verbs.
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace chaintrue::cli {
 namespace {
@@ -40,31 +39,29 @@ Section distances_section(const MeasuredHoles& set,
               .is_headed = true};
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
-    Row& row = table.rows.emplace_back();
-    row.cells = {words_of(set, set.distances[k]),
-                 distance.measured_mm,
-                 distance.commanded_mm,
-                 distance.left_out_mm,
-                 distance.sigmas()};
-    row.is_flagged = distance.rejected;
-    if (distance.rejected) row.cells.emplace_back("left out");
+    table.rows.push_back(report::row_with_flag({words_of(set, set.distances[k]),
+                                                distance.measured_mm,
+                                                distance.commanded_mm,
+                                                distance.left_out_mm,
+                                                distance.sigmas()},
+                                               distance.rejected,
+                                               "left out"));
   }
   Section section{"Distance by distance", {}, true, Detail::verbose, /*is_titled=*/false};
-  if (!file.empty()) section.blocks.emplace_back(Paragraph{fmt::format("{}:", file)});
+  if (!file.empty()) section.say(fmt::format("{}:", file));
   section.blocks.emplace_back(std::move(table));
   return section;
 }
 
 void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& distances) {
-  distances.blocks.emplace_back(
-      Paragraph{fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
-                            "(readings relative to the model's lengths).",
-                            100.0 * knowledge.mean[6],
-                            100.0 * std::sqrt(knowledge.covariance(6, 6)),
-                            100.0 * knowledge.mean[7],
-                            100.0 * std::sqrt(knowledge.covariance(7, 7)))});
-  distances.blocks.emplace_back(
-      Paragraph{"Left out: measured minus predicted by the other readings, mm."});
+  distances.say(
+      fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
+                  "(readings relative to the model's lengths).",
+                  100.0 * knowledge.mean[6],
+                  100.0 * std::sqrt(knowledge.covariance(6, 6)),
+                  100.0 * knowledge.mean[7],
+                  100.0 * std::sqrt(knowledge.covariance(7, 7))));
+  distances.say("Left out: measured minus predicted by the other readings, mm.");
 }
 
 std::string distances_in_number(const MeasuredHoles& set) {

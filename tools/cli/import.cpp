@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue import: converts files of other programs to a machine, a grid or belts.
-#include <fmt/format.h>
-
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "grid/files/belts_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -16,12 +9,7 @@
 #include "grid/files/optical_file.hpp"
 #include "grid/files/plotter_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/start_plotter.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -99,9 +87,7 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
       files::parse_groundcontrol,
       command.input,
       command.nominal_pitch ? files::Tolerances::unexplained : files::Tolerances::are_pitch);
-  std::vector<std::string> comments;
-  for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
-  write_output(command.output, files::write_machine(read.machine, comments));
+  write_output(command.output, files::write_machine(read.machine, sentences_of(read.warnings)));
   print_warnings(read.warnings);
   say_next({"plan", "--machine", command.output, "-o", "marks.csv", "--page", "marks.html"});
   return kDone;
@@ -149,7 +135,7 @@ void add_import(Verb app) {
 namespace {
 
 struct Maslow4Command {
-  std::vector<std::string> inputs;
+  Words inputs;
   std::string settings;
   std::string lengths;
   std::string orientation;
@@ -305,9 +291,7 @@ struct PlotterCommand {
 
 int import_plotter(const PlotterCommand& command) {
   const files::ReadPlotter read = load_plotter(open_input(command.input));
-  std::vector<std::string> comments;
-  for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
-  write_output(command.output, files::write_plotter(read.plotter, comments));
+  write_output(command.output, files::write_plotter(read.plotter, sentences_of(read.warnings)));
   print_warnings(read.warnings);
   say_next({"start", command.output, "test-drawing"});
   return kDone;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/input_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <set>
 
 #include "grid/containers.hpp"
@@ -21,10 +18,31 @@ InputFile open_input(const std::string& path) {
   return file;
 }
 
+Facts InputFile::fact() const {
+  constexpr Facts kFacts[] = {facts::machine,
+                              facts::grid,
+                              facts::holes,
+                              facts::belt_holes,
+                              facts::belts,
+                              facts::map,
+                              facts::anchors,
+                              facts::diagnosis,
+                              facts::plotter,
+                              facts::drawing,
+                              facts::nothing};  // by FileKind
+  return kFacts[static_cast<std::size_t>(kind)];
+}
+
 void require_kind(const InputFile& file,
                   const std::vector<FileKind>& taken,
                   const std::string& also) {
   if (grid::contains(taken, file.kind)) return;
+  if (also.empty() && file.kind == FileKind::belt_holes && grid::contains(taken, FileKind::holes)) {
+    return require_kind(file,
+                        taken,
+                        "holes cut by four belts are fitted together with belt lengths: chaintrue "
+                        "fit belts.json --with FILE");
+  }
   const bool is_json = files::is_json(file.text);
   // No accepted kind can be a table: report why it is not JSON.
   const auto is_table = [](FileKind kind) {
@@ -48,6 +66,10 @@ files::FittedAnchors load_anchors(const InputFile& file) {
   return files::parse_anchors(file.text, file.name);
 }
 
+const grid::HolesWithBelts* holes_of(const files::FittedAnchors& found) {
+  return found.holes ? &*found.holes : nullptr;
+}
+
 Diagnosis load_diagnosis(const InputFile& file) {
   return files::parse_diagnosis(file.text, file.name);
 }
@@ -56,10 +78,6 @@ Machine load_machine(const InputFile& file) {
   files::ReadMachine read = files::parse_machine(file.text, file.name);
   print_warnings(read.warnings);
   return std::move(read.machine);
-}
-
-files::ReadBelts load_belts(const InputFile& file, const std::string& work) {
-  return load_belts(file, work, {});
 }
 
 files::ReadBelts load_belts(const InputFile& file,

@@ -6,8 +6,8 @@
 /// \code
 ///   const InputFile file = open_input(command.map);
 ///   require_kind(file, {FileKind::map, FileKind::anchors});
-///   if (file.kind == FileKind::anchors) return query_anchors(load_anchors(file), ...);
-///   return query_map(load_map(file), ...);
+///   if (file.kind == FileKind::anchors) return check_anchors(load_anchors(file), ...);
+///   return check_map(load_map(file), ...);
 /// \endcode
 #pragma once
 
@@ -21,6 +21,7 @@
 #include "grid/map/compensation_map.hpp"
 #include "model/belts/belt_machine.hpp"
 #include "model/machine.hpp"
+#include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
@@ -30,13 +31,18 @@ struct InputFile {
   std::string name;  ///< its name in messages
   std::string text;
   FileKind kind = FileKind::other;
+
+  /// For options that act on this kind only.
+  [[nodiscard]] Facts fact() const;
 };
+
+using InputFiles = std::vector<InputFile>;
 
 /// "-" is standard input. \throws InputError if it cannot be read, or is JSON that ends
 /// before its type.
 [[nodiscard]] InputFile open_input(const std::string& path);
 
-/// \param also a clause on where a refused kind is accepted; may be empty
+/// \param also a clause on where a refused kind is accepted; empty: as usual for that kind
 /// \throws InputError with the kind found and the kinds accepted.
 void require_kind(const InputFile& file,
                   const std::vector<FileKind>& taken,
@@ -44,16 +50,17 @@ void require_kind(const InputFile& file,
 
 /// Each reads a file of its kind. \throws InputError with every problem.
 [[nodiscard]] files::FittedAnchors load_anchors(const InputFile& file);
+/// Null if there are none.
+[[nodiscard]] const grid::HolesWithBelts* holes_of(const files::FittedAnchors& found);
 [[nodiscard]] Diagnosis load_diagnosis(const InputFile& file);
 [[nodiscard]] Machine load_machine(const InputFile& file);
 /// The belts of a chaintrue_belts file.
 [[nodiscard]] BeltMachine load_belt_machine(const InputFile& file);
-/// At most kMostBeltPoints places; `work` is their purpose: "a fit".
-[[nodiscard]] files::ReadBelts load_belts(const InputFile& file, const std::string& work);
-/// Without some points, counted from 1.
+/// At most kMostBeltPoints places; `work` is their purpose: "a fit". Leaves out the points
+/// `without`, counted from 1.
 [[nodiscard]] files::ReadBelts load_belts(const InputFile& file,
                                           const std::string& work,
-                                          const std::vector<std::size_t>& without);
+                                          const std::vector<std::size_t>& without = {});
 
 [[nodiscard]] CompensationMap load_map(const InputFile& file);
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/made_by.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
@@ -47,9 +43,8 @@ void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Sec
   Table table{.columns = {{"file"}, {"SHA-256"}}};
   for (const grid::SourceFile& file : made_by->inputs)
     table.rows.push_back({{file.name, file.sha256}});
-  Section section{"Where this comes from", {}};
-  section.blocks.push_back(
-      Paragraph{fmt::format("Made by version {} with \"{}\".", made_by->version, command)});
+  Section section{"Where this comes from"};
+  section.say(fmt::format("Made by version {} with \"{}\".", made_by->version, command));
   if (!table.rows.empty()) {
     table.caption = "sha256sum prints the same hash for an unchanged file.";
     section.blocks.push_back(std::move(table));

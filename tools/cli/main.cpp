@@ -8,17 +8,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <exception>
-#include <functional>
 #include <system_error>
 
-#include "grid/files/input_error.hpp"
-#include "grid/files/pending_file.hpp"
 #include "grid/printing.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/run_command.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

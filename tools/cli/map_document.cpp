@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
@@ -72,25 +70,22 @@ void put_figures(const CompensationMap& map, Document& document) {
 Section remarks_section(const CompensationMap& map, std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   const grid::MapAccuracy& accuracy = contents.accuracy;
-  Section section{"What else was found", {}};
-  const auto say = [&section](std::string text) {
-    section.blocks.emplace_back(Paragraph{std::move(text)});
-  };
-  if (wish_mm) say(wish_sentence(map, *wish_mm));
+  Section section{"What else was found"};
+  if (wish_mm) section.say(wish_sentence(map, *wish_mm));
   if (not_to_cut_with(map).empty()) {
-    say(worst_sentence(accuracy.expected_worst_at.x_mm,
-                       accuracy.expected_worst_at.y_mm,
-                       accuracy.expected_tool.maximum_mm));
+    section.say(worst_sentence(accuracy.expected_worst_at.x_mm,
+                               accuracy.expected_worst_at.y_mm,
+                               accuracy.expected_tool.maximum_mm));
   }
   if (map.machine() != nullptr && !contents.distances &&
       contents.noise.source != grid::NoiseSource::stated) {
-    say(fmt::format("Your readings scatter by about {:.2f} mm{}.",
-                    grid::noise_at_tool_mm(map),
-                    contents.noise.source == grid::NoiseSource::repeats
-                        ? ", judged by the marks measured twice"
-                        : ""));
+    section.say(fmt::format("Your readings scatter by about {:.2f} mm{}.",
+                            grid::noise_at_tool_mm(map),
+                            contents.noise.source == grid::NoiseSource::repeats
+                                ? ", judged by the marks measured twice"
+                                : ""));
   }
-  for (const std::string& note : contents.notes) say(note);
+  for (const std::string& note : contents.notes) section.say(note);
   return section;
 }
 

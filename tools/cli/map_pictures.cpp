@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/map/map_accuracy.hpp"

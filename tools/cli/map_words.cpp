@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/talk.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/precondition.hpp"
+#include "tools/cli/failed.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -49,18 +46,8 @@ std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
 }  // namespace
 
 grid::ErrorSummary summary_of(const MapContents& contents, Residual residual) {
-  grid::ErrorSummary summary;
-  double squares_mm2 = 0.0;
-  std::size_t good = 0;
-  for (const grid::MapPoint& point : contents.points) {
-    if (point.bad) continue;
-    const double error_mm = (point.*residual).norm();
-    squares_mm2 += error_mm * error_mm;
-    summary.maximum_mm = std::max(summary.maximum_mm, error_mm);
-    ++good;
-  }
-  if (good > 0) summary.rms_mm = std::sqrt(squares_mm2 / static_cast<double>(good));
-  return summary;
+  return summary_of_good(contents.points,
+                         [&](const grid::MapPoint& point) { return (point.*residual).norm(); });
 }
 
 bool has_placed_sheet(const MapContents& contents) {
@@ -100,11 +87,10 @@ std::string not_to_cut_with(const CompensationMap& map) {
       kMostToCutWithMm);
 }
 
-bool refuses_to_cut_with(const CompensationMap& map) {
-  const std::string why = not_to_cut_with(map);
-  if (why.empty()) return false;
+void require_fit_for_cutting(const std::string& why, bool is_forced) {
+  if (is_forced || why.empty()) return;
   say("{} --force continues anyway.", why);
-  return true;
+  throw Failed("", "not_to_cut_with", why, kCheckFailed);
 }
 
 std::string about_mm(double mm) {
@@ -261,14 +247,15 @@ Table settings_table(const std::vector<SettingRow>& settings) {
               .head_width = 27};
   for (const SettingRow& row : settings) {
     const auto value = [&](double of) { return in_unit(row.setting, of); };
-    std::vector<Cell> cells = {setting_in_words(row.setting),
+    table.rows.push_back(
+        report::row_with_flag({setting_in_words(row.setting),
                                value(row.stated),
                                row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
                                value(row.calibrated),
                                value(row.sigma),
-                               unit_of(row.setting)};
-    if (row.is_off) cells.emplace_back("off: by more than the uncertainty in your file");
-    table.rows.push_back({std::move(cells), row.is_off});
+                               unit_of(row.setting)},
+                              row.is_off,
+                              "off: by more than the uncertainty in your file"));
   }
   return table;
 }

@@ -3,6 +3,8 @@
 /// A compensation map's figures, in words and numbers.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,8 +74,25 @@ inline constexpr double kMostToCutWithMm = 3.0;
 /// compensate and export accept such a map only with --force.
 [[nodiscard]] std::string not_to_cut_with(const CompensationMap& map);
 
-/// Reports it, and how to use it anyway; false if it is fit for cutting.
-[[nodiscard]] bool refuses_to_cut_with(const CompensationMap& map);
+/// Unless it is empty or the user forces it, reports the reason `why` against using a result, and how
+/// to use it anyway. \throws Failed
+void require_fit_for_cutting(const std::string& why, bool is_forced);
+
+/// Rms and maximum of `size_of` over all that are not bad.
+template <class Readings, class Size>
+[[nodiscard]] grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
+  grid::ErrorSummary summary;
+  double squares = 0.0, count = 0.0;
+  for (const auto& reading : readings) {
+    if (reading.bad) continue;
+    const double size = std::abs(size_of(reading));
+    summary.maximum_mm = std::max(summary.maximum_mm, size);
+    squares += size * size;
+    count += 1.0;
+  }
+  if (count > 0.0) summary.rms_mm = std::sqrt(squares / count);
+  return summary;
+}
 
 using Residual = Eigen::Vector2d grid::MapPoint::*;
 /// Over the good points.

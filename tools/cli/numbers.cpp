@@ -65,7 +65,7 @@ Option add_numbers(Verb verb,
                    std::vector<double>& values,
                    const files::Range& range,
                    const std::string& help) {
-  const auto read = [name = names, range, &values](const std::vector<std::string>& texts) {
+  const auto read = [name = names, range, &values](const Words& texts) {
     // The number of values is kept as typed.
     for (const std::string& text : texts)
       values.push_back(read_number(name, text, range, false).value_or(0.0));

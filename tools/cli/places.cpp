@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "grid/containers.hpp"
 #include "grid/files/file_identity.hpp"
-#include "grid/files/input_error.hpp"
 #include "tools/cli/progress.hpp"
 
 namespace chaintrue::cli {
@@ -24,15 +21,13 @@ namespace fs = std::filesystem;
 struct Place {
   Verb verb;
   std::string names;  ///< "-o,--output"
-  const std::string* one = nullptr;
-  const std::vector<std::string>* many = nullptr;
+  std::function<Words()> paths;
   std::vector<Origin> kinds;  ///< of an output; none for an input
-
-  [[nodiscard]] std::vector<std::string> paths() const {
-    if (many != nullptr) return *many;
-    return one->empty() ? std::vector<std::string>{} : std::vector{*one};
-  }
 };
+
+std::function<Words()> path_of(const std::string& option) {
+  return [&option] { return Words(option.empty() ? 0 : 1, option); };
+}
 
 /// For all verbs of the current command line.
 std::vector<Place>& places() {
@@ -158,17 +153,17 @@ std::vector<Place> chosen_places() {
 
 const Place* output_named(const std::vector<Place>& chosen, const std::string& path) {
   for (const Place& place : chosen) {
-    if (!place.kinds.empty() && place.one != nullptr && *place.one == path) return &place;
+    if (!place.kinds.empty() && grid::contains(place.paths(), path)) return &place;
   }
   return nullptr;
 }
 
 /// The outputs by file.
-std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& outputs) {
+Outputs looked_at(const Outputs& outputs) {
   end_progress();
   const std::vector<Place> chosen = chosen_places();
   PlaceCheck check(chosen);
-  std::vector<files::OutputFile> result;
+  Outputs result;
   for (const files::OutputFile& output : outputs) {
     if (output.path.empty()) continue;
     // Standard output needs no option.
@@ -195,15 +190,12 @@ void add_force(Verb verb) {
 }  // namespace
 
 Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help) {
-  places().push_back({verb.with_name(), names, &path, nullptr, {}});
+  places().push_back({verb.with_name(), names, path_of(path), {}});
   return verb.add_option(names, path, help);
 }
 
-Option add_input(Verb verb,
-                 const std::string& names,
-                 std::vector<std::string>& paths,
-                 const std::string& help) {
-  places().push_back({verb.with_name(), names, nullptr, &paths, {}});
+Option add_input(Verb verb, const std::string& names, Words& paths, const std::string& help) {
+  places().push_back({verb.with_name(), names, [&paths] { return paths; }, {}});
   return verb.add_option(names, paths, help);
 }
 
@@ -212,7 +204,7 @@ Option add_output(Verb verb,
                   std::string& path,
                   std::vector<Origin> kinds,
                   const std::string& help) {
-  places().push_back({verb.with_name(), names, &path, nullptr, std::move(kinds)});
+  places().push_back({verb.with_name(), names, path_of(path), std::move(kinds)});
   Option option = verb.add_option(names, path, help);
   option.refuses([](const std::string& text) -> std::string {
     if (text.empty()) return "an empty name, expected the name of a file";
@@ -249,8 +241,7 @@ void check_folder(Verb verb, const std::string& folder, const std::vector<Folder
   if (!fs::exists(folder, error)) return;
   PlaceCheck check(chosen_places());
   for (const FolderFile& file : contents)
-    check.look_at((fs::path(folder) / file.name).string(),
-                  {verb, "", nullptr, nullptr, {file.kind}});
+    check.look_at((fs::path(folder) / file.name).string(), {verb, "", {}, {file.kind}});
   check.throw_if_any();
 }
 
@@ -269,7 +260,7 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
            ProblemKind::output_place);
   try {
     check_folder(verb, folder, contents);
-    std::vector<files::OutputFile> outputs;
+    Outputs outputs;
     for (const FolderFile& file : contents)
       outputs.push_back({fs::path(folder) / file.name, files::signed_text(file.text, file.kind)});
     files::write_whole_files(outputs);
@@ -299,14 +290,10 @@ void write_output(const std::string& path, const std::string& text) {
   write_outputs({{path, text}});
 }
 
-void write_outputs(const std::vector<files::OutputFile>& outputs) {
-  files::write_whole_files(looked_at(outputs));
-}
+void write_outputs(const Outputs& outputs) { files::write_whole_files(looked_at(outputs)); }
 
-void take_place(files::PendingFile& pending,
-                const std::string& path,
-                const std::vector<files::OutputFile>& others) {
-  std::vector<files::OutputFile> all = {{path, ""}};
+void take_place(files::PendingFile& pending, const std::string& path, const Outputs& others) {
+  Outputs all = {{path, ""}};
   grid::append_all(all, others);
   all = looked_at(all);
   std::vector<std::unique_ptr<files::PendingFile>> alongside;

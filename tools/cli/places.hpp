@@ -29,13 +29,12 @@
 namespace chaintrue::cli {
 
 using files::Origin;
+/// Texts with their places; those with an empty path are not wanted.
+using Outputs = std::vector<files::OutputFile>;
 
 /// An option or argument that names a file to read.
 Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help);
-Option add_input(Verb verb,
-                 const std::string& names,
-                 std::vector<std::string>& paths,
-                 const std::string& help);
+Option add_input(Verb verb, const std::string& names, Words& paths, const std::string& help);
 /// An option that names a file to write; adds --force to the verb. \param kinds of content:
 /// existing files of these kinds made by this program are replaced without --force
 Option add_output(Verb verb,
@@ -76,11 +75,9 @@ void forget_places();
 
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);
-void write_outputs(const std::vector<files::OutputFile>& outputs);
+void write_outputs(const Outputs& outputs);
 /// For outputs that are written piece by piece, in addition to whole texts. Empty paths are
 /// skipped.
-void take_place(files::PendingFile& pending,
-                const std::string& path,
-                const std::vector<files::OutputFile>& others);
+void take_place(files::PendingFile& pending, const std::string& path, const Outputs& others);
 
 }  // namespace chaintrue::cli

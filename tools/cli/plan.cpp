@@ -2,64 +2,27 @@
 /// \file
 /// chaintrue plan: where to measure, as a list for the workshop, and the expected error of the map;
 /// and after a diagnosis, what to measure next.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include "grid/files/whole_file.hpp"
-#include "grid/map/compensation_map.hpp"
 #include "grid/planning/check_plan.hpp"
-#include "grid/planning/measurement_plan.hpp"
 #include "grid/planning/second_visits.hpp"
 #include "model/chains/chain_changes.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/plan_after.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
-#include "tools/cli/sheet.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-// The part of chaintrue plan that chooses the few points of a check.
-
-struct CheckPlanOptions {
-  /// The map to check later; empty for other plans.
-  std::string map;
-  grid::CheckPlanRequest request;
-  /// For --measure.
-  std::string measure;
-};
-
-void check_options(const grid::CheckPlanRequest& request, const CompensationMap& map) {
-  OptionProblems problems;
-  problems.require("--points", request.points, grid::kFewestCheckPoints, grid::kMostCheckPoints);
-  if (const Machine* machine = map.machine()) {
-    const double half = 0.5 * std::min(machine->bed.width_mm, machine->bed.height_mm);
-    problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
-  }
-  problems.throw_if_any();
-}
-
 std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
-  FollowUpDrawing drawing;
-  for (const grid::MapPoint& point : map.contents().points) drawing.measured.push_back(point.mark);
-  for (std::size_t i = 0; i < plan.marks.size(); ++i)
-    drawing.next.push_back({fmt::format("{}", i + 1), plan.marks[i]});
-  return draw_follow_up(drawing, map.machine()->bed);
+  std::vector<MarkPoint> measured;
+  for (const grid::MapPoint& point : map.contents().points) measured.push_back(point.mark);
+  std::vector<FollowUpPlace> next;
+  for (const MarkPoint& mark : plan.marks)
+    next.push_back({.numbers = fmt::format("{}", next.size() + 1), .mark = mark});
+  return draw_follow_up(measured, next, map.machine()->bed);
 }
 
 /// Whether a worn chain would be distinguished from a shifted zero. Three sigmas are one chance in
@@ -71,43 +34,13 @@ std::string_view detectable_change(const model::PerSide<double>& sigmas) {
   return "may miss it, so that more points or better readings are needed";
 }
 
-/// Writes the list and the drawing; returns the exit code. \throws InputError for values out
-/// of range.
-int plan_the_check(const CompensationMap& map,
-                   const CheckPlanOptions& options,
-                   const PlanOutputs& wanted) {
-  check_options(options.request, map);
-  const auto plan = grid::plan_check(map, options.request);
-  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
-  const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
-  std::vector<files::OutputFile> outputs =
-      sheet_outputs(sheet,
-                    *map.machine(),
-                    {options.request.length_mm, options.request.position_mm, StatedNoise{}.dof},
-                    wanted,
-                    fmt::format("\"expected_sigmas\": [{}, {}]",
-                                plan->expected_sigmas.left,
-                                plan->expected_sigmas.right));
-  if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
-  write_outputs(outputs);
-  say("{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: its effect is "
-      "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).",
-      plan->marks.size(),
-      100.0 * model::kPitchGrowthSigma,
-      detectable_change(plan->expected_sigmas),
-      plan->expected_sigmas.left,
-      plan->expected_sigmas.right);
-  say_next({"check", options.map, wanted.list});
-  return kDone;
-}
-
 struct PlanOptions {
   std::string machine;
   PlanAfterOptions follow_up;
-  grid::PlanRequest request;
   /// 0 holes: points are planned instead.
   HolesPlanRequest holes{.holes = 0, .progress = {}};
-  CheckPlanOptions check;
+  /// The map to check later; empty for other plans.
+  std::string check;
   std::optional<int> points;
   int second_visits = 0;
   std::optional<double> length_noise_mm;
@@ -117,19 +50,8 @@ struct PlanOptions {
   std::string measure;
 };
 
-void check_options(const PlanOptions& options, const Bed& bed) {
-  OptionProblems problems;
-  const grid::PlanRequest& request = options.request;
-  problems.require("--points", request.points, grid::kFewestPlanned, grid::kMostPlanned);
-  const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
-  problems.require("--second-visits", options.second_visits, 0, request.points / 3);
-  problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
-  problems.require("--position-noise-mm", request.noise.position_mm, 0.001, 50.0);
-  problems.throw_if_any();
-}
-
 std::string in_words(const grid::MeasurementPlan& plan,
-                     const PlanOptions& options,
+                     const grid::observation::PointNoise& noise,
                      const ExpectedErrors& errors) {
   std::string text = fmt::format("{} points: {} columns x {} rows, denser towards the edges",
                                  plan.marks.size(),
@@ -142,8 +64,8 @@ std::string in_words(const grid::MeasurementPlan& plan,
       ".\nMeasure row by row from the bottom left, turning back at the end of each.\nExpected "
       "error of the tool with {:g} mm noise in a length and {:g} mm in a position (one sigma): "
       "{:.2f} mm rms over the bed, {:.2f} mm at most, at ({:.0f}, {:.0f}).\n",
-      options.request.noise.length_mm,
-      options.request.noise.position_mm,
+      noise.length_mm,
+      noise.position_mm,
       errors.rms_mm,
       errors.largest_mm,
       errors.worst_at.x_mm,
@@ -178,66 +100,93 @@ int run_follow_up(Verb verb, PlanOptions options) {
 /// Options replace a plan's usual values.
 void take(std::optional<double> said, double& value) { value = said.value_or(value); }
 
-int run_check_plan(Verb verb, PlanOptions options) {
-  grid::CheckPlanRequest& request = options.check.request;
+int run_check_plan(Verb verb, const PlanOptions& options) {
+  grid::CheckPlanRequest request;
   request.points = options.points.value_or(request.points);
   take(options.length_noise_mm, request.length_mm);
   take(options.position_noise_mm, request.position_mm);
-  options.check.measure = options.measure;
-  const CompensationMap map = load_map(open_input(options.check.map));
+  const CompensationMap map = load_map(open_input(options.check));
   const Machine* machine = map.machine();
   request.margin_mm =
       options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
-  verb.refuse_idle_options(
-      with_program(options, facts::check, drills_marks(options, map.machine())));
-  return plan_the_check(map, options.check, options.outputs);
+  verb.refuse_idle_options(with_program(options, facts::check, drills_marks(options, machine)));
+  OptionProblems problems;
+  problems.require("--points", request.points, grid::kFewestCheckPoints, grid::kMostCheckPoints);
+  if (machine != nullptr) require_margin(problems, request.margin_mm, machine->bed);
+  problems.throw_if_any();
+  const grid::CheckPlan plan =
+      value_of(grid::plan_check(map, request), "chaintrue plan", kNotSupportedOrOutside);
+  const auto& [left, right] = plan.expected_sigmas;
+  Outputs outputs = sheet_outputs({plan.marks, sheet_of(options.measure, machine)},
+                                  *machine,
+                                  {request.length_mm, request.position_mm, StatedNoise{}.dof},
+                                  options.outputs,
+                                  fmt::format("\"expected_sigmas\": [{}, {}]", left, right));
+  outputs.push_back({options.outputs.drawing, draw(plan, map)});
+  write_outputs(outputs);
+  say("{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: its effect is "
+      "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).",
+      plan.marks.size(),
+      100.0 * model::kPitchGrowthSigma,
+      detectable_change(plan.expected_sigmas),
+      left,
+      right);
+  say_next({"check", options.check, options.outputs.list});
+  return kDone;
 }
 
-int run_plan(Verb verb, PlanOptions options) {
-  if (!options.follow_up.after.empty()) return run_follow_up(verb, std::move(options));
-  if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
-  const bool of_tape = options.holes.holes != 0;
-  const Machine machine = read_machine_input(options.machine);
-  verb.refuse_idle_options(with_program(
-      options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
-  if (of_tape) {
-    options.holes.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
-    const int code = plan_the_holes(options.holes, machine, options.outputs);
-    if (code == kDone) say_next_of_sheet(options.outputs, options.machine);
-    return code;
-  }
-  options.request.points = options.points.value_or(options.request.points);
-  options.request.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
-  take(options.length_noise_mm, options.request.noise.length_mm);
-  take(options.position_noise_mm, options.request.noise.position_mm);
-  check_options(options, machine.bed);
-  const auto plan = grid::plan_measurement(machine, options.request);
-  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
-  // A small bed has room for fewer marks than were asked for.
+int run_marks_plan(const PlanOptions& options, const Machine& machine) {
+  grid::PlanRequest request;
+  request.points = options.points.value_or(request.points);
+  request.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
+  take(options.length_noise_mm, request.noise.length_mm);
+  take(options.position_noise_mm, request.noise.position_mm);
+  const grid::observation::PointNoise& noise = request.noise;
   OptionProblems problems;
-  problems.require(
-      "--second-visits", options.second_visits, 0, static_cast<int>(plan->marks.size()) / 3);
+  const auto require_second_visits = [&](int marks) {
+    problems.require("--second-visits", options.second_visits, 0, marks / 3);
+  };
+  problems.require("--points", request.points, grid::kFewestPlanned, grid::kMostPlanned);
+  require_second_visits(request.points);
+  require_margin(problems, request.margin_mm, machine.bed);
+  problems.require("--position-noise-mm", noise.position_mm, 0.001, 50.0);
   problems.throw_if_any();
-  const ExpectedErrors errors = expected_errors(plan->map, machine.bed);
-  const Sheet sheet{plan->marks,
-                    sheet_of(options.measure, &machine),
-                    grid::with_second_visits(plan->marks.size(),
-                                             static_cast<std::size_t>(options.second_visits))};
-  const grid::observation::PointNoise& noise = options.request.noise;
-  std::vector<files::OutputFile> outputs =
-      sheet_outputs(sheet,
+  const grid::MeasurementPlan plan =
+      value_of(grid::plan_measurement(machine, request), "chaintrue plan", kNotSupportedOrOutside);
+  // A small bed has room for fewer marks than were asked for.
+  require_second_visits(static_cast<int>(plan.marks.size()));
+  problems.throw_if_any();
+  const ExpectedErrors errors = expected_errors(plan.map, machine.bed);
+  Outputs outputs =
+      sheet_outputs({plan.marks,
+                     sheet_of(options.measure, &machine),
+                     grid::with_second_visits(plan.marks.size(),
+                                              static_cast<std::size_t>(options.second_visits))},
                     machine,
                     {noise.length_mm, noise.position_mm, StatedNoise{}.dof},
                     options.outputs,
                     fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
                                 errors.rms_mm,
                                 errors.largest_mm));
-  if (!options.outputs.drawing.empty())
-    outputs.push_back({options.outputs.drawing, draw_plan(*plan, machine.bed, errors)});
+  outputs.push_back({options.outputs.drawing, draw_plan(plan, machine.bed, errors)});
   write_outputs(outputs);
-  fmt::print(stderr, "{}", in_words(*plan, options, errors));
+  fmt::print(stderr, "{}", in_words(plan, noise, errors));
   say_next_of_sheet(options.outputs, options.machine);
   return kDone;
+}
+
+int run_plan(Verb verb, PlanOptions options) {
+  if (!options.follow_up.after.empty()) return run_follow_up(verb, std::move(options));
+  if (!options.check.empty()) return run_check_plan(verb, options);
+  const bool of_tape = options.holes.holes != 0;
+  const Machine machine = read_machine_input(options.machine);
+  verb.refuse_idle_options(with_program(
+      options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
+  if (!of_tape) return run_marks_plan(options, machine);
+  options.holes.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
+  const int code = plan_the_holes(options.holes, machine, options.outputs);
+  if (code == kDone) say_next_of_sheet(options.outputs, options.machine);
+  return code;
 }
 
 }  // namespace
@@ -298,7 +247,7 @@ void add_plan(Verb app) {
                "to be left out, because it applies to new marks in columns and rows only");
   add_input(verb,
             "--check",
-            options->check.map,
+            options->check,
             "Plan the few points that best show later whether this chaintrue_map still holds")
       .excludes(after);
   add_number(
@@ -373,7 +322,7 @@ void add_plan(Verb app) {
       "five.csv --svg five.svg");
   verb.runs(options, run_plan, [](const auto& own) {
     if (own.follow_up.after.empty() && !own.follow_up.file.empty()) missing_option("--after");
-    if (own.follow_up.after.empty() && own.check.map.empty() && own.machine.empty())
+    if (own.follow_up.after.empty() && own.check.empty() && own.machine.empty())
       missing_option("--machine");
   });
 }

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/plan_after.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "grid/containers.hpp"
-#include "grid/files/belts_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
-#include "grid/files/whole_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/made_by.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -101,13 +93,12 @@ std::string distances_of(const Diagnosis& found) {
 std::string drawing_of(const Diagnosis& found) {
   const BeltMachine& machine = found.belts->machine;
   const model::FramePoint centre = model::centre_of(machine);
-  FollowUpDrawing drawing;
+  std::vector<MarkPoint> measured;
   for (const BeltPlacePicture& place : found.belts->places)
-    drawing.measured.push_back({place.at.x_mm - centre.x_mm, place.at.y_mm - centre.y_mm});
-  for (const FollowUpPlace& place : follow_up_places(found))
-    drawing.next.push_back({place.numbers, place.mark});
+    measured.push_back({place.at.x_mm - centre.x_mm, place.at.y_mm - centre.y_mm});
   const auto& a = machine.anchors;
-  return draw_follow_up(drawing,
+  return draw_follow_up(measured,
+                        follow_up_places(found),
                         {std::max(a.tr.x_mm, a.br.x_mm) - std::min(a.tl.x_mm, a.bl.x_mm),
                          std::max(a.tl.y_mm, a.tr.y_mm)});
 }
@@ -124,10 +115,8 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
     return kBadInput;
   }
   report_difference(after);
-  std::vector<files::OutputFile> outputs;
-  if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found)});
-  outputs.push_back({options.output, points_of(found, read.belts) + distances_of(found)});
-  write_outputs(outputs);
+  write_outputs({{options.drawing, drawing_of(found)},
+                 {options.output, points_of(found, read.belts) + distances_of(found)}});
   fmt::print(stderr, "{}", follow_up_list(found));
   if (found.belts->second_pass) say("{}", in_words(*found.belts->second_pass));
   say_next({"diagnose", options.file, "-o", options.after});
@@ -155,9 +144,7 @@ void read(const InputFile& file,
           const std::optional<Machine>& machine,
           bool few,
           Sources& sources) {
-  require_kind(file,
-               {FileKind::grid, FileKind::holes},
-               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
+  require_kind(file, {FileKind::grid, FileKind::holes});
   const bool of_holes = file.kind == FileKind::holes;
   sources.all.push_back({file.name,
                          files::is_json(file.text),
@@ -180,13 +167,18 @@ Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
   return sources;
 }
 
-/// Whether the diagnosis used the points of these grids. A CSV may round them.
-bool is_of(const Diagnosis& found, const std::vector<MeasuredGrid>& grids) {
-  constexpr double kSamePlaceMm = 1e-3;
+std::vector<MarkPoint> marks_of(const std::vector<MeasuredGrid>& grids) {
   std::vector<MarkPoint> marks;
   for (const MeasuredGrid& measured : grids) {
     for (const grid::MeasuredPoint& point : measured.points) marks.push_back(point.mark);
   }
+  return marks;
+}
+
+/// Whether the diagnosis used the points of these grids. A CSV may round them.
+bool is_of(const Diagnosis& found, const std::vector<MeasuredGrid>& grids) {
+  constexpr double kSamePlaceMm = 1e-3;
+  const std::vector<MarkPoint> marks = marks_of(grids);
   return std::equal(found.points.begin(),
                     found.points.end(),
                     marks.begin(),
@@ -227,11 +219,9 @@ std::string lines_for(const Source& source,
                       bool takes_readings) {
   std::string text;
   if (source.of_holes) {
-    text = source.json ? distances_json(found, sources.sets, source.position)
-                       : distances_csv(found, sources.sets, source.position);
+    text = distance_lines(found, sources.sets, source.position, source.json);
   } else if (source.position == 0) {  // new points are on the first sheet
-    const MeasuredGrid& measured = sources.grids.front();
-    text = source.json ? points_json(found, measured) : points_csv(found, measured);
+    text = point_lines(found, sources.grids.front(), source.json);
   }
   return takes_readings ? text + readings_json(found) : text;
 }
@@ -249,17 +239,12 @@ std::string lines_of(const Diagnosis& found, const Sources& sources) {
 }
 
 std::string drawing_of(const Diagnosis& found, const Sources& sources) {
-  FollowUpDrawing drawing;
-  for (const MeasuredGrid& measured : sources.grids) {
-    for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
-  }
+  std::vector<MarkPoint> measured = marks_of(sources.grids);
   for (const MeasuredHoles& set : sources.sets) {
     for (const grid::Hole& hole : set.holes)
-      drawing.measured.push_back(model::identity_placement(hole.commanded));
+      measured.push_back(model::identity_placement(hole.commanded));
   }
-  for (const FollowUpPlace& place : follow_up_places(found))
-    drawing.next.push_back({place.numbers, place.mark});
-  return draw_follow_up(drawing, found.extended_machine.bed);
+  return draw_follow_up(measured, follow_up_places(found), found.extended_machine.bed);
 }
 
 }  // namespace
@@ -281,12 +266,8 @@ std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
 }
 
 Facts facts_after(const InputFile& file) {
-  require_kind(file,
-               {FileKind::grid, FileKind::holes, FileKind::belts},
-               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
-  return facts::follow_up | (file.kind == FileKind::grid    ? facts::grid
-                             : file.kind == FileKind::holes ? facts::holes
-                                                            : facts::belts);
+  require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belts});
+  return facts::follow_up | file.fact();
 }
 
 int plan_after(const PlanAfterOptions& options, const InputFile& file) {
@@ -300,10 +281,8 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
     return kBadInput;
   }
   report_difference(after);
-  std::vector<files::OutputFile> outputs;
-  if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found, sources)});
-  outputs.push_back({options.output, lines_of(found, sources)});
-  write_outputs(outputs);
+  write_outputs(
+      {{options.drawing, drawing_of(found, sources)}, {options.output, lines_of(found, sources)}});
   fmt::print(stderr, "{}", follow_up_list(found));
   const bool none_holds_readings =
       grid::none_of(sources.all, [](const Source& source) { return source.json; });
@@ -312,7 +291,7 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
         sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
   // The next step once these are measured and written into their files.
-  std::vector<std::string> words = {"diagnose", sources.all.front().name};
+  Words words = {"diagnose", sources.all.front().name};
   for (std::size_t k = 1; k < sources.all.size(); ++k) {
     add_option_words(words, "--with", sources.all[k].name);
   }

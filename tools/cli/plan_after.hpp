@@ -18,7 +18,7 @@ namespace chaintrue::cli {
 struct PlanAfterOptions {
   std::string file;  ///< a grid, holes or belts
   std::string after;
-  std::vector<std::string> with;  ///< the other files of the same diagnosis
+  Words with;  ///< the other files of the same diagnosis
   std::string machine;
   std::string output = "-";
   std::string drawing;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/plan_drawing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -157,25 +155,27 @@ ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed) {
   return errors;
 }
 
-std::string draw_follow_up(const FollowUpDrawing& drawing, const Bed& bed) {
+std::string draw_follow_up(const std::vector<MarkPoint>& measured,
+                           const std::vector<FollowUpPlace>& next,
+                           const Bed& bed) {
   const BedView view = view_of(bed);
-  const std::string words = fmt::format(
-      "{} places to measure next, among {} measured", drawing.next.size(), drawing.measured.size());
+  const std::string words =
+      fmt::format("{} places to measure next, among {} measured", next.size(), measured.size());
   Svg svg = begin(view, words, "The numbers are those of the list.");
   svg.text(kLeft, 32.0, words);
   svg.rectangle(kLeft, kTop, kBedWide, view.high(), "fill=\"#faf6ee\" stroke=\"#222222\"");
-  for (const MarkPoint& mark : drawing.measured)
+  for (const MarkPoint& mark : measured)
     svg.circle(view.x(mark.x_mm), view.y(mark.y_mm), 3.0, filled(report::kNeutralColor));
-  for (const auto& [numbers, mark] : drawing.next) {
+  for (const FollowUpPlace& place : next) {
     constexpr double kArm = 7.0;
-    const double x = view.x(mark.x_mm), y = view.y(mark.y_mm);
+    const double x = view.x(place.mark.x_mm), y = view.y(place.mark.y_mm);
     svg.path(fmt::format("M{0:.2f},{1:.2f}L{2:.2f},{3:.2f}M{0:.2f},{3:.2f}L{2:.2f},{1:.2f}",
                          x - kArm,
                          y - kArm,
                          x + kArm,
                          y + kArm),
              fmt::format("stroke=\"{}\" stroke-width=\"2.5\"", report::kAfterColor));
-    label(svg, view, mark, 10.0, {18.0, -9.0}, numbers);
+    label(svg, view, place.mark, 10.0, {18.0, -9.0}, place.numbers);
   }
   return svg.finished();
 }

@@ -9,7 +9,7 @@
 
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "tools/cli/names.hpp"
+#include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
 
@@ -30,16 +30,10 @@ struct ExpectedErrors {
                                     const Bed& bed,
                                     const ExpectedErrors& errors);
 
-/// The places of a follow-up: numbered crosses among the existing marks.
-struct FollowUpDrawing {
-  std::vector<MarkPoint> measured;
-  struct Cross {
-    std::string numbers;
-    MarkPoint mark;
-  };
-  std::vector<Cross> next;
-};
-[[nodiscard]] std::string draw_follow_up(const FollowUpDrawing& drawing, const Bed& bed);
+/// The next places as numbered crosses among the measured ones.
+[[nodiscard]] std::string draw_follow_up(const std::vector<MarkPoint>& measured,
+                                         const std::vector<FollowUpPlace>& next,
+                                         const Bed& bed);
 
 // A plan of holes as a drawing: the sheet, the holes by name, a line for each distance to measure.
 // Same plan, same bytes.

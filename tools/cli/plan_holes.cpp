@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/plan_holes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <vector>
 
 #include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/whole_file.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/holes_words.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
@@ -24,9 +17,7 @@ namespace {
 void check(const HolesPlanRequest& request, const Bed& bed) {
   OptionProblems problems;
   require_sound(problems, request);
-  const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
-  problems.require(
-      "--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
+  require_margin(problems, request.margin_mm, bed, grid::kLeastPlannedSideMm);
   problems.throw_if_any();
 }
 
@@ -92,28 +83,21 @@ void add_plan_holes_options(Verb verb, HolesPlanRequest& request, Option points)
 int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted) {
   check(request, machine.bed);
   request.progress = shown_progress();
-  const auto plan = grid::plan_holes(machine, request);
-  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
-  std::vector<files::OutputFile> outputs;
-  if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw_holes_plan(*plan)});
-  if (!wanted.page.empty()) outputs.push_back({wanted.page, holes_page(*plan, wanted.list)});
-  if (!wanted.gcode.empty()) {
-    std::vector<DrillPlace> places;
-    for (const grid::Hole& hole : plan->set.holes)
-      places.push_back({"hole " + hole.name, hole.commanded});
-    outputs.push_back(
-        {wanted.gcode, drill_gcode(fmt::format("{} holes", places.size()), places, wanted.drill)});
-  }
-  outputs.push_back({wanted.list,
-                     is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan->set)
-                                                              : workshop_list(*plan)});
+  const grid::HolesPlan plan =
+      value_of(grid::plan_holes(machine, request), "chaintrue plan", kNotSupportedOrOutside);
+  Outputs outputs = {{wanted.drawing, draw_holes_plan(plan)},
+                     {wanted.page, holes_page(plan, wanted.list)},
+                     {wanted.gcode, holes_gcode(plan, wanted.drill)},
+                     {wanted.list,
+                      is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan.set)
+                                                               : workshop_list(plan)}};
   std::vector<MarkPoint> holes;
-  for (const grid::Hole& hole : plan->set.holes)
+  for (const grid::Hole& hole : plan.set.holes)
     holes.push_back(model::identity_placement(hole.commanded));
   add_answer(
-      holes, {}, fmt::format("\"expected_rms_mm\": {}", plan->expected_rms_mm), wanted, outputs);
+      holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted, outputs);
   write_outputs(outputs);
-  fmt::print(stderr, "{}", plan_in_words(*plan, request));
+  fmt::print(stderr, "{}", plan_in_words(plan, request));
   return kDone;
 }
 

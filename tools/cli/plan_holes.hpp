@@ -3,9 +3,6 @@
 /// The part of chaintrue plan that chooses holes and tape distances.
 #pragma once
 
-#include "grid/planning/holes_plan.hpp"
-#include "tools/cli/arguments.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/sheet.hpp"
 
 namespace chaintrue::cli {

@@ -6,14 +6,11 @@
 #else
 #include <unistd.h>
 
-#include "tools/cli/repeated_line.hpp"
 #endif
 
-#include <chrono>
-#include <cstdio>
 #include <memory>
 
-#include "tools/cli/progress_state.hpp"
+#include "tools/cli/progress_line.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -60,7 +57,8 @@ std::unique_ptr<Line> shown_line() {
   if (::isatty(::fileno(stderr)) == 0) return nullptr;
   constexpr std::chrono::seconds kQuiet(1);
   constexpr std::chrono::milliseconds kStep(250);
-  return std::make_unique<Line>(stderr, [] { return state().words(); }, kQuiet, kStep);
+  return std::make_unique<Line>(
+      stderr, [] { return state().words(); }, kQuiet, kStep);
 }
 
 #endif

@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue report: a map, a diagnosis or anchors as one HTML page that needs no network.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "grid/files/sources.hpp"
-#include "grid/files/whole_file.hpp"
-#include "grid/map/compensation_map.hpp"
 #include "tools/cli/anchors_document.hpp"
-#include "tools/cli/diagnosis_document.hpp"
-#include "tools/cli/input_file.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -75,37 +59,31 @@ Section measured_section(const CompensationMap& map) {
                         ? std::string("as given")
                         : fmt::format("from {}", name(contents.noise.source))));
   }
-  Section section{"What was measured", {}};
-  section.blocks.push_back(std::move(table));
-  return section;
+  return {"What was measured", {std::move(table)}};
 }
 
 Section named_section(const CompensationMap& map) {
   std::vector<SettingRow> rows = settings_rows(map);
   std::erase_if(rows, [](const SettingRow& row) { return !row.stated_sigma; });
-  Section section{"The machine's settings", {}};
-  if (rows.empty()) {
-    section.blocks.push_back(
-        Paragraph{"None: the map interpolates the readings, without a machine."});
-  } else {
-    section.blocks.push_back(settings_table(rows));
-  }
-  return section;
+  report::Block block = settings_table(rows);
+  if (rows.empty())
+    block = Paragraph{"None: the map interpolates the readings, without a machine."};
+  return {"The machine's settings", {std::move(block)}};
 }
 
 Section remaining_section(const MapContents& contents) {
   constexpr std::size_t kMostNotes = 3;
-  Section section{"What remains", {}};
+  Section section{"What remains"};
   for (std::size_t i = 0; i < contents.notes.size() && i < kMostNotes; ++i) {
-    section.blocks.push_back(Paragraph{contents.notes[i]});
+    section.say(contents.notes[i]);
   }
   if (contents.notes.size() > kMostNotes) {
-    section.blocks.push_back(Paragraph{fmt::format("{} more remarks are in the full report.",
-                                                   contents.notes.size() - kMostNotes)});
+    section.say(
+        fmt::format("{} more remarks are in the full report.", contents.notes.size() - kMostNotes));
   }
-  section.blocks.push_back(
-      Paragraph{"After taking the chains off, or after a month of work, measure three to five "
-                "points and run chaintrue check."});
+  section.say(
+      "After taking the chains off, or after a month of work, measure three to five "
+      "points and run chaintrue check.");
   return section;
 }
 
@@ -134,12 +112,10 @@ Document certificate(const CompensationMap& map, std::string_view source) {
       "moved."};
   Chart chart = report::error_map_chart(map_pictures(map));
   chart.caption.clear();  // it is in the legend
-  Section error_section{"Where to expect which error", {}};
-  error_section.blocks.push_back(std::move(chart));
-  page.sections.push_back(std::move(error_section));
-  page.sections.push_back(measured_section(map));
-  page.sections.push_back(named_section(map));
-  page.sections.push_back(remaining_section(contents));
+  page.sections = {{"Where to expect which error", {std::move(chart)}},
+                   measured_section(map),
+                   named_section(map),
+                   remaining_section(contents)};
   page.provenance = provenance_of(source);
   return page;
 }
@@ -154,37 +130,30 @@ struct ReportCommand {
 /// A page of the file, and the next command.
 struct Reported {
   Document page;
-  std::vector<std::string> next;
+  Words next;
 };
 
-Reported of_map(const InputFile& file, bool as_certificate, std::string_view source) {
+Reported reported_map(const InputFile& file, bool as_certificate, std::string_view source) {
   const CompensationMap map = load_map(file);
-  return Reported{as_certificate ? certificate(map, source) : map_document(map, source),
-                  map.machine() == nullptr
-                      ? std::vector<std::string>{"query", file.path, "--help"}
-                      : std::vector<std::string>{"plan", "--check", file.path, "-o", "check.csv"}};
+  return {as_certificate ? certificate(map, source) : map_document(map, source),
+          map.machine() == nullptr ? Words{"query", file.path, "--help"}
+                                   : Words{"plan", "--check", file.path, "-o", "check.csv"}};
 }
 
-Reported of_diagnosis(const InputFile& file, std::string_view source) {
+Reported reported_diagnosis(const InputFile& file, std::string_view source) {
   const Diagnosis found = load_diagnosis(file);
-  if (found.drawing) return {diagnosis_document(found, source), {"fit", "--help"}};
-  return {
-      diagnosis_document(found, source),
-      found.causes.empty()
-          ? std::vector<std::string>{"export", found.belts ? "maslow4" : "groundcontrol", file.path}
-          : std::vector<std::string>{"effects",
-                                     std::string(found.causes.front().cause.effect->id)}};
+  Words next = {"fit", "--help"};
+  if (!found.drawing && found.causes.empty())
+    next = {"export", found.belts ? "maslow4" : "groundcontrol", file.path};
+  else if (!found.drawing)
+    next = {"effects", std::string(found.causes.front().cause.effect->id)};
+  return {diagnosis_document(found, source), std::move(next)};
 }
 
-Reported of_anchors(const InputFile& file, std::string_view source) {
+Reported reported_anchors(const InputFile& file, std::string_view source) {
   const files::FittedAnchors found = load_anchors(file);
-  return {anchors_document({found.fit, found.holes ? &*found.holes : nullptr}, found.name, source),
+  return {anchors_document({found.fit, holes_of(found)}, found.name, source),
           {"export", "maslow4", file.path}};
-}
-
-Facts fact_of(FileKind kind) {
-  if (kind == FileKind::map) return facts::map;
-  return kind == FileKind::anchors ? facts::anchors : facts::diagnosis;
 }
 
 /// The name of a page's source: the file, or standard input.
@@ -197,11 +166,11 @@ std::string source_of(const InputFile& file) {
 int run_report(Verb verb, const ReportCommand& command) {
   const InputFile file = open_input(command.input);
   require_kind(file, {FileKind::map, FileKind::diagnosis, FileKind::anchors});
-  verb.refuse_idle_options(fact_of(file.kind));
+  verb.refuse_idle_options(file.fact());
   const std::string source = source_of(file);
-  Reported made = file.kind == FileKind::map         ? of_map(file, command.certificate, source)
-                  : file.kind == FileKind::diagnosis ? of_diagnosis(file, source)
-                                                     : of_anchors(file, source);
+  Reported made = file.kind == FileKind::map ? reported_map(file, command.certificate, source)
+                  : file.kind == FileKind::diagnosis ? reported_diagnosis(file, source)
+                                                     : reported_anchors(file, source);
   if (!command.certificate)
     add_made_by(files::made_by_of(file.text, file.name), made.page.sections);
   // No date is printed, so the same map gives the same page. A certificate has a line to write the

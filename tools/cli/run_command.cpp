@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/run_command.hpp"
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <sstream>
 
 #include "grid/containers.hpp"
@@ -12,12 +10,8 @@
 #include "grid/files/sources.hpp"
 #include "grid/printing.hpp"
 #include "grid/threads/use_threads.hpp"
-#include "tools/cli/arguments.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -25,32 +19,8 @@ namespace {
 
 // Prepares command lines for the parser, and suggests what was meant if it rejects one.
 
-std::vector<std::string> verbs_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    // Groups of options are subcommands without a name.
-    if (!verb->get_name().empty()) names.push_back(verb->get_name());
-  }
-  return names;
-}
-
-void add_options(const CLI::App& app, std::vector<std::string>& names) {
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (group->get_name().empty()) add_options(*group, names);
-  }
-}
-
-const CLI::App* verb_named(const CLI::App& app, const std::string& name) {
-  const std::vector<std::string> names = verbs_of(app);
-  if (!grid::contains(names, name)) return nullptr;
-  return app.get_subcommand(name);
-}
-
 /// The words for the parser; `help fit` becomes `fit --help`.
-std::vector<std::string> words_of(std::vector<std::string> words) {
+Words words_of(Words words) {
   if (words.empty() || words.front() != "help") return words;
   words.erase(words.begin());
   words.push_back("--help");
@@ -59,25 +29,24 @@ std::vector<std::string> words_of(std::vector<std::string> words) {
 
 /// The message about an unknown verb or option, with the probable one or where to look; empty if
 /// all are known.
-std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& words) {
-  const CLI::App* verb = &app;
+std::string did_you_mean(CLI::App& app, const Words& words) {
+  CLI::App* verb = &app;
   std::size_t at = 0;
   for (; at < words.size() && words[at].rfind('-', 0) != 0; ++at) {
-    const CLI::App* next = verb_named(*verb, words[at]);
-    if (next == nullptr) break;
-    verb = next;
+    if (!grid::contains(names_of(parts_of(*verb).verbs), words[at])) break;
+    verb = verb->get_subcommand(words[at]);
   }
+  const std::vector<std::string> verbs = names_of(parts_of(*verb).verbs);
   const std::string verb_name = verb == &app ? "chaintrue" : "chaintrue " + verb->get_name();
-  if (!verbs_of(*verb).empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
-    const std::string near = files::nearest(words[at], verbs_of(*verb));
+  if (!verbs.empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
+    const std::string near = files::nearest(words[at], verbs);
     const std::string list = fmt::format("{} --help lists them all.\n", verb_name);
     if (near.empty()) return fmt::format("There is no {} {}. {}", verb_name, words[at], list);
     return fmt::format(
         "There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name, near);
   }
-  std::vector<std::string> known;
-  add_options(*verb, known);
-  add_options(app, known);
+  std::vector<std::string> known = long_names(parts_of(*verb).options);
+  grid::append_all(known, long_names(parts_of(app).options));
   for (; at < words.size(); ++at) {
     const std::string option = words[at].substr(0, words[at].find('='));
     if (option.rfind("--", 0) != 0 || option == "--") continue;
@@ -94,9 +63,7 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
 
 /// --quiet and --threads may also follow the verb.
 void let_verbs_pass_on(CLI::App& app) {
-  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    // A group of options has no name and belongs to its verb.
-    if (verb->get_name().empty()) continue;
+  for (CLI::App* verb : parts_of(app).verbs) {
     verb->fallthrough();
     let_verbs_pass_on(*verb);
   }
@@ -104,7 +71,7 @@ void let_verbs_pass_on(CLI::App& app) {
 
 }  // namespace
 
-int run_command(const std::vector<std::string>& typed, const Guard& guard) {
+int run_command(const Words& typed, const Guard& guard) {
   begin_command_line();
   files::forget_sources();
   CLI::App app{"chaintrue makes a hanging two-chain router cut accurately.", "chaintrue"};
@@ -124,10 +91,10 @@ int run_command(const std::vector<std::string>& typed, const Guard& guard) {
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
   let_verbs_pass_on(app);
-  const std::vector<std::string> words = words_of(typed);
+  const Words words = words_of(typed);
   try {
     // The parser reads its words from the end.
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    app.parse(Words(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
     // An unknown word is reported alone: the parser's other complaints follow from it.
     const bool is_help_of_a_verb = typed.size() > 1 && typed.front() == "help";

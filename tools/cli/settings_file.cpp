@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/settings_file.hpp"
-#include "tools/cli/talk.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <utility>
 
 #include "grid/containers.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/groundcontrol_file.hpp"
-#include "grid/files/input_error.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
@@ -21,6 +14,7 @@
 #include "grid/map/check_settings.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/gcode/firmware.hpp"
 
 namespace chaintrue::cli {
@@ -195,37 +189,30 @@ std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
   auto changed = grid::changed_settings(map, measured, *others, found);
   if (!changed) return std::nullopt;
   const std::string differ = files::in_words(differ_from_map(changed->in_force));
-  const auto sentence = [&](std::string_view what, std::string_view with, std::string_view to_do) {
-    return fmt::format(
-        "{}: the new points fit {} ({}) to {:.2f} mm rms in a chain, the map's settings to {:.2f} "
-        "mm. {} {}",
-        what,
-        with,
-        differ,
-        changed->with_these_mm,
-        changed->as_it_is_mm,
-        to_do,
-        changed->check.sentence);
-  };
-  std::string& said = changed->check.sentence;
-  if (!before && changed->all) {
-    said = sentence("The settings have changed since this map was measured",
-                    "the numbers from export groundcontrol",
-                    "Use the map from export groundcontrol --map-after.");
-  } else if (!before) {
-    said =
-        sentence("Only some of the numbers from export groundcontrol have been typed in",
-                 "these",
-                 "Type in the others too, and use the map from export groundcontrol --map-after.");
-  } else if (changed->all) {
-    said = sentence("The numbers that this map is for are not in the controller",
-                    "the previous ones",
-                    "Type them in, or use the map that they were exported from.");
-  } else {
-    said = sentence("Only some of the numbers that this map is for are in the controller",
-                    "the others unchanged",
-                    "Type in the others too.");
-  }
+  constexpr std::string_view kSentences[][3] = {
+      {"Only some of the numbers from export groundcontrol have been typed in",
+       "these",
+       "Type in the others too, and use the map from export groundcontrol --map-after."},
+      {"The settings have changed since this map was measured",
+       "the numbers from export groundcontrol",
+       "Use the map from export groundcontrol --map-after."},
+      {"Only some of the numbers that this map is for are in the controller",
+       "the others unchanged",
+       "Type in the others too."},
+      {"The numbers that this map is for are not in the controller",
+       "the previous ones",
+       "Type them in, or use the map that they were exported from."}};
+  const auto& [what, with, to_do] = kSentences[(before ? 2 : 0) + (changed->all ? 1 : 0)];
+  changed->check.sentence = fmt::format(
+      "{}: the new points fit {} ({}) to {:.2f} mm rms in a chain, the map's settings to {:.2f} "
+      "mm. {} {}",
+      what,
+      with,
+      differ,
+      changed->with_these_mm,
+      changed->as_it_is_mm,
+      to_do,
+      changed->check.sentence);
   return std::move(changed->check);
 }
 

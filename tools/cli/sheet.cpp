@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/sheet.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "grid/files/grid_file.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -16,10 +13,45 @@ namespace {
 /// Marks are whole millimetres; adding 0.0 removes the sign of a zero.
 std::string whole(double mm) { return fmt::format("{:.0f}", mm + 0.0); }
 
+/// A place of a program, and its name in comments: "hole A".
+struct DrillPlace {
+  std::string name;
+  BedPoint at;
+};
+
+/// A rapid above each place, down and up again.
+std::string drill_gcode(std::string_view what,
+                        const std::vector<DrillPlace>& places,
+                        const DrillOptions& options) {
+  std::string text = fmt::format(
+      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that all holes "
+      "are on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
+      what,
+      options.depth_mm,
+      options.clearance_mm);
+  for (const DrillPlace& place : places) {
+    text += fmt::format("({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n",
+                        place.name,
+                        whole(place.at.x_mm),
+                        whole(place.at.y_mm),
+                        -options.depth_mm,
+                        options.clearance_mm);
+  }
+  return text + "G0 X0 Y0\nM2\n";
+}
+
 }  // namespace
 
 double reachable_mm(const Bed& bed) {
   return std::min(kReachableMm, 0.2 * std::min(bed.width_mm, bed.height_mm));
+}
+
+void require_margin(OptionProblems& problems,
+                    double margin_mm,
+                    const Bed& bed,
+                    double least_side_mm) {
+  const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
+  problems.require("--margin-mm", margin_mm, 0.0, std::max(0.0, half - 0.5 * least_side_mm));
 }
 
 std::string SheetVisit::name() const {
@@ -112,26 +144,6 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
       .acts_on(facts::program, "to be left out without --gcode");
 }
 
-std::string drill_gcode(std::string_view what,
-                        const std::vector<DrillPlace>& places,
-                        const DrillOptions& options) {
-  std::string text = fmt::format(
-      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that all holes "
-      "are on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
-      what,
-      options.depth_mm,
-      options.clearance_mm);
-  for (const DrillPlace& place : places) {
-    text += fmt::format("({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n",
-                        place.name,
-                        whole(place.at.x_mm),
-                        whole(place.at.y_mm),
-                        -options.depth_mm,
-                        options.clearance_mm);
-  }
-  return text + "G0 X0 Y0\nM2\n";
-}
-
 std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   if (sheet.of == SheetOf::places) {
     std::vector<DrillPlace> places;
@@ -158,22 +170,27 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   return text + "G0 X0 Y0\nM2\n";
 }
 
+std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options) {
+  std::vector<DrillPlace> places;
+  for (const grid::Hole& hole : plan.set.holes)
+    places.push_back({"hole " + hole.name, hole.commanded});
+  return drill_gcode(fmt::format("{} holes", places.size()), places, options);
+}
+
 bool is_json_wanted(bool json, const std::string& output) {
   return output == "-" ? json : output.ends_with(".json");
 }
 
-std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
-                                             const Machine& machine,
-                                             const StatedNoise& noise,
-                                             const PlanOutputs& outputs,
-                                             const std::string& expected) {
-  std::vector<files::OutputFile> written = {{outputs.list,
-                                             is_json_wanted(outputs.json, outputs.list)
-                                                 ? sheet_json(sheet, machine, noise)
-                                                 : sheet_csv(sheet)}};
-  if (!outputs.page.empty())
-    written.push_back({outputs.page, sheet_page(sheet, machine, outputs.list)});
-  if (!outputs.gcode.empty()) written.push_back({outputs.gcode, sheet_gcode(sheet, outputs.drill)});
+Outputs sheet_outputs(const Sheet& sheet,
+                      const Machine& machine,
+                      const StatedNoise& noise,
+                      const PlanOutputs& outputs,
+                      const std::string& expected) {
+  Outputs written = {{outputs.list,
+                      is_json_wanted(outputs.json, outputs.list) ? sheet_json(sheet, machine, noise)
+                                                                 : sheet_csv(sheet)},
+                     {outputs.page, sheet_page(sheet, machine, outputs.list)},
+                     {outputs.gcode, sheet_gcode(sheet, outputs.drill)}};
   add_answer(sheet.marks, sheet.visits, expected, outputs, written);
   return written;
 }
@@ -182,7 +199,7 @@ void add_answer(const std::vector<MarkPoint>& places,
                 const std::vector<std::size_t>& visits,
                 const std::string& expected,
                 const PlanOutputs& outputs,
-                std::vector<files::OutputFile>& written) {
+                Outputs& written) {
   if (!outputs.json || outputs.list == "-") return;
   std::vector<std::string> pairs;
   for (const MarkPoint& place : places)
@@ -197,7 +214,7 @@ void add_answer(const std::vector<MarkPoint>& places,
 }
 
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine) {
-  std::vector<std::string> words = {"fit", outputs.list, "-o", "map.json"};
+  Words words = {"fit", outputs.list, "-o", "map.json"};
   if (!is_json_wanted(outputs.json, outputs.list))
     words.insert(words.begin() + 2, {"--machine", machine});
   if (outputs.list != "-") say("Write what you read into {}.", outputs.list);

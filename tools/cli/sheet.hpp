@@ -6,14 +6,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "grid/files/whole_file.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/planning/holes_plan.hpp"
-#include "tools/cli/arguments.hpp"
-#include "tools/cli/names.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
 
@@ -28,6 +26,12 @@ enum class SheetOf {
 inline constexpr double kReachableMm = 100.0;
 /// On a bed of less than half a metre a fifth of its shorter side.
 [[nodiscard]] double reachable_mm(const Bed& bed);
+
+/// --margin-mm leaves a bed at least this wide and high for marks.
+void require_margin(OptionProblems& problems,
+                    double margin_mm,
+                    const Bed& bed,
+                    double least_side_mm = 100.0);
 
 /// The words of --measure, and the default for a machine: without a controller of known kinematics
 /// only lengths can be read.
@@ -69,17 +73,11 @@ struct DrillOptions {
 };
 void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options);
 
-/// A place of a program, and its name in comments: "hole A".
-struct DrillPlace {
-  std::string name;
-  BedPoint at;
-};
-/// Metric, absolute, a rapid above each place, down and up again.
-[[nodiscard]] std::string drill_gcode(std::string_view what,
-                                      const std::vector<DrillPlace>& places,
-                                      const DrillOptions& options);
-/// Drills every mark; if lengths are read, stops above it until the owner continues.
+/// Drills every mark; if lengths are read, stops above it until the owner continues. Metric and
+/// absolute.
 [[nodiscard]] std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
+/// Drills every hole.
+[[nodiscard]] std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options);
 
 /// A list in a file is JSON if the file's name ends in .json; on standard output, if --json is
 /// given.
@@ -108,11 +106,11 @@ struct PlanOutputs {
 
 /// The list and, if requested, the page, the program and the answer. \param expected as for
 /// add_answer
-[[nodiscard]] std::vector<files::OutputFile> sheet_outputs(const Sheet& sheet,
-                                                           const Machine& machine,
-                                                           const StatedNoise& noise,
-                                                           const PlanOutputs& outputs,
-                                                           const std::string& expected);
+[[nodiscard]] Outputs sheet_outputs(const Sheet& sheet,
+                                    const Machine& machine,
+                                    const StatedNoise& noise,
+                                    const PlanOutputs& outputs,
+                                    const std::string& expected);
 
 /// With --json, where the list goes into a file: the places in mm, numbers of places in the order of
 /// the visits (empty: each once), and members of an object on what is expected.
@@ -120,7 +118,7 @@ void add_answer(const std::vector<MarkPoint>& places,
                 const std::vector<std::size_t>& visits,
                 const std::string& expected,
                 const PlanOutputs& outputs,
-                std::vector<files::OutputFile>& written);
+                Outputs& written);
 
 /// The next step: fill in the list and fit it.
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);

@@ -2,27 +2,16 @@
 /// \file
 /// chaintrue simulate: a simulated grid measured on a machine with hidden effects, or the bare
 /// readings at given places.
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/simulate_options.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

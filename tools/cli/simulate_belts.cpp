@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/simulate_options.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <charconv>
-#include <cstdio>
-#include <utility>
-#include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/files/belts_file.hpp"
 #include "grid/files/maslow4_log.hpp"
-#include "grid/files/number_text.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

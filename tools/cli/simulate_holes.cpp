@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/simulate_holes.hpp"
-
-#include <fmt/format.h>
+#include "tools/cli/simulate_options.hpp"
 
 #include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "grid/files/answer_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "model/calibration/setting.hpp"
-#include "tools/cli/places.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/plan_holes.hpp"
-#include "tools/cli/simulate_options.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -22,13 +15,8 @@ namespace {
 
 void check_values(const SimulateOptions& options, const Machine& stated, OptionProblems& problems) {
   require_sound(problems, options.holes.plan);
-  if (options.margin_mm) {
-    const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
-    problems.require("--margin-mm",
-                     *options.margin_mm,
-                     0.0,
-                     std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
-  }
+  if (options.margin_mm)
+    require_margin(problems, *options.margin_mm, stated.bed, grid::kLeastPlannedSideMm);
 }
 
 std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
@@ -78,12 +66,8 @@ int simulate_the_holes(const SimulateOptions& options, const Machine& stated) {
   problems.throw_if_any();
   HolesPlanRequest request = options.holes.plan;
   request.margin_mm = options.margin_mm.value_or(request.margin_mm);
-  auto plan = grid::plan_holes(stated, request);
-  if (!plan) {
-    say("chaintrue simulate: {}", plan.error().sentence());
-    return kNotSupportedOrOutside;
-  }
-  MeasuredHoles design = std::move(plan->set);
+  MeasuredHoles design =
+      value_of(grid::plan_holes(stated, request), "chaintrue simulate", kNotSupportedOrOutside).set;
   if (spec.bad_readings > static_cast<int>(design.distances.size())) {
     problems.add("--bad-points",
                  fmt::format("{}", spec.bad_readings),

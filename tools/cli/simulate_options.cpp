@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include "grid/files/names.hpp"
@@ -91,7 +90,7 @@ std::optional<StatedNoise> parse_stated(const SimulateOptions& options) {
 }
 
 /// With the attachment that these effects act on.
-Machine machine_for(const std::vector<std::string>& effects) {
+Machine machine_for(const Words& effects) {
   Machine machine;
   for (const std::string& argument : effects) {
     const model::effects::Effect* effect =
@@ -112,7 +111,7 @@ model::Model parse_model(const std::string& word, OptionProblems& problems) {
                     problems);
 }
 
-std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::string>& arguments,
+std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
                                                     OptionProblems& problems) {
   std::vector<synthetic::SettingOffset> offsets;
   for (const std::string& argument : arguments) {

@@ -8,11 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/generator.hpp"
+#include "grid/synthetic/holes.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/simulate_holes.hpp"
+#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
+
+struct HolesOptions {
+  /// 0 holes: a grid is simulated instead.
+  HolesPlanRequest plan{.holes = 0, .progress = {}};
+  double tape_zero_offset_mm = 0.0;
+  double rounding_mm = 0.0;
+};
 
 struct SimulateOptions {
   std::string machine;
@@ -38,10 +47,10 @@ struct SimulateOptions {
   std::optional<double> stated_position_mm;
   std::optional<double> stated_dof;
   synthetic::BadPoints bad;
-  std::vector<std::string> effects;
+  Words effects;
   /// Files of declared effects.
-  std::vector<std::string> declared;
-  std::vector<std::string> offsets;
+  Words declared;
+  Words offsets;
   bool draw_settings = false;
   std::optional<double> sheet_shift_mm;
   std::optional<double> sheet_rotation_mrad;
@@ -54,8 +63,8 @@ struct SimulateOptions {
 /// From --model; an unknown word becomes a problem.
 [[nodiscard]] model::Model parse_model(const std::string& word, OptionProblems& problems);
 /// For --offset.
-[[nodiscard]] std::vector<synthetic::SettingOffset> parse_offsets(
-    const std::vector<std::string>& arguments, OptionProblems& problems);
+[[nodiscard]] std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
+                                                                  OptionProblems& problems);
 /// Checks the options of a session or of places before any file is read.
 void check_words(const SimulateOptions& options, OptionProblems& problems);
 /// A session's whole specification. \throws InputError with all problems.
@@ -66,5 +75,11 @@ void check_words(const SimulateOptions& options, OptionProblems& problems);
 
 /// Writes the belts file; an exit code. \throws InputError with all problems.
 [[nodiscard]] int simulate_the_belts(const SimulateOptions& options);
+
+// chaintrue simulate --holes: cuts holes and measures them with a tape.
+
+/// Writes the set and, if requested, its hidden truth; returns the exit code. \throws
+/// InputError for values out of range.
+[[nodiscard]] int simulate_the_holes(const SimulateOptions& options, const Machine& stated);
 
 }  // namespace chaintrue::cli

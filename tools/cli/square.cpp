@@ -2,141 +2,15 @@
 /// \file
 /// chaintrue square: predicts the test square that an owner would cut and measure, by a map or for
 /// a controller with settings that differ from the machine; and the program that cuts it.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "grid/files/whole_file.hpp"
 #include "grid/plotter/test_drawing.hpp"
-#include "model/kinematics.hpp"
-#include "model/square.hpp"
-#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/effect_drawing.hpp"
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/input_file.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/svg.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
-
-// A self-explanatory drawing of a cut square: the commanded outline, the cut one with its errors
-// magnified, and the numbers that a ruler would show. Same square, same bytes.
-
-// The picture, in its own units.
-constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kSquareLeft = 120.0,
-                 kSquareTop = 110.0;
-constexpr double kLargestError = 0.11;  // share of the side that the largest error is drawn as
-
-/// From the bed to the picture; the cut outline is drawn about its own middle, so that shape alone
-/// shows.
-class SquarePicture {
- public:
-  SquarePicture(const model::CutSquare& square, const SquareTask& task)
-      : square_(square),
-        scale_(kSide / task.size_mm),
-        left_(square.commanded.front().x_mm),
-        top_(square.commanded.front().y_mm + task.size_mm) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < square.cut.size(); ++i) {
-      const BedPoint e = error(i);
-      largest = std::max(largest, std::hypot(e.x_mm, e.y_mm));
-    }
-    // A round factor; a perfect square, up to rounding, is not magnified.
-    constexpr double kRoundingMm = 1e-6;
-    magnification_ = 1.0;
-    if (largest > kRoundingMm) {
-      magnification_ =
-          std::max(1.0, report::round_down_125(kLargestError * task.size_mm / largest));
-    }
-  }
-  [[nodiscard]] double magnification() const { return magnification_; }
-  [[nodiscard]] std::string commanded(std::size_t i) const { return at(square_.commanded[i]); }
-  [[nodiscard]] std::string cut(std::size_t i) const {
-    const BedPoint p = square_.commanded[i], e = error(i);
-    return at({p.x_mm + magnification_ * e.x_mm, p.y_mm + magnification_ * e.y_mm});
-  }
-
- private:
-  [[nodiscard]] BedPoint error(std::size_t i) const {
-    return {square_.cut[i].x_mm - square_.commanded[i].x_mm - square_.offset.x_mm,
-            square_.cut[i].y_mm - square_.commanded[i].y_mm - square_.offset.y_mm};
-  }
-  [[nodiscard]] std::string at(BedPoint p) const {
-    return fmt::format("{:.2f},{:.2f}",
-                       kSquareLeft + scale_ * (p.x_mm - left_),
-                       kSquareTop + scale_ * (top_ - p.y_mm));
-  }
-
-  const model::CutSquare& square_;
-  double scale_, left_, top_, magnification_;
-};
-
-/// A self-contained SVG; nothing is fetched, no script runs.
-std::string draw_square(const model::CutSquare& square, const SquareTask& task) {
-  using model::SquareSide;
-  const SquarePicture picture(square, task);
-  std::string commanded, cut;
-  for (std::size_t i = 0; i < square.cut.size(); ++i) {
-    commanded += (i == 0 ? "" : " ") + picture.commanded(i);
-    cut += (i == 0 ? "" : " ") + picture.cut(i);
-  }
-  const std::string title = fmt::format(
-      "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm);
-  Svg svg(kWide, kHigh, "font-size=\"15\" fill=\"#222222\"", title);
-  svg.fill();
-  svg.add(
-      "<polygon points=\"{0}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
-      "stroke-dasharray=\"7 5\"/>\n"
-      "<polygon points=\"{1}\" fill=\"{2}\" fill-opacity=\"0.08\" stroke=\"{2}\" "
-      "stroke-width=\"2.5\" stroke-linejoin=\"round\"/>\n",
-      commanded,
-      cut,
-      report::kAfterColor);
-  const auto line = [&svg](double y, std::string_view words) {
-    svg.text(kWide / 2, y, words, "middle");
-  };
-  line(34.0, title);
-  line(58.0,
-       fmt::format("dashed: commanded \u00b7 solid: cut, errors drawn {:g} times as large",
-                   picture.magnification()));
-  const auto side = [&square](SquareSide which) {
-    const model::CutSide& s = square.side(which);
-    return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
-  };
-  const double middle_y = kSquareTop + kSide / 2;
-  line(kSquareTop + 70.0, side(SquareSide::top));
-  line(kSquareTop + kSide - 60.0, side(SquareSide::bottom));
-  for (const auto& [which, x] : {std::pair(SquareSide::left, kSquareLeft + 70.0),
-                                 std::pair(SquareSide::right, kSquareLeft + kSide - 60.0)}) {
-    svg.text(x,
-             middle_y,
-             side(which),
-             "middle",
-             fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, middle_y));
-  }
-  line(kSquareTop + kSide + 90.0,
-       fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
-                   square.rising_diagonal_mm,
-                   square.falling_diagonal_mm,
-                   task.size_mm * std::sqrt(2.0)));
-  line(kSquareTop + kSide + 116.0,
-       fmt::format("shifted by ({:+.2f}, {:+.2f}) mm and rotated by {:+.3f} mrad",
-                   square.offset.x_mm,
-                   square.offset.y_mm,
-                   1e3 * square.rotation_rad));
-  line(kSquareTop + kSide + 142.0,
-       "bow: largest distance of a side from the line between its corners, + outwards");
-  return svg.finished();
-}
 
 // The program that cuts, or draws, a test square: metric, absolute, clockwise from its lower left
 // corner, in one pass. Same square, same bytes.
@@ -239,11 +113,10 @@ tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& o
 std::unique_ptr<const GcodeMachine> machine_of(const SquareOptions& options) {
   GcodeOptions gcode;
   gcode.map = options.map;
-  gcode.map_file = open_input(options.map);
-  require_kind(*gcode.map_file, {FileKind::map, FileKind::anchors, FileKind::plotter});
+  gcode.map_file = open_target_file(options.map);
   gcode.machine = options.controller_machine;
   gcode.machine_option = "--controller-machine";
-  gcode.frame = gcode.map_file->kind == FileKind::map ? "bed" : "marks";
+  gcode.frame = "bed";
   return std::make_unique<const GcodeMachine>(gcode);
 }
 
@@ -257,10 +130,10 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareTask& task,
                                                      const GcodeMachine& machine) {
   std::vector<BedPoint> cut;
   for (const BedPoint commanded : model::outline_of(task)) {
-    const auto lengths = machine.controller().kinematics->lengths(commanded);
+    const auto lengths = machine.controller.kinematics->lengths(commanded);
     if (!lengths)
       return tl::unexpected(SquareRefusal{"the controller", commanded, lengths.error().sentence()});
-    const auto tool = machine.target().tool(*lengths);
+    const auto tool = machine.target.lengths->tool(*lengths);
     if (!tool) return tl::unexpected(SquareRefusal{"the map", commanded, tool.error().sentence()});
     cut.push_back(*tool);
   }
@@ -279,10 +152,13 @@ std::string as_table(const model::CutSquare& square, const SquareTask& task) {
                         cut.bow_mm);
   }
   const double diagonal = task.size_mm * std::sqrt(2.0);
-  text += fmt::format(
-      "{:<18}{:>12.3f}{:>12.3f}\n", "diagonal rising", diagonal, square.rising_diagonal_mm);
-  text += fmt::format(
-      "{:<18}{:>12.3f}{:>12.3f}\n", "diagonal falling", diagonal, square.falling_diagonal_mm);
+  text += fmt::format("{:<18}{:>12.3f}{:>12.3f}\n{:<18}{:>12.3f}{:>12.3f}\n",
+                      "diagonal rising",
+                      diagonal,
+                      square.rising_diagonal_mm,
+                      "diagonal falling",
+                      diagonal,
+                      square.falling_diagonal_mm);
   text += fmt::format("shifted by ({:+.3f}, {:+.3f}) mm and rotated by {:+.3f} mrad\n",
                       square.offset.x_mm,
                       square.offset.y_mm,
@@ -313,7 +189,7 @@ std::string as_json(const model::CutSquare& square, const SquareTask& task) {
 
 void advise(const SquareOptions& options, const SquareTask& task) {
   if (options.program.empty()) {
-    std::vector<std::string> again = {"square"};
+    Words again = {"square"};
     add_option_words(again, "--map", options.map);
     add_option_words(again, "--machine", options.machine);
     add_option_words(again, "--controller-machine", options.controller_machine);
@@ -344,13 +220,13 @@ void advise(const SquareOptions& options, const SquareTask& task) {
 
 /// The substitute for a map; null for two machines.
 const grid::KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& machine) {
-  return machine == nullptr ? nullptr : machine->plotter();
+  return machine == nullptr ? nullptr : machine->target.as<grid::KnownPlotter>();
 }
 
 int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeMachine>& machine) {
   const grid::KnownPlotter* plotter = plotter_of(machine);
   const SquareTask task =
-      task_of(options, plotter == nullptr ? BedPoint{} : middle_of(machine->controller().sheet));
+      task_of(options, plotter == nullptr ? BedPoint{} : middle_of(machine->controller.sheet));
   const auto square = machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
   if (!square) {
     const SquareRefusal& refusal = square.error();
@@ -361,14 +237,11 @@ int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeM
         refusal.why);
     return kNotSupportedOrOutside;
   }
-  std::vector<files::OutputFile> outputs = {
-      {"-", options.json ? as_json(*square, task) : as_table(*square, task)}};
-  if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_square(*square, task)});
-  if (!options.program.empty())
-    outputs.push_back({options.program,
-                       plotter == nullptr ? square_program(task, options.depth_mm)
-                                          : square_program(task, plotter->set)});
-  write_outputs(outputs);
+  write_outputs({{"-", options.json ? as_json(*square, task) : as_table(*square, task)},
+                 {options.drawing, draw_square(*square, task)},
+                 {options.program,
+                  plotter == nullptr ? square_program(task, options.depth_mm)
+                                     : square_program(task, plotter->set)}});
   advise(options, task);
   return kDone;
 }

@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue start: makes a folder with the machine, the next steps, and the sheets to print.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "grid/files/machine_file.hpp"
-#include "grid/files/whole_file.hpp"
-#include "grid/planning/holes_plan.hpp"
-#include "grid/planning/measurement_plan.hpp"
 #include "grid/planning/second_visits.hpp"
-#include "model/machine.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/holes_words.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/sheet.hpp"
 #include "tools/cli/start_plotter.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -140,7 +127,8 @@ struct Plans {
   grid::HolesPlan holes;
 };
 
-tl::expected<Plans, grid::PlanFailure> plans_for(const Machine& machine) {
+/// \throws Failed
+Plans plans_for(const Machine& machine) {
   // Half a millimetre for careful reading of a square or a tape.
   constexpr double kByEyeMm = 0.5;
   constexpr double kPaidOutMm = 0.1;
@@ -149,11 +137,11 @@ tl::expected<Plans, grid::PlanFailure> plans_for(const Machine& machine) {
   marks.noise = {kPaidOutMm, kByEyeMm};
   HolesPlanRequest holes;
   holes.margin_mm = reachable_mm(machine.bed);
-  auto planned_marks = grid::plan_measurement(machine, marks);
-  if (!planned_marks) return tl::unexpected(planned_marks.error());
-  auto planned_holes = grid::plan_holes(machine, holes);
-  if (!planned_holes) return tl::unexpected(planned_holes.error());
-  return Plans{*std::move(planned_marks), *std::move(planned_holes)};
+  const auto planned = [](auto plan) {
+    return value_of(std::move(plan), "chaintrue start", kNotSupportedOrOutside);
+  };
+  return {planned(grid::plan_measurement(machine, marks)),
+          planned(grid::plan_holes(machine, holes))};
 }
 
 std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
@@ -162,9 +150,6 @@ std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
       SheetOf::places,
       grid::with_second_visits(plans.marks.marks.size(),
                                std::min(grid::kUsualSecondVisits, plans.marks.marks.size() / 3))};
-  std::vector<DrillPlace> holes;
-  for (const grid::Hole& hole : plans.holes.set.holes)
-    holes.push_back({"hole " + hole.name, hole.commanded});
   const StartWays ways{expected_errors(plans.marks.map, machine.bed).rms_mm,
                        plans.holes.expected_rms_mm};
   return {
@@ -174,7 +159,7 @@ std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
       {"marks.nc", sheet_gcode(sheet, {}), Origin::program},
       {"holes.csv", workshop_list(plans.holes), Origin::list},
       {"holes.html", holes_page(plans.holes, "holes.csv"), Origin::page},
-      {"holes.nc", drill_gcode(fmt::format("{} holes", holes.size()), holes, {}), Origin::program},
+      {"holes.nc", holes_gcode(plans.holes, {}), Origin::program},
   };
 }
 
@@ -218,25 +203,20 @@ int run_start(Verb verb, const StartCommand& command) {
   const SettingsFile started = parse_settings_file(command.file, file.text);
   const Machine& machine = started.read.machine;
   print_warnings(started.read.warnings);
-  const auto plans = plans_for(machine);
-  if (!plans) {
-    say("chaintrue start: {}", plans.error().sentence());
-    return kNotSupportedOrOutside;
-  }
+  const Plans plans = plans_for(machine);
   // Sheets for a chaintrue_machine file are written to its folder.
   std::string folder = command.folder;
   if (started.is_ours && !verb.is_given("folder"))
     folder = fs::path(command.file).parent_path().string();
   if (folder.empty()) folder = ".";
-  std::vector<FolderFile> contents = sheets_of(machine, *plans);
+  std::vector<FolderFile> contents = sheets_of(machine, plans);
   std::string machine_path = (fs::path(folder) / "machine.json").string();
   if (started.is_ours) {
     machine_path = command.file;
   } else {
-    std::vector<std::string> comments;
-    for (const files::Warning& warning : started.read.warnings)
-      comments.push_back(warning.sentence);
-    contents.push_back({"machine.json", files::write_machine(machine, comments), Origin::machine});
+    contents.push_back({"machine.json",
+                        files::write_machine(machine, sentences_of(started.read.warnings)),
+                        Origin::machine});
   }
   write_folder(verb, folder, contents);
   const std::string marks = (fs::path(folder) / "marks.csv").string();

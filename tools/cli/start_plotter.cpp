@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/start_plotter.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <filesystem>
-#include <stdexcept>
-#include <vector>
 
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"
 #include "grid/plotter/drawing_page.hpp"
-#include "tools/cli/places.hpp"
-#include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -64,25 +58,6 @@ files::ReadPlotter load_plotter(const InputFile& file) {
   return files::parse_plotter_settings(file.text, file.name);
 }
 
-std::unique_ptr<const grid::PlotterMap> load_plotter_map(const InputFile& file,
-                                                         const grid::KnownPlotter& plotter) {
-  if (!plotter.found) {
-    refuse(file.name,
-           "/found",
-           "",
-           "results of a test drawing; chaintrue fit drawing.json -o found.json writes a plotter "
-           "with them");
-  }
-  try {
-    return std::make_unique<const grid::PlotterMap>(plotter);
-  } catch (const std::invalid_argument& error) {
-    refuse(file.name,
-           "/set/machine/area",
-           error.what(),
-           "an area that the pen reaches, with the old and the new settings");
-  }
-}
-
 int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   const files::ReadPlotter read = load_plotter(file);
   print_warnings(read.warnings);
@@ -102,10 +77,9 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
       {"sheet.txt", grid::measuring_list(drawing), Origin::list},
       {"drawing.json", files::write_blank_drawing(drawing), Origin::measured}};
   if (!is_ours) {
-    std::vector<std::string> comments;
-    for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
-    contents.push_back(
-        {"plotter.json", files::write_plotter(read.plotter, comments), Origin::machine});
+    contents.push_back({"plotter.json",
+                        files::write_plotter(read.plotter, sentences_of(read.warnings)),
+                        Origin::machine});
   }
   write_folder(verb, folder, contents);
   const auto in_folder = [&](const char* name) { return (fs::path(folder) / name).string(); };

@@ -2,33 +2,18 @@
 /// \file
 /// chaintrue sweep: accuracy against the simulator over any product of factors; stopped, resumed,
 /// split and merged at will.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/files/number_text.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/sweep/run_sweep.hpp"
-#include "tools/cli/effect_argument.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
-#include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/document.hpp"
 
@@ -113,7 +98,7 @@ double points_of(const sweep::SweepSpec& spec, std::size_t grid) {
 Chart panel(const sweep::SweepSpec& spec,
             const std::vector<files::LevelError>& errors,
             std::size_t factor) {
-  DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}, {}};
+  DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}};
   for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
     const std::string level =
@@ -136,20 +121,20 @@ Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& 
   Table table;
   table.columns = {{"factor"},
                    {"level"},
-                   {"points", true},
-                   {"rms at the tool, mm", true},
-                   {"worst, mm", true},
-                   {"cells", true}};
+                   {"points", true, 0},
+                   {"rms at the tool, mm", true, 3},
+                   {"worst, mm", true, 3},
+                   {"cells", true, 0}};
   const auto counts = sweep::level_counts(spec);
   for (const files::LevelError& error : errors) {
     // A factor with one level duplicates the grids.
     if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
     table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
                            sweep::level_name(spec, error.factor, error.level),
-                           fmt::format("{:.0f}", points_of(spec, error.grid)),
-                           fmt::format("{:.3f}", error.tool_rms_mm),
-                           fmt::format("{:.3f}", error.tool_max_mm),
-                           fmt::format("{}", error.cells)}});
+                           points_of(spec, error.grid),
+                           error.tool_rms_mm,
+                           error.tool_max_mm,
+                           static_cast<double>(error.cells)}});
   }
   return table;
 }
@@ -220,7 +205,7 @@ Document sweep_page(const sweep::SweepSpec& spec, const std::vector<files::Level
   page.title = spec.name;
   page.subtitle = spec.question;
   const auto counts = sweep::level_counts(spec);
-  Section panels{"Error against the number of points", {}};
+  Section panels{"Error against the number of points"};
   for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
     const bool varies = counts[factor] > 1 && factor + 1 < sweep::kFactors;
     if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));
@@ -242,7 +227,7 @@ namespace fs = std::filesystem;
 struct SweepOptions {
   std::string specification;
   std::string directory;
-  std::vector<std::string> effects;
+  Words effects;
   std::string shard;
   bool resume = false;
 };
@@ -295,7 +280,7 @@ int assemble(Verb verb,
         static_cast<std::ptrdiff_t>(cells.size()) - missing,
         cells.size(),
         options.directory);
-    std::vector<std::string> next = {"sweep", options.specification, "-o", options.directory};
+    Words next = {"sweep", options.specification, "-o", options.directory};
     add_option_words(next, "--effects", options.effects);
     next.emplace_back("--resume");
     say_next(next);

@@ -2,11 +2,9 @@
 #include "tools/cli/talk.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 
 #include "grid/containers.hpp"
@@ -61,17 +59,15 @@ bool shows_colours() {
 std::string in_bold(std::string_view text) { return between("\x1b[1m", text); }
 std::string in_red(std::string_view text) { return between("\x1b[31m", text); }
 
-void add_option_words(std::vector<std::string>& words, std::string option, std::string value) {
+void add_option_words(Words& words, std::string option, std::string value) {
   if (!value.empty()) words.insert(words.end(), {std::move(option), std::move(value)});
 }
 
-void add_option_words(std::vector<std::string>& words,
-                      const std::string& option,
-                      const std::vector<std::string>& values) {
+void add_option_words(Words& words, const std::string& option, const Words& values) {
   for (const std::string& value : values) add_option_words(words, option, value);
 }
 
-void say_next(const std::vector<std::string>& words) {
+void say_next(const Words& words) {
   if (grid::contains(words, "-")) return;
   std::string line = called_as;
   for (const std::string& word : words) line += " " + quoted(word);
@@ -125,6 +121,12 @@ void print_warnings(const std::vector<files::Warning>& warnings) {
         warning.kind ? with_name(warning.message(), grid::name_of(*warning.kind))
                      : warning.message());
   }
+}
+
+std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings) {
+  std::vector<std::string> sentences;
+  for (const files::Warning& warning : warnings) sentences.push_back(warning.sentence);
+  return sentences;
 }
 
 }  // namespace chaintrue::cli

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
@@ -33,15 +34,13 @@ void say(::fmt::format_string<Args...> text, Args&&... args) {
 }
 
 /// Adds an option with its value to a command's words; nothing for an empty value.
-void add_option_words(std::vector<std::string>& words, std::string option, std::string value);
+void add_option_words(Words& words, std::string option, std::string value);
 /// With each of the values.
-void add_option_words(std::vector<std::string>& words,
-                      const std::string& option,
-                      const std::vector<std::string>& values);
+void add_option_words(Words& words, const std::string& option, const Words& values);
 
 /// `Next: chaintrue fit 'my marks.csv' -o map.json` on standard error, the words quoted for a shell
 /// if necessary. Prints nothing if one of the words is "-": the pipeline continues.
-void say_next(const std::vector<std::string>& words);
+void say_next(const Words& words);
 
 /// Messages under --quiet: stored, and printed if the verb fails.
 class QuietTalk {
@@ -69,5 +68,7 @@ void write_whole_lines();
 [[nodiscard]] std::string with_name(std::string message, std::string_view name);
 
 void print_warnings(const std::vector<files::Warning>& warnings);
+/// For the comments of a file that was made with these assumptions.
+[[nodiscard]] std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings);
 
 }  // namespace chaintrue::cli

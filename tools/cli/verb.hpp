@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// How to add a verb: one pair of files (fit.hpp not needed; fit.cpp defines add_fit), one line in
-/// verbs.def.
+/// verbs.def. This header includes what every such file needs: options, inputs, outputs, messages.
 ///
 /// \code
 ///   void add_fit(Verb app) {
@@ -13,19 +13,14 @@
 /// \endcode
 #pragma once
 
-#include "tools/cli/arguments.hpp"
+#include <memory>
+
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
-
-/// The command's exit codes, on which scripts may rely.
-enum ExitCode {
-  kDone = 0,
-  kCheckFailed = 1,
-  kUsage = 2,
-  kBadInput = 3,
-  kNotSupportedOrOutside = 4,
-  kInternal = 5,
-};
 
 #define CHAINTRUE_VERB(id) void add_##id(Verb app);
 #include "tools/cli/verbs.def"
@@ -34,7 +29,6 @@ enum ExitCode {
 /// Below import and export.
 void add_import_maslow4(Verb import);
 void add_import_plotter(Verb import);
-void add_export_plotter(Verb export_verb);
 void add_export_map(Verb export_verb);
 
 }  // namespace chaintrue::cli

@@ -116,6 +116,11 @@ struct Row {
   /// A flagged row is highlighted; its last cell should give the reason.
   bool is_flagged = false;
 };
+/// With the reason in a last cell where the row is flagged.
+[[nodiscard]] inline Row row_with_flag(std::vector<Cell> cells, bool is_flagged, const char* why) {
+  if (is_flagged) cells.emplace_back(why);
+  return {std::move(cells), is_flagged};
+}
 struct Table {
   std::vector<Column> columns{};
   std::vector<Row> rows{};
@@ -164,6 +169,10 @@ struct Section {
   Detail detail = Detail::always;
   /// Whether the terminal shows the title, with the blocks indented below it.
   bool is_titled = true;
+
+  void say(std::string text, Detail text_detail = Detail::always, bool is_note = false) {
+    blocks.emplace_back(Paragraph{std::move(text), text_detail, is_note});
+  }
 };
 
 struct Document {

@@ -2,7 +2,7 @@
 /// \file
 /// The files embedded in a page at build time: "vega" (Debian's modules, in the order in which they
 /// load), "chart" (charts/<name>.vg.json) and "asset" (the page's style, script and licence
-/// notices).
+/// notices, and drawings of how to take a reading).
 #pragma once
 
 #include <string_view>

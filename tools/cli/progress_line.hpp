@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The text of a progress line, from the steps received and the time of a given clock.
+/// A progress line: its text, from the steps received and the time of a given clock; and the line of
+/// a terminal that a separate thread rewrites.
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
 #include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "grid/progress.hpp"
 
@@ -37,6 +42,29 @@ class ProgressState {
   double whole_began_s_ = 0.0;
   double step_began_s_ = 0.0;
   std::atomic<double> share_{-1.0};
+};
+
+/// Silent for `quiet`; then it writes `words` and erases them for the next, each `step`. The line
+/// is empty after destruction.
+class RepeatedLine {
+ public:
+  RepeatedLine(std::FILE* out,
+               std::function<std::string()> words,
+               std::chrono::milliseconds quiet,
+               std::chrono::milliseconds step);
+  ~RepeatedLine();
+  RepeatedLine(const RepeatedLine&) = delete;
+  RepeatedLine& operator=(const RepeatedLine&) = delete;
+
+ private:
+  void run(std::chrono::milliseconds quiet, std::chrono::milliseconds step);
+
+  std::FILE* out_;
+  std::function<std::string()> words_;
+  bool is_over_ = false;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::thread thread_;  // last: it uses the others
 };
 
 }  // namespace chaintrue::cli
