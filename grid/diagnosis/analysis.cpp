@@ -98,7 +98,7 @@ double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
 tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   const ObservationSet& session = a.session;
   State state = stated_state(session);
-  const std::vector<bool> none(session.units.size(), false);
+  const Flags none(session.units.size(), false);
   a.converged = false;
   for (int pass = 0; pass < kCalibrations && !a.converged; ++pass) {
     auto system = linearise(session, state);
@@ -158,7 +158,7 @@ void drop_hidden(std::string_view reason, Analysis& a) {
       a.candidates.not_testable.push_back({cause, std::string(reason)});
     }
   }
-  std::vector<Eigen::Index> kept;
+  ColumnSet kept;
   std::vector<Regressor> regressors;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
     if (!contains(visible, a.system.regressors[k].cause)) continue;

@@ -20,7 +20,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   const bool worse =
       diagnosis.improvement && diagnosis.improvement->extended.rms_mm >= diagnosis.improvement->calibrated.rms_mm;
   std::vector<model::AppliedEffect> into_machine;
-  std::vector<int> taken;
+  RegressorSet taken;
   for (const Cause& cause : used) {
     const int column = best_regressor(a, cause.cause);
     // Miscounted or skipped links are not properties of the machine: readings are always corrected.

@@ -51,7 +51,7 @@ Eigen::Vector2d place_of(const RegressorSystem& system, std::size_t u) {
 }
 
 std::vector<UnitPlace> places_of_units(const RegressorSystem& system,
-                                       const std::vector<bool>& excluded) {
+                                       const Flags& excluded) {
   std::vector<UnitPlace> result;
   const KeptRows kept(system, excluded);
   for (const KeptRows::Unit& unit : kept.units()) {
@@ -71,7 +71,7 @@ bool lie_on_a_line(const std::vector<Eigen::Vector2d>& places) {
   return squares(0) <= kOnALine * kOnALine * squares(1);
 }
 
-using ModelKey = std::tuple<std::vector<int>, int, std::size_t>;
+using ModelKey = std::tuple<RegressorSet, int, std::size_t>;
 ModelKey key_of(const CandidateModel& model) {
   return {model.regressors, model.discrepancy, model.marginalised};
 }
@@ -132,7 +132,7 @@ void redistribute(const std::map<ModelKey, double>& shares,
 }  // namespace
 
 std::vector<BedPart> bed_parts(const RegressorSystem& system,
-                               const std::vector<bool>& excluded,
+                               const Flags& excluded,
                                std::size_t fewest) {
   const std::vector<UnitPlace> places = places_of_units(system, excluded);
   const auto out = static_cast<std::size_t>(kShareLeftOut * as_double(places.size()));
@@ -192,7 +192,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
 std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
                                                  std::size_t fewest,
                                                  const ModelComparison& comparison) {
-  std::vector<std::size_t> units;  // of each session
+  Indices units;  // of each session
   for (const SystemUnit& unit : system.units) {
     if (units.size() <= unit.observation) units.resize(unit.observation + 1, 0);
     ++units[unit.observation];

@@ -36,7 +36,7 @@ namespace chaintrue::grid::diagnosis {
 /// Units left out together, positions in the system.
 struct BedPart {
   double towards_rad = 0.0;  ///< where they lie, from the middle of all; from x towards y
-  std::vector<std::size_t> units;
+  Indices units;
 };
 
 /// The quarters on one side of each of sixteen lines, without units that are `excluded` (flags of
@@ -44,7 +44,7 @@ struct BedPart {
 /// counts at its midpoint. Empty where fewer than half of the sixteen can be formed: the least
 /// number of readings in which one direction does not outweigh the others.
 [[nodiscard]] std::vector<BedPart> bed_parts(const RegressorSystem& system,
-                                             const std::vector<bool>& excluded,
+                                             const Flags& excluded,
                                              std::size_t fewest);
 
 /// The result from some of the readings alone.

@@ -35,8 +35,8 @@ constexpr Eigen::Index kManyRows = 500;
 constexpr std::size_t kKernelOfMany = 1;
 
 /// The system's regressors at the values that were found before.
-std::vector<int> found_before(const Analysis& a) {
-  std::vector<int> found;
+RegressorSet found_before(const Analysis& a) {
+  RegressorSet found;
   for (const SizedCause& own : a.known) {
     for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
       const Regressor& d = a.system.regressors[k];
@@ -149,7 +149,7 @@ void BeltRules::restrain(bool detected, Analysis& a) const {
 }
 
 belts::Counting decided_counting(const Analysis& a) {
-  const std::vector<bool>& rejected =
+  const Flags& rejected =
       a.comparison.marginalised_systems[a.decision.marginalised].outliers;
   belts::Counting counting(a.system.places.size());
   for (std::size_t u = 0; u < counting.size(); ++u) {

@@ -136,7 +136,7 @@ void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlace
 /// Each alternative's prediction for future places, and the rows of each place.
 struct PredictedPlaces {
   std::vector<Alternative> alternatives;
-  std::vector<std::vector<Eigen::Index>> rows;
+  std::vector<Rows> rows;
 };
 
 PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {

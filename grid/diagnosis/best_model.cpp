@@ -36,7 +36,7 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
   return best;
 }
 
-void reject_slips(const Analysis& a, std::vector<bool>& outliers) {
+void reject_slips(const Analysis& a, Flags& outliers) {
   for (const int k : a.decision.regressors) {
     const Regressor& own = regressor(a, k);
     if (!own.slip) continue;
@@ -95,12 +95,12 @@ Shown shown(const Analysis& a) {
   return result;
 }
 
-Estimate estimate_with(const Analysis& a, std::vector<int> regressors) {
+Estimate estimate_with(const Analysis& a, RegressorSet regressors) {
   sort(regressors);
   return estimate(a.system, marginalised_system(a), regressors, a.noise.get());
 }
 
-Estimate estimate_of(const Analysis& a, const std::vector<int>& regressors) {
+Estimate estimate_of(const Analysis& a, const RegressorSet& regressors) {
   return estimate(a.system, marginalised_system(a), regressors, -1);
 }
 

@@ -20,7 +20,7 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
 
 /// Flags the units whose readings are explained only by a cause at one visit.
-void reject_slips(const Analysis& analysis, std::vector<bool>& outliers);
+void reject_slips(const Analysis& analysis, Flags& outliers);
 
 /// Whether no points distinguish the two.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
@@ -36,15 +36,15 @@ struct Nearest {
 /// The named causes, or else the leading ones, and the cause most similar to the first, for
 /// pictures side by side.
 struct Shown {
-  std::vector<int> best;
-  std::vector<int> rival;
+  RegressorSet best;
+  RegressorSet rival;
 };
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
 /// Estimate with these columns, given the decision's discrepancy, if any.
-[[nodiscard]] Estimate estimate_with(const Analysis& analysis, std::vector<int> columns);
+[[nodiscard]] Estimate estimate_with(const Analysis& analysis, RegressorSet columns);
 
 /// Estimate with these columns and no discrepancy.
-[[nodiscard]] Estimate estimate_of(const Analysis& analysis, const std::vector<int>& columns);
+[[nodiscard]] Estimate estimate_of(const Analysis& analysis, const RegressorSet& columns);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -51,7 +51,7 @@ struct Representative {
 
 /// The best model in which one of these acts together with the free one.
 struct FreeModel {
-  std::vector<int> regressors;
+  RegressorSet regressors;
   int free = -1;
   std::size_t marginalised = 0;
 };
@@ -164,7 +164,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
       system, visible(marginalised.kept.of(system.by_setting.leftCols(settings))));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
-  std::vector<bool> mixed;  // whole numbers and any amounts
+  Flags mixed;  // whole numbers and any amounts
   for (const auto& [cause, column] : best_regressors(system, marginalised)) {
     Representative own{visible(marginalised.kept(system.g.col(column))),
                        marginalised.g.col(column),

@@ -58,7 +58,7 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
   std::map<PointKey, std::size_t> block_of;
   std::size_t blocks = 0;
   for (const auto& [file, points] : by_file) {
-    for (const std::vector<std::size_t>& block : spatial_blocks(points)) {
+    for (const Indices& block : spatial_blocks(points)) {
       for (const std::size_t k : block) block_of[{file, points[k].index}] = blocks;
       ++blocks;
     }

@@ -11,7 +11,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using Key = std::vector<std::size_t>;  ///< classes that act, ascending
+using Key = Indices;  ///< classes that act, ascending
 
 struct Grouped {
   double probability = 0.0;
@@ -24,7 +24,7 @@ class Decider {
  public:
   Decider(const RegressorSystem& system,
           const ModelComparison& comparison,
-          const std::vector<bool>& excluded,
+          const Flags& excluded,
           std::vector<CauseClass> classes)
       : system_(system), comparison_(comparison), excluded_(excluded) {
     result_.classes = std::move(classes);
@@ -294,7 +294,7 @@ class Decider {
 
   const RegressorSystem& system_;
   const ModelComparison& comparison_;
-  const std::vector<bool>& excluded_;
+  const Flags& excluded_;
   std::map<Key, Grouped> groups_;
   Key best_key_;
   Decision result_;
@@ -304,7 +304,7 @@ class Decider {
 
 Decision decide(const RegressorSystem& system,
                 const ModelComparison& comparison,
-                const std::vector<bool>& excluded,
+                const Flags& excluded,
                 bool detected,
                 std::vector<CauseClass> classes) {
   return Decider(system, comparison, excluded, std::move(classes)).run(detected);

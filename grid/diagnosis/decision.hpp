@@ -37,9 +37,9 @@ struct Decision {
   double discrepancy = 0.0;  ///< with a model discrepancy, with causes or alone
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
-  std::vector<std::size_t> listed;
+  Indices listed;
   /// The model: one regressor per cause, the discrepancy or -1, the marginalised system.
-  std::vector<int> regressors;
+  RegressorSet regressors;
   int best_discrepancy = -1;
   bool discrepancy_left = false;
   std::size_t marginalised = 0;
@@ -52,7 +52,7 @@ struct Decision {
 /// points of the comparison's marginalised systems are used.
 [[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
-                              const std::vector<bool>& excluded,
+                              const Flags& excluded,
                               bool detected,
                               std::vector<CauseClass> classes);
 

@@ -55,8 +55,8 @@ const T* find_of(const std::vector<T>& all, const CauseId& cause) {
 }
 
 /// The leading model without this cause.
-std::vector<int> others_than(const Analysis& a, const CauseId& cause) {
-  std::vector<int> others;
+RegressorSet others_than(const Analysis& a, const CauseId& cause) {
+  RegressorSet others;
   for (const int k : a.decision.regressors) {
     if (regressor(a, k).cause != cause) others.push_back(k);
   }
@@ -126,7 +126,7 @@ std::vector<std::string> names_of_sessions(const Measured& measured) {
 void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagnosis& d) {
   for (std::size_t k = 0; k < names.size() && k < a.session.parts.size(); ++k) {
     std::array<estimation::SessionZero, 2> zeros;
-    const std::vector<Eigen::Index>& columns = a.session.parts[k].zero_columns;
+    const ColumnSet& columns = a.session.parts[k].zero_columns;
     for (std::size_t z = 0; z < columns.size(); ++z) {
       zeros[z] = {a.estimate.setting_change(columns[z]),
                   std::sqrt(a.estimate.setting_covariance(columns[z], columns[z]))};

@@ -47,7 +47,7 @@ std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
 }
 
 std::vector<DrawnValue> drawn_values(const Analysis& a, const TestDrawing& drawing) {
-  const std::vector<bool>& outliers = marginalised_system(a).outliers;
+  const Flags& outliers = marginalised_system(a).outliers;
   std::vector<DrawnValue> values(drawing.measures.size());
   for (std::size_t u = 0; u < a.session.units.size(); ++u) {
     const SystemUnit& unit = a.system.units[u];

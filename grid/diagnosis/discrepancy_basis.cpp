@@ -234,7 +234,7 @@ struct DiscrepancyBasis::Kernel {
 
 DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
                                    MarginalisedSystem& marginalised,
-                                   const std::vector<std::size_t>& kernels)
+                                   const Indices& kernels)
     : marginalised_(marginalised),
       fields_(std::make_unique<Fields>(system, marginalised)),
       kernels_(system.discrepancies->kernels.size()) {
@@ -333,9 +333,9 @@ DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(
 }
 
 NormalEquations DiscrepancyBasis::GivenKernel::equations(double strength,
-                                                    std::vector<int> columns) const {
-  std::vector<Eigen::Index> at;
-  std::vector<Eigen::Index> line = {0};
+                                                    RegressorSet columns) const {
+  ColumnSet at;
+  Rows line = {0};
   for (const int k : columns) {
     at.push_back(plain_->position(k));
     line.push_back(at.back() + 1);

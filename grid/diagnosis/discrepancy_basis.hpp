@@ -32,7 +32,7 @@ class DiscrepancyBasis {
   /// system. Both references must outlive this.
   DiscrepancyBasis(const RegressorSystem& system,
                    MarginalisedSystem& marginalised,
-                   const std::vector<std::size_t>& kernels);
+                   const Indices& kernels);
   ~DiscrepancyBasis();
 
   /// Inner products of the residual and of some columns with what turns a kernel tridiagonal.
@@ -47,7 +47,7 @@ class DiscrepancyBasis {
     };
     [[nodiscard]] Diagonal diagonal(double strength) const;
     /// All inner products of some of the columns (regressors, ascending).
-    [[nodiscard]] NormalEquations equations(double strength, std::vector<int> columns) const;
+    [[nodiscard]] NormalEquations equations(double strength, RegressorSet columns) const;
 
    private:
     friend class DiscrepancyBasis;

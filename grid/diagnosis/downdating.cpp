@@ -80,9 +80,9 @@ void clear_unobserved_columns(const NormalEquations& before, NormalEquations& eq
 }
 
 /// The outlier groups with all of these units set to `rejected`.
-std::vector<bool> with_units(const RegressorSystem& system,
-                             std::vector<bool> groups,
-                             const std::vector<std::size_t>& units,
+Flags with_units(const RegressorSystem& system,
+                             Flags groups,
+                             const Indices& units,
                              bool rejected) {
   if (system.groups.empty()) {
     for (const std::size_t unit : units) groups[unit] = rejected;
@@ -97,7 +97,7 @@ std::vector<bool> with_units(const RegressorSystem& system,
 }
 
 /// The comparison's marginalised system that rejects these points; it is made if there is none.
-std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
+std::size_t home_of(ModelComparison& comparison, Flags outliers) {
   const auto same = std::find_if(
       comparison.marginalised_systems.begin(),
       comparison.marginalised_systems.end(),
@@ -135,7 +135,7 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
   Factorisation factorised;
   factorised.marginalised = number;
   factorised.discrepancy = discrepancy;
-  std::vector<int> columns;
+  RegressorSet columns;
   for (const CandidateModel& model : models) {
     append_all(columns, model.regressors);
   }
@@ -172,7 +172,7 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
                           log_det};
   const NoiseDensity noise(system_.noise_dof, n);
   for (const CandidateModel& model : models) {
-    std::vector<Eigen::Index> set;
+    ColumnSet set;
     for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
     const double evidence =
         set_evidence(factorised.equations, system_.regressors, set, noise).log_evidence;
@@ -184,7 +184,7 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
 }
 
 NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
-                                                const std::vector<Eigen::Index>& out) const {
+                                                const Rows& out) const {
   NormalEquations equations = factorised.equations;
   if (out.empty()) return equations;
   const Eigen::MatrixXd half =
@@ -209,10 +209,10 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
 }
 
 Downdating::Downdated Downdating::downdated(const Factorisation& factorised,
-                                            const std::vector<std::size_t>& units) const {
+                                            const Indices& units) const {
   const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
   const auto out = whole.kept.positions(units);
-  std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
+  Flags outliers = with_units(system_, whole.outliers, units, false);
   const double price = log_price_of_outliers(system_, outliers);
   return {downdated_equations(factorised, out),
           factorised.precision.rows() - std::ssize(out),
@@ -220,10 +220,10 @@ Downdating::Downdated Downdating::downdated(const Factorisation& factorised,
           price};
 }
 
-Downdating::Without Downdating::without(const std::vector<std::size_t>& units) const {
+Downdating::Without Downdating::without(const Indices& units) const {
   Without result;
   ModelComparison& comparison = result.comparison;
-  std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
+  std::set<std::tuple<std::size_t, int, RegressorSet>> known;
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
   for (const Factorisation& factorised : factorisations_) {
     const Downdated own = downdated(factorised, units);
@@ -261,14 +261,14 @@ std::vector<const CandidateModel*> Downdating::followed() const {
   return result;
 }
 
-std::vector<double> Downdating::probabilities_without(const std::vector<std::size_t>& units,
+std::vector<double> Downdating::probabilities_without(const Indices& units,
                                                       CountAs count_as) const {
   struct Same {
     double log_weight = 0.0;
     std::vector<double> log_shares{};  ///< weights with all points, of those that are one without them
     double log_all = 0.0;
   };
-  std::map<std::tuple<std::vector<bool>, int, std::vector<int>>, Same> known;
+  std::map<std::tuple<Flags, int, RegressorSet>, Same> known;
   std::vector<std::pair<Same*, double>> of_model;
   for (const Factorisation& factorised : factorisations_) {
     const Downdated own = downdated(factorised, units);

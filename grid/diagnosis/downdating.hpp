@@ -58,13 +58,13 @@ class Downdating {
     double score = 0.0;
   };
   /// Units are positions in the session.
-  [[nodiscard]] Without without(const std::vector<std::size_t>& units) const;
+  [[nodiscard]] Without without(const Indices& units) const;
 
   /// The models followed, in the order of `probabilities_without`.
   [[nodiscard]] std::vector<const CandidateModel*> followed() const;
   /// For each followed model, given that one of them holds. Models that differ only in which of the
   /// left-out points they reject divide their probability by their weights with all points.
-  [[nodiscard]] std::vector<double> probabilities_without(const std::vector<std::size_t>& units,
+  [[nodiscard]] std::vector<double> probabilities_without(const Indices& units,
                                                           CountAs count_as) const;
 
  private:
@@ -76,7 +76,7 @@ class Downdating {
     Eigen::MatrixXd inverse;    ///< L^-1; empty without a discrepancy, where V's root gives its columns
     Eigen::MatrixXd precision;  ///< U: first column the residual
     std::vector<CandidateModel> models;
-    std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the equations
+    std::vector<ColumnSet> sets;  ///< of each: its columns in the equations
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
@@ -84,17 +84,17 @@ class Downdating {
   struct Downdated {
     NormalEquations equations;
     Eigen::Index rows = 0;       ///< that are left
-    std::vector<bool> outliers;  ///< of the units that are left
+    Flags outliers;  ///< of the units that are left
     double price = 0.0;          ///< of these
   };
   [[nodiscard]] Downdated downdated(const Factorisation& factorised,
-                                    const std::vector<std::size_t>& units) const;
+                                    const Indices& units) const;
   [[nodiscard]] Factorisation factorisation_of(std::size_t marginalised,
                                                int discrepancy,
                                                std::vector<CandidateModel> models) const;
   /// Inner products with these rows of the marginalised system gone.
   [[nodiscard]] NormalEquations downdated_equations(
-      const Factorisation& factorised, const std::vector<Eigen::Index>& out) const;
+      const Factorisation& factorised, const Rows& out) const;
 
   const RegressorSystem& system_;
   const ModelComparison& comparison_;

@@ -89,7 +89,7 @@ std::optional<double> over_a_part(const std::vector<Corner>& corners, const At& 
 class Budget {
  public:
   explicit Budget(const Analysis& a) : a_(a), corners_(corners_of(a)) {
-    const std::vector<bool>& outliers = marginalised_system(a).outliers;
+    const Flags& outliers = marginalised_system(a).outliers;
     const bool of_tool = a.session.reads_chains();
     for (std::size_t u = 0; u < outliers.size(); ++u) {
       if (!outliers[u] && a.system.units[u].reads_chains == of_tool) units_.push_back(u);
@@ -203,7 +203,7 @@ class Budget {
 
   const Analysis& a_;
   std::vector<Corner> corners_;
-  std::vector<std::size_t> units_;
+  Indices units_;
   Shifts as_delivered_;
 };
 

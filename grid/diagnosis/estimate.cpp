@@ -67,7 +67,7 @@ void take_discrepancy_out(const RegressorSystem& system,
 
 Estimate estimate(const RegressorSystem& system,
                   const MarginalisedSystem& marginalised,
-                  const std::vector<int>& regressors,
+                  const RegressorSet& regressors,
                   int discrepancy) {
   return estimate(system,
                   marginalised,
@@ -91,7 +91,7 @@ std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem&
 
 Estimate estimate(const RegressorSystem& system,
                   const MarginalisedSystem& marginalised,
-                  const std::vector<int>& regressors,
+                  const RegressorSet& regressors,
                   const DiscrepancyNoise* noise) {
   Estimate result;
   result.regressors = regressors;

@@ -14,7 +14,7 @@
 namespace chaintrue::grid::diagnosis {
 
 struct Estimate {
-  std::vector<int> regressors;
+  RegressorSet regressors;
   /// q, from the state of the system: settings in their units, the nuisances after them.
   Eigen::VectorXd setting_change;
   Eigen::MatrixXd setting_covariance;  ///< q x q
@@ -28,14 +28,14 @@ struct Estimate {
   Eigen::VectorXd discrepancy_weights;  ///< N, one for each kept row; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
-  std::vector<std::size_t> free;  ///< positions in `regressors`
+  Indices free;  ///< positions in `regressors`
 };
 
 /// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
 [[nodiscard]] Estimate estimate(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
-                                const std::vector<int>& regressors,
+                                const RegressorSet& regressors,
                                 int discrepancy);
 
 /// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
@@ -48,7 +48,7 @@ struct DiscrepancyNoise {
     const RegressorSystem& system, const MarginalisedSystem& marginalised, int discrepancy);
 [[nodiscard]] Estimate estimate(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
-                                const std::vector<int>& regressors,
+                                const RegressorSet& regressors,
                                 const DiscrepancyNoise* noise);
 
 /// The model discrepancy of either chain at a place [mm]; zero without one.

@@ -65,7 +65,7 @@ double log_price_of_outlier(Eigen::Index rows) {
          0.5 * as_double(rows) * std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
 }
 
-double log_price_of_outliers(const RegressorSystem& system, const std::vector<bool>& outliers) {
+double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers) {
   std::array<double, 2> rejected{};
   if (system.groups.empty()) {
     for (std::size_t u = 0; u < outliers.size(); ++u) {
@@ -73,7 +73,7 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
     }
   } else {
     // Each direction is a separate slip, and a unit has at most as many as rows.
-    std::vector<Eigen::Index> of_unit(system.units.size(), 0);
+    Rows of_unit(system.units.size(), 0);
     for (std::size_t k = 0; k < outliers.size(); ++k) {
       const OutlierGroup& group = system.groups[k];
       const int unit = system.unit_of_row[as_size(group.first_row)];
@@ -86,7 +86,7 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
 }
 
 MarginalisedSystem marginalise_rows(const RegressorSystem& system,
-                                    const std::vector<bool>& outliers) {
+                                    const Flags& outliers) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
@@ -100,7 +100,7 @@ MarginalisedSystem marginalise_rows(const RegressorSystem& system,
   return marginalised;
 }
 
-MarginalisedSystem marginalise(const RegressorSystem& system, const std::vector<bool>& outliers) {
+MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers) {
   MarginalisedSystem marginalised = marginalise_rows(system, outliers);
   marginalised.g = system.g.mapped(
       [&](const auto& columns) { return marginalised.root.solve(marginalised.kept.of(columns)); });
@@ -156,7 +156,7 @@ Eigen::Index NormalEquations::position(int column) const {
 }
 
 Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
-                              const std::vector<int>& columns,
+                              const RegressorSet& columns,
                               Eigen::VectorXd squares) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double sigma = regressors[as_size(columns[i])].coefficient_sigma;
@@ -167,7 +167,7 @@ Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
 
 NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised,
-                                 std::vector<int> columns) {
+                                 RegressorSet columns) {
   NormalEquations equations;
   sort(columns);
   equations.columns = std::move(columns);

@@ -76,7 +76,7 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points rejected.
 struct MarginalisedSystem {
-  std::vector<bool> outliers;  ///< a flag for each outlier group
+  Flags outliers;  ///< a flag for each outlier group
   KeptRows kept;               ///< N rows
   CovarianceRoot root;         ///< N x N, R of V = R R
   Eigen::VectorXd e;           ///< N, R^-1 times the residual
@@ -91,12 +91,12 @@ struct MarginalisedSystem {
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
 /// For all these groups; directions count separately.
 [[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
-                                           const std::vector<bool>& outliers);
+                                           const Flags& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
-                                             const std::vector<bool>& outliers);
+                                             const Flags& outliers);
 /// The same without g.
 [[nodiscard]] MarginalisedSystem marginalise_rows(const RegressorSystem& system,
-                                                  const std::vector<bool>& outliers);
+                                                  const Flags& outliers);
 /// Length of R^-1 times a regressor's column.
 [[nodiscard]] double reduced_length(const RegressorSystem& system,
                                     const MarginalisedSystem& marginalised,
@@ -132,7 +132,7 @@ template <class One, class Other>
 
 /// Inner products of the residual and of some columns.
 struct NormalEquations {
-  std::vector<int> columns;  ///< m regressors, ascending
+  RegressorSet columns;  ///< m regressors, ascending
   double ee = 0.0;           ///< e'e
   Eigen::VectorXd ge;        ///< m, g'e
   Eigen::MatrixXd gg;        ///< m x m, g'g
@@ -144,11 +144,11 @@ struct NormalEquations {
 };
 /// NormalEquations::prior_square of columns with these squares.
 [[nodiscard]] Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
-                                            const std::vector<int>& columns,
+                                            const RegressorSet& columns,
                                             Eigen::VectorXd squares);
 [[nodiscard]] NormalEquations normal_equations(const RegressorSystem& system,
                                                const MarginalisedSystem& marginalised,
-                                               std::vector<int> columns);
+                                               RegressorSet columns);
 
 /// Kernel and size of a discrepancy, in a marginalised system.
 [[nodiscard]] Discrepancy discrepancy_of(const RegressorSystem& system,

@@ -38,14 +38,14 @@ struct Group {
 /// By the classes of the causes, and in each group by the causes. If nothing is named a pattern
 /// forms a separate group.
 std::vector<Group> groups_of(const Analysis& a) {
-  std::map<std::pair<bool, std::vector<std::size_t>>, Group> groups;
+  std::map<std::pair<bool, Indices>, Group> groups;
   const std::size_t named = a.decision.regressors.size();
   for (const CandidateModel& model : a.comparison.models) {
     if (named > 0 ? model.regressors.size() != named : model.regressors.size() > 1) continue;
     std::vector<Member> causes;
     for (const int k : model.regressors) causes.push_back(member_of(a, regressor(a, k).cause));
     sort(causes);
-    std::vector<std::size_t> classes;
+    Indices classes;
     for (const Member& cause : causes) classes.push_back(cause.first);
     const bool pattern = named == 0 && model.discrepancy >= 0;
     Group& group = groups[{pattern, std::move(classes)}];
@@ -130,7 +130,7 @@ void predict(const Analysis& a,
 }
 
 /// D over these rows, for two alternatives.
-double distance(const Alternative& k, const Alternative& l, const std::vector<Eigen::Index>& rows) {
+double distance(const Alternative& k, const Alternative& l, const Rows& rows) {
   const Eigen::VectorXd difference = k.mean(rows) - l.mean(rows);
   Eigen::MatrixXd covariance = 0.5 * (k.covariance(rows, rows) + l.covariance(rows, rows));
   covariance.diagonal().array() += 1.0;
@@ -139,7 +139,7 @@ double distance(const Alternative& k, const Alternative& l, const std::vector<Ei
 
 /// D between all alternatives.
 Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives,
-                          const std::vector<Eigen::Index>& rows) {
+                          const Rows& rows) {
   const auto count = std::ssize(alternatives);
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
   if (rows.empty()) return d;
@@ -249,7 +249,7 @@ double chance_of_all(const std::vector<Rival>& rivals) {
 }  // namespace
 
 ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
-                                               const std::vector<Eigen::Index>& rows) {
+                                               const Rows& rows) {
   const Eigen::MatrixXd d = distances(alternatives, rows);
   const auto groups = groups_in(alternatives);
   const auto p = [&](Eigen::Index k) { return alternatives[as_size(k)].probability; };

@@ -38,7 +38,7 @@ namespace chaintrue::grid::diagnosis {
 
 struct Alternative {
   std::size_t group = 0;
-  std::vector<int> regressors;
+  RegressorSet regressors;
   int discrepancy = -1;      ///< with them, as in the most probable model of these causes
   double probability = 0.0;  ///< their sum over all alternatives is 1
   Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
@@ -72,6 +72,6 @@ struct ExpectedDiscrimination {
 };
 /// With these rows measured.
 [[nodiscard]] ExpectedDiscrimination expected_discrimination(
-    const std::vector<Alternative>& alternatives, const std::vector<Eigen::Index>& rows);
+    const std::vector<Alternative>& alternatives, const Rows& rows);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -215,7 +215,7 @@ Cause describe(const Analysis& a, std::size_t index) {
   cause.cause = members.front();
   cause.probability = marginal(a, index);
   // Other named causes stay in the model; rivals of a set are each fitted alone.
-  std::vector<int> others;
+  RegressorSet others;
   for (const int k : a.decision.regressors) {
     const CauseId& acting = regressor(a, k).cause;
     const bool several = a.decision.verdict == Verdict::several_causes;
@@ -225,7 +225,7 @@ Cause describe(const Analysis& a, std::size_t index) {
   }
   for (const CauseId& member : members) {
     const int column = best_regressor(a, member);
-    std::vector<int> set = others;
+    RegressorSet set = others;
     set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
@@ -319,7 +319,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
         result.push_back({cause, std::string(size.name), 0.0});
       continue;
     }
-    std::vector<int> set = a.decision.regressors;
+    RegressorSet set = a.decision.regressors;
     if (!contains(set, column)) set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
@@ -403,7 +403,7 @@ Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemU
 }  // namespace
 
 std::vector<Outlier> outliers_found(const Analysis& a) {
-  std::vector<bool> outliers = marginalised_system(a).outliers;
+  Flags outliers = marginalised_system(a).outliers;
   // A miscounted link is an outlier with a name.
   reject_slips(a, outliers);
   std::vector<Outlier> result;

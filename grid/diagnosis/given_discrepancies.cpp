@@ -27,7 +27,7 @@ class Scout {
  public:
   Scout(const RegressorSystem& system,
         const NormalEquations& plain,
-        const std::vector<std::vector<int>>& best_models,
+        const std::vector<RegressorSet>& best_models,
         const ModelCollector& collector)
       : system_(system), plain_(plain), best_models_(best_models), collector_(collector) {
     for (const int k : plain.columns) {
@@ -54,11 +54,11 @@ class Scout {
     if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
     result.singles = std::move(all);
     if (best_models_.empty()) return result;
-    std::vector<int> columns;
-    for (const std::vector<int>& set : best_models_) append_all(columns, set);
+    RegressorSet columns;
+    for (const RegressorSet& set : best_models_) append_all(columns, set);
     sort_unique(columns);
     const NormalEquations equations = given.equations(family().strength_of(discrepancy), columns);
-    for (const std::vector<int>& set : best_models_) {
+    for (const RegressorSet& set : best_models_) {
       result.weight = std::max(result.weight, together(equations, discrepancy, set));
     }
     return result;
@@ -84,7 +84,7 @@ class Scout {
 
   [[nodiscard]] double together(const NormalEquations& equations,
                                 int discrepancy,
-                                const std::vector<int>& set) const {
+                                const RegressorSet& set) const {
     ColumnSet all;
     for (const int k : set) all.push_back(equations.position(k));
     return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
@@ -93,7 +93,7 @@ class Scout {
 
   const RegressorSystem& system_;
   const NormalEquations& plain_;
-  const std::vector<std::vector<int>>& best_models_;
+  const std::vector<RegressorSet>& best_models_;
   const ModelCollector& collector_;
   std::vector<double> prior_;
   double prior_of_nothing_ = 0.0;
@@ -113,14 +113,14 @@ class GivenDiscrepancySearch {
         limits_(limits),
         collector_(collector) {}
 
-  void run(const std::vector<int>& singles, const std::vector<std::vector<int>>& best_models) {
+  void run(const RegressorSet& singles, const std::vector<RegressorSet>& best_models) {
     consider({});
     std::vector<WeighedSet> parents;
     for (const int k : singles) {
       const ColumnSet set = {equations_.position(k)};
       parents.push_back({consider(set), set});
     }
-    for (const std::vector<int>& regressors : best_models) {
+    for (const RegressorSet& regressors : best_models) {
       ColumnSet set;
       for (const int k : regressors) set.push_back(equations_.position(k));
       if (known_.contains(set)) continue;
@@ -186,9 +186,9 @@ class PlacesOfCauses {
 };
 
 /// Only the best places of each cause.
-std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scouted) {
+RegressorSet worth_trying(const RegressorSystem& system, const Scouted& scouted) {
   PlacesOfCauses places(system, 2);
-  std::vector<int> result;
+  RegressorSet result;
   for (const auto& [weight, k] : scouted.singles) {
     if (weight < scouted.weight - kNegligibleModel) break;
     if (places.takes(k, weight)) result.push_back(k);
@@ -197,9 +197,9 @@ std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scou
 }
 
 /// The best places of each cause alone, and all leading ones.
-std::vector<int> columns_to_scout(const RegressorSystem& system,
+RegressorSet columns_to_scout(const RegressorSystem& system,
                                   const NormalEquations& plain,
-                                  const std::vector<std::vector<int>>& best_models) {
+                                  const std::vector<RegressorSet>& best_models) {
   PlacesOfCauses places(system, 4);
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < plain.columns.size(); ++k) {
@@ -210,7 +210,7 @@ std::vector<int> columns_to_scout(const RegressorSystem& system,
     order.emplace_back(-gain, plain.columns[k]);
   }
   sort(order);
-  std::vector<int> result;
+  RegressorSet result;
   for (const auto& [gain, k] : order) {
     if (places.takes(k, gain)) result.push_back(k);
   }
@@ -237,7 +237,7 @@ std::vector<double> search_all_by_beam(const RegressorSystem& system,
                                        DiscrepancyBasis& basis,
                                        const SearchLimits& limits,
                                        const NormalEquations& plain,
-                                       const std::vector<std::size_t>& kernels,
+                                       const Indices& kernels,
                                        ModelCollector& collector) {
   const DiscrepancyFamily& family = *system.discrepancies;
   const std::size_t strengths = family.strengths.size();
@@ -262,8 +262,8 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
                                                 MarginalisedSystem& marginalised,
                                                 const ComparisonOptions& options,
                                                 const NormalEquations& plain,
-                                                const std::vector<std::vector<int>>& best_models,
-                                                const std::vector<std::size_t>& kernels,
+                                                const std::vector<RegressorSet>& best_models,
+                                                const Indices& kernels,
                                                 ModelCollector& collector) {
   DiscrepancyBasis basis(system, marginalised, kernels);
   if (options.search.of_a_cause > 0)
@@ -290,10 +290,10 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
     const std::size_t kernel = family.kernel_of(discrepancy);
     if (!all_columns.contains(kernel)) all_columns.emplace(kernel, basis.given(kernel, plain));
     const DiscrepancyBasis::GivenKernel& given = all_columns.at(kernel);
-    const std::vector<int> singles =
+    const RegressorSet singles =
         options.given_cause ? plain.columns
                      : worth_trying(system, closer_look.look_at(given, discrepancy));
-    std::vector<int> used = singles;
+    RegressorSet used = singles;
     for (const auto& set : best_models) append_all(used, set);
     sort_unique(used);
     GivenDiscrepancySearch(system,

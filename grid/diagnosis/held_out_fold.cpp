@@ -29,10 +29,10 @@ class FoldErrors {
         marginalised_(marginalise_rows(
             a_.system, comparison_.marginalised_systems[decision.marginalised].outliers)) {}
 
-  [[nodiscard]] Errors at(const std::vector<std::size_t>& units) const {
-    const std::vector<int>& all = a_.decision.regressors;
+  [[nodiscard]] Errors at(const Indices& units) const {
+    const RegressorSet& all = a_.decision.regressors;
     std::map<int, std::shared_ptr<const DiscrepancyNoise>> noise;
-    const auto with = [&](const MarginalisedSystem& marginalised, const std::vector<int>& causes) {
+    const auto with = [&](const MarginalisedSystem& marginalised, const RegressorSet& causes) {
       const int discrepancy = preferred_discrepancy(causes);
       const auto [known, is_new] = noise.try_emplace(discrepancy);
       if (is_new) known->second = discrepancy_noise(a_.system, marginalised_, discrepancy);
@@ -49,7 +49,7 @@ class FoldErrors {
  private:
   /// The discrepancy preferred given these causes, or none. If the comparison contains no model of
   /// these causes, the best model's is used.
-  [[nodiscard]] int preferred_discrepancy(const std::vector<int>& regressors) const {
+  [[nodiscard]] int preferred_discrepancy(const RegressorSet& regressors) const {
     for (const CandidateModel& model : comparison_.models) {
       if (model.regressors == regressors && model.marginalised == decision_.marginalised)
         return model.discrepancy;
@@ -58,7 +58,7 @@ class FoldErrors {
   }
 
   /// The model's residual without its discrepancy.
-  [[nodiscard]] std::vector<Eigen::Vector2d> left_at(const std::vector<std::size_t>& units,
+  [[nodiscard]] std::vector<Eigen::Vector2d> left_at(const Indices& units,
                                                      const Estimate& model) const {
     const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_given_discrepancy);
     std::vector<Eigen::Vector2d> result;
@@ -132,9 +132,9 @@ ExpectedImprovement improvement_of_distances(const Analysis& a) {
 
 DecidedWithout decided_without(const Analysis& a,
                                const Downdating& downdating,
-                               const std::vector<std::size_t>& units) {
+                               const Indices& units) {
   DecidedWithout result{downdating.without(units), {}};
-  std::vector<bool> excluded(a.session.units.size(), false);
+  Flags excluded(a.session.units.size(), false);
   for (const std::size_t u : units) excluded[u] = true;
   const bool detected =
       a.options.given_cause.has_value() || a.null.p_value(result.models.score) < kFalseAlarm;
@@ -146,11 +146,11 @@ DecidedWithout decided_without(const Analysis& a,
 HeldOutFolds::HeldOutFolds(const Analysis& analysis)
     : analysis_(analysis), downdating_(analysis.system, analysis.comparison) {}
 
-Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
+Fold HeldOutFolds::without(const Indices& units) const {
   const Analysis& a = analysis_;
   const auto [without, decision] = decided_without(a, downdating_, units);
   // A reading that is wrong only at its own visit carries no information about others.
-  std::vector<bool> out = marginalised_system(a).outliers;
+  Flags out = marginalised_system(a).outliers;
   reject_slips(a, out);
   Fold fold;
   for (const std::size_t u : units) {
@@ -166,7 +166,7 @@ namespace {
 /// Blocks of the bed over all marks with chain readings; none if there are too few.
 HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   std::vector<LengthPoint> points;
-  std::vector<std::size_t> units;
+  Indices units;
   for (const auto& [part, readings] : parts_of<observation::ChainLengthReadings>(session)) {
     for (std::size_t i = 0; i < readings->places().size(); ++i) {
       const NumberedPlace& place = session.places[part->first_place + i];
@@ -215,7 +215,7 @@ HeldOutBlocks held_out_blocks(const ObservationSet& session) {
 }
 
 MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& marginalised) {
-  std::vector<bool> outliers = marginalised.outliers;
+  Flags outliers = marginalised.outliers;
   reject_slips(a, outliers);
   return outliers == marginalised.outliers ? marginalised : marginalise_rows(a.system, outliers);
 }
@@ -225,7 +225,7 @@ ExpectedImprovement expected_improvement(const Analysis& a) {
   const ObservationSet area = hangs_on_visits(a) ? a.session : over_the_area(a);
   const auto there = linearise(area, a.state);
   if (!there || area.units.empty()) return {};
-  const std::vector<int>& causes = a.decision.regressors;
+  const RegressorSet& causes = a.decision.regressors;
   const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
   const Estimate named = estimate_of(a, causes);
   const Eigen::Index settings = a.system.by_setting.cols();

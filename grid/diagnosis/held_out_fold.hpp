@@ -44,7 +44,7 @@ struct DecidedWithout {
 };
 [[nodiscard]] DecidedWithout decided_without(const Analysis& analysis,
                                              const Downdating& downdating,
-                                             const std::vector<std::size_t>& units);
+                                             const Indices& units);
 
 /// Errors of the tool in mm with some causes, without a surface and with one.
 struct ErrorsWith {
@@ -59,7 +59,7 @@ struct Errors {
 
 /// Held-out units of one fold.
 struct Fold {
-  std::vector<std::size_t> units;
+  Indices units;
   Errors errors;
   std::vector<CauseId> named;
 };
@@ -72,7 +72,7 @@ class HeldOutFolds {
   /// \param units of the analysis' session, left out of everything. The gate and the decision are
   /// those for all units; the models are those of the whole comparison, weighed without these units
   /// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
-  [[nodiscard]] Fold without(const std::vector<std::size_t>& units) const;
+  [[nodiscard]] Fold without(const Indices& units) const;
 
  private:
   const Analysis& analysis_;
@@ -81,7 +81,7 @@ class HeldOutFolds {
 
 /// Groups of units that are held out together.
 struct HeldOutBlocks {
-  std::vector<std::vector<std::size_t>> units;  ///< empty if there are too few units
+  std::vector<Indices> units;  ///< empty if there are too few units
   bool of_the_bed = false;                      ///< or each hole with all distances that end there
 };
 

@@ -24,7 +24,7 @@ bool names_agree(const Fold& fold, const Analysis& a) {
 }
 
 /// Root mean square of a reading's noise at the tool.
-double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
+double noise_floor(const Analysis& a, const Indices& units) {
   double sum = 0.0;
   for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
   return std::sqrt(a.estimate.noise_square * sum / as_double(units.size()));
@@ -35,7 +35,7 @@ struct BeforeCalibration {
   std::vector<Eigen::Vector2d> as_stated, placed;
 };
 
-BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::size_t>& units) {
+BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
   BeforeCalibration result;
   const ObservationSet& session = a.session;
   const auto stated = linearise(session, stated_state(session));
@@ -88,8 +88,8 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
 
 /// The held-out errors of every fold.
 struct AllFolds {
-  std::vector<std::size_t> units;
-  std::vector<std::size_t> number;  ///< of the block of each
+  Indices units;
+  Indices number;  ///< of the block of each
   Errors errors;
   int agree = 0;
 };
@@ -129,7 +129,7 @@ std::string scheme_of(const ObservationSet& session,
 }  // namespace
 
 HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
-                  const std::vector<std::size_t>& block,
+                  const Indices& block,
                   std::uint64_t seed) {
   HeldOut result;
   if (tool_mm.empty()) return result;

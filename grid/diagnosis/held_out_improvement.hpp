@@ -26,7 +26,7 @@ namespace chaintrue::grid::diagnosis {
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over
 /// resampled blocks. `block` numbers the block of each error.
 [[nodiscard]] HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
-                                const std::vector<std::size_t>& block,
+                                const Indices& block,
                                 std::uint64_t seed);
 
 /// The errors of the machine as it was delivered. For a place with a command they are commanded

@@ -30,7 +30,7 @@ void reject(const OutlierGroup& group, Rejected& unit) {
 }
 
 std::vector<Rejected> rejected_units(const RegressorSystem& system,
-                                     const std::vector<bool>& rejected) {
+                                     const Flags& rejected) {
   std::vector<Rejected> units(system.units.size());
   if (system.groups.empty()) {
     for (std::size_t u = 0; u < units.size(); ++u) units[u].whole = rejected[u];
@@ -46,7 +46,7 @@ std::vector<Rejected> rejected_units(const RegressorSystem& system,
 
 }  // namespace
 
-KeptRows::KeptRows(const RegressorSystem& system, const std::vector<bool>& rejected) {
+KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) {
   const std::vector<Rejected> of_unit = rejected_units(system, rejected);
   for (Eigen::Index row = 0; row < system.e.size(); ++row) {
     const int number = system.unit_of_row[index(row)];
@@ -72,8 +72,8 @@ KeptRows KeptRows::all(const RegressorSystem& system) {
   return {system, nothing_rejected(system)};
 }
 
-std::vector<Eigen::Index> KeptRows::positions(const std::vector<std::size_t>& units) const {
-  std::vector<Eigen::Index> result;
+Rows KeptRows::positions(const Indices& units) const {
+  Rows result;
   for (const Unit& unit : units_) {
     if (!contains(units, unit.unit)) continue;
     for (Eigen::Index k = 0; k < unit.rows; ++k) result.push_back(unit.at + k);

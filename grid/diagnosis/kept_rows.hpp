@@ -17,8 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
+#include "grid/diagnosis/regressor_columns.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -36,16 +35,16 @@ class KeptRows {
 
   KeptRows() = default;
   /// `rejected`: a flag for each outlier group of the system (regressor_system.hpp).
-  KeptRows(const RegressorSystem& system, const std::vector<bool>& rejected);
+  KeptRows(const RegressorSystem& system, const Flags& rejected);
   [[nodiscard]] static KeptRows all(const RegressorSystem& system);
 
   [[nodiscard]] Eigen::Index size() const { return std::ssize(rows_); }
   /// Numbers in the system, ascending; a row across a direction has the number of its unit's first
   /// row.
-  [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
+  [[nodiscard]] const Rows& rows() const { return rows_; }
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
   /// Positions of the rows that belong to these units.
-  [[nodiscard]] std::vector<Eigen::Index> positions(const std::vector<std::size_t>& units) const;
+  [[nodiscard]] Rows positions(const Indices& units) const;
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
@@ -56,7 +55,7 @@ class KeptRows {
 
  private:
   static std::size_t index(Eigen::Index row) { return as_size(row); }
-  std::vector<Eigen::Index> rows_;
+  Rows rows_;
   std::vector<Unit> units_;
 };
 

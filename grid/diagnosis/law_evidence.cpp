@@ -25,15 +25,15 @@ constexpr Eigen::Index kChunk = 64;  // columns at once, so that their products 
 constexpr int kFiner = 4;            // points between two of a grid, at each of two refinements
 
 /// Nothing, the comparison's leading sets, and these without one of their causes.
-std::vector<std::vector<int>> leading_sets(const Analysis& a) {
-  std::map<std::vector<int>, double> weight;
+std::vector<RegressorSet> leading_sets(const Analysis& a) {
+  std::map<RegressorSet, double> weight;
   for (const CandidateModel& model : a.comparison.models)
     weight[model.regressors] += a.comparison.probability(model);
-  std::vector<std::pair<double, std::vector<int>>> order;
+  std::vector<std::pair<double, RegressorSet>> order;
   for (const auto& [set, own] : weight) order.emplace_back(-own, set);
   sort(order);
-  std::vector<std::vector<int>> sets = {{}};
-  const auto add = [&](const std::vector<int>& set) {
+  std::vector<RegressorSet> sets = {{}};
+  const auto add = [&](const RegressorSet& set) {
     if (sets.size() < kMostSets && !contains(sets, set)) sets.push_back(set);
   };
   constexpr double kHardly = 0.01;
@@ -41,7 +41,7 @@ std::vector<std::vector<int>> leading_sets(const Analysis& a) {
     if (-minus < kHardly) break;
     add(set);
     for (std::size_t k = 0; set.size() > 1 && k < set.size(); ++k) {
-      std::vector<int> fewer = set;
+      RegressorSet fewer = set;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
       add(fewer);
     }
@@ -103,7 +103,7 @@ class LawSearch {
   /// Nothing, the leading sets, and the best two kernels.
   void choose_first(const std::vector<std::pair<double, LawContext>>& all) {
     first_ = {{0, -1}};
-    std::vector<std::size_t> kernels;
+    Indices kernels;
     for (const auto& [minus, context] : all) {
       if (first_.size() == kFirstContexts) break;
       if (context == first_.front()) continue;
@@ -133,7 +133,7 @@ class LawSearch {
       for (const LawContext& context : first_) {
         const NormalEquations equations = system_.equations(context.discrepancy);
         for (std::size_t k = 0; k < own.size(); ++k) {
-          const std::vector<Eigen::Index> at = columns_at(k, each);
+          const ColumnSet at = columns_at(k, each);
           if (!shows(columns, at)) continue;
           terms[k].push_back(system_.log_weight(equations, context, at));
         }
@@ -144,15 +144,15 @@ class LawSearch {
     return points;
   }
 
-  static std::vector<Eigen::Index> columns_at(std::size_t k, Eigen::Index each) {
-    std::vector<Eigen::Index> at;
+  static ColumnSet columns_at(std::size_t k, Eigen::Index each) {
+    ColumnSet at;
     for (Eigen::Index i = 0; i < each; ++i) at.push_back(as_index(k) * each + i);
     return at;
   }
 
   /// A larger law at its usual strength would be visible without a measurement: the settings absorb
   /// nearly all of it.
-  static bool shows(const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& at) {
+  static bool shows(const Eigen::MatrixXd& columns, const ColumnSet& at) {
     constexpr double kLargestMm = 6.0;
     for (const Eigen::Index k : at) {
       if (columns.col(k).norm() * kLargestMm < kUsualSignalToNoise) return false;
@@ -228,7 +228,7 @@ class LawSearch {
   struct Chosen {
     std::size_t curve = 0;
     std::size_t point = 0;
-    std::vector<Eigen::Index> columns;
+    ColumnSet columns;
     double log_prior = 0.0;
     double first_weight = 0.0;
   };
@@ -346,14 +346,14 @@ class LawSearch {
     return laws;
   }
 
-  std::vector<std::vector<int>> sets_;
+  std::vector<RegressorSet> sets_;
   LawSystem system_;
   std::vector<LawCurve> curves_;
   double log_without_ = 0.0;
   std::vector<LawContext> first_;    ///< of the first look
   std::vector<LawContext> without_;  ///< that lead without a law
   std::vector<std::vector<LawPoint>> points_;
-  std::vector<std::size_t> leading_;
+  Indices leading_;
 };
 
 }  // namespace

@@ -30,7 +30,7 @@ class LawModel {
   /// `regressors` of the system; `discrepancy` -1 for none. Both arguments must outlive this.
   LawModel(const Analysis& a,
            const MarginalisedSystem& marginalised,
-           const std::vector<int>& regressors,
+           const RegressorSet& regressors,
            int discrepancy)
       : system_(a.system), marginalised_(marginalised), dof_(a.system.noise_dof) {
     const KeptRows& kept = marginalised.kept;
@@ -141,7 +141,7 @@ class LawModel {
           left;  ///< of those left out: the difference from the prediction by the others
     };
     /// By their positions.
-    [[nodiscard]] Without without(const std::vector<Eigen::Index>& rows) const {
+    [[nodiscard]] Without without(const Rows& rows) const {
       const linear::Cholesky block(precision_(rows, rows));
       const Eigen::VectorXd weighed = weighed_(rows);
       Without result{0.0, block.solve(weighed)};

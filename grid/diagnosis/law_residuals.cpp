@@ -75,14 +75,12 @@ const Law* claimed_law(const Diagnosis& d) {
 
 namespace {
 
-using Units = std::vector<std::size_t>;
-using Rows = std::vector<Eigen::Index>;
 
 constexpr std::size_t kFolds = 4;
 /// Number of values of a place or period that a part may choose from.
 constexpr std::size_t kMostValues = 5;
 
-bool has(const Units& units, std::size_t unit) { return contains(units, unit); }
+bool has(const Indices& units, std::size_t unit) { return contains(units, unit); }
 
 /// Distances between holes.
 bool joins_places(const RegressorSystem& system) {
@@ -90,8 +88,8 @@ bool joins_places(const RegressorSystem& system) {
 }
 
 /// Every fourth place.
-std::vector<Units> folds(const RegressorSystem& system, const KeptRows& kept) {
-  std::vector<Units> result(kFolds);
+std::vector<Indices> folds(const RegressorSystem& system, const KeptRows& kept) {
+  std::vector<Indices> result(kFolds);
   if (!joins_places(system)) {
     for (std::size_t k = 0; k < kept.units().size(); ++k)
       result[k % kFolds].push_back(kept.units()[k].unit);
@@ -108,7 +106,7 @@ std::vector<Units> folds(const RegressorSystem& system, const KeptRows& kept) {
 }
 
 /// A quarter of the places, those farthest towards a direction.
-Units quarter_of_places(const RegressorSystem& system, const KeptRows& kept, double towards_rad) {
+Indices quarter_of_places(const RegressorSystem& system, const KeptRows& kept, double towards_rad) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t p = 0; p < system.places.size(); ++p) {
     const model::MarkPoint& mark = system.places[p].mark;
@@ -116,7 +114,7 @@ Units quarter_of_places(const RegressorSystem& system, const KeptRows& kept, dou
   }
   sort(order);
   order.resize(order.size() / 4);
-  Units units;
+  Indices units;
   for (const KeptRows::Unit& unit : kept.units()) {
     const auto& places = system.units[unit.unit].places;
     if (any_of(places, [&](const auto& own) {
@@ -143,11 +141,11 @@ class Predictor {
   }
 
   /// Root mean square over all parts.
-  LawHeldOut::Errors errors(const std::vector<Units>& parts) const {
+  LawHeldOut::Errors errors(const std::vector<Indices>& parts) const {
     double without = 0.0;
     double with = 0.0;
     double count = 0.0;
-    for (const Units& left_out : parts) {
+    for (const Indices& left_out : parts) {
       const Rows out = kept_.positions(left_out);
       // No prediction for a part that was rejected, or that is everything.
       if (out.empty() || std::ssize(out) == kept_.size()) continue;
@@ -167,7 +165,7 @@ class Predictor {
     return *max_element(all, ascending(&LawModel::Downdated::Without::log_density));
   }
 
-  double square_mm2(const Eigen::VectorXd& wrong, const Units& units) const {
+  double square_mm2(const Eigen::VectorXd& wrong, const Indices& units) const {
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
     Eigen::Index at = 0;
     for (const KeptRows::Unit& unit : kept_.units()) {
@@ -195,7 +193,7 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a,
   if (quarters.empty()) return std::nullopt;
   const Predictor predictor(a, evidence, law);
   const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
-  std::vector<Units> parts;
+  std::vector<Indices> parts;
   for (const BedPart& quarter : quarters) {
     parts.push_back(joins_places(a.system) ? quarter_of_places(a.system, kept, quarter.towards_rad)
                                            : quarter.units);
@@ -206,7 +204,7 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a,
 double rms_of_units_mm(const RegressorSystem& system,
                        const KeptRows& kept,
                        const Eigen::VectorXd& rows,
-                       const std::vector<std::size_t>& units) {
+                       const Indices& units) {
   double sum = 0.0;
   double count = 0.0;
   for (const KeptRows::Unit& unit : kept.units()) {

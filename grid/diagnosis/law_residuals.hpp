@@ -39,7 +39,7 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] double rms_of_units_mm(const RegressorSystem& system,
                                      const KeptRows& kept,
                                      const Eigen::VectorXd& rows,
-                                     const std::vector<std::size_t>& units = {});
+                                     const Indices& units = {});
 
 /// The probability of a law averaged over parts of the bed, as that of causes given a pattern is
 /// (bed_parts.hpp): a real pattern follows no law exactly, and a slightly wrong likelihood gives

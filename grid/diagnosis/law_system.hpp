@@ -42,17 +42,17 @@ class LawSystem {
  public:
   /// `number` of one of the comparison's marginalised systems; `sets` of the system's regressors. The
   /// analysis must outlive this.
-  LawSystem(const Analysis& a, std::size_t number, const std::vector<std::vector<int>>& sets)
+  LawSystem(const Analysis& a, std::size_t number, const std::vector<RegressorSet>& sets)
       : from_(a.system),
         marginalised_(a.comparison.marginalised_systems[number]),
         noise_(a.system.noise_dof, marginalised_.kept.size()),
         columns_(a.system) {
     std::set<int> used;
     for (const auto& set : sets) used.insert(set.begin(), set.end());
-    const std::vector<int> all(used.begin(), used.end());
+    const RegressorSet all(used.begin(), used.end());
     causes_ = marginalised_.g.dense(all);
     for (const auto& set : sets) {
-      std::vector<Eigen::Index> at;
+      ColumnSet at;
       for (const int k : set)
         at.push_back(std::lower_bound(all.begin(), all.end(), k) - all.begin());
       sets_.push_back(std::move(at));
@@ -106,7 +106,7 @@ class LawSystem {
   /// Log prior and evidence of a context with some of the laws' columns; without the laws' prior.
   [[nodiscard]] double log_weight(const NormalEquations& equations,
                                   const LawContext& context,
-                                  const std::vector<Eigen::Index>& laws) const {
+                                  const ColumnSet& laws) const {
     const Priors& priors = log_prior_[context.set];
     const bool given = context.discrepancy >= 0;
     const double prior =
@@ -118,8 +118,8 @@ class LawSystem {
 
   [[nodiscard]] LawAmplitudes amplitudes(const NormalEquations& equations,
                                          const LawContext& context,
-                                         const std::vector<Eigen::Index>& laws) const {
-    const std::vector<Eigen::Index> all = all_columns(context, laws);
+                                         const ColumnSet& laws) const {
+    const ColumnSet all = all_columns(context, laws);
     Eigen::MatrixXd a = equations.gg(all, all);
     const Eigen::VectorXd prior = equations.prior_square(all);
     a.diagonal() += prior / (kWideSignalToNoise * kWideSignalToNoise);
@@ -137,9 +137,9 @@ class LawSystem {
 
  private:
   /// Columns in a context: of its causes and of some laws.
-  [[nodiscard]] std::vector<Eigen::Index> all_columns(const LawContext& context,
-                                                      const std::vector<Eigen::Index>& laws) const {
-    std::vector<Eigen::Index> all = sets_[context.set];
+  [[nodiscard]] ColumnSet all_columns(const LawContext& context,
+                                                      const ColumnSet& laws) const {
+    ColumnSet all = sets_[context.set];
     for (const Eigen::Index k : laws) all.push_back(causes_.cols() + k);
     return all;
   }
@@ -155,7 +155,7 @@ class LawSystem {
   RegressorSystem own_;
   Eigen::MatrixXd causes_;
   std::vector<Regressor> cause_regressors_;
-  std::vector<std::vector<Eigen::Index>> sets_;
+  std::vector<ColumnSet> sets_;
   std::vector<Priors> log_prior_;
   std::optional<DiscrepancyBasis> basis_;
   NormalEquations plain_;  ///< the basis refers to them

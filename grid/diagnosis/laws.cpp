@@ -212,12 +212,12 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
 
 /// Systems of the best model and of the one that rejects least: a law at the border looks like bad
 /// points there.
-std::vector<std::size_t> systems_to_weigh(const ModelComparison& comparison) {
+Indices systems_to_weigh(const ModelComparison& comparison) {
   const auto rejected = [&](std::size_t k) {
-    const std::vector<bool>& outliers = comparison.marginalised_systems[k].outliers;
+    const Flags& outliers = comparison.marginalised_systems[k].outliers;
     return std::count(outliers.begin(), outliers.end(), true);
   };
-  std::vector<std::size_t> numbers = {comparison.best().marginalised};
+  Indices numbers = {comparison.best().marginalised};
   std::size_t fewest = numbers.front();
   for (std::size_t k = 0; k < comparison.marginalised_systems.size(); ++k) {
     if (rejected(k) < rejected(fewest)) fewest = k;
@@ -280,7 +280,7 @@ LawsFound laws_found(const Analysis& a) {
     });
   }
   if (curves.empty()) return {};
-  const std::vector<std::size_t> systems = systems_to_weigh(a.comparison);
+  const Indices systems = systems_to_weigh(a.comparison);
   std::vector<LawEvidence> evidence(systems.size());
   for_each_index(systems.size(),
                  [&](std::size_t k) { evidence[k] = weigh_laws(a, systems[k], curves); });

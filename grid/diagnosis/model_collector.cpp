@@ -85,7 +85,7 @@ bool ModelCollector::keeps(std::size_t size, int discrepancy, double weight) con
   return weight > best_ - kNegligibleModel || asked_for;
 }
 
-double ModelCollector::log_prior_of(const std::vector<int>& regressors, int discrepancy) const {
+double ModelCollector::log_prior_of(const RegressorSet& regressors, int discrepancy) const {
   double value = marginalised_.log_outliers + log_prior(system_, regressors, discrepancy >= 0);
   if (discrepancy >= 0) value += system_.discrepancies->log_share_of(discrepancy);
   return value;
@@ -136,7 +136,7 @@ void search_by_beam(const RegressorSystem& system,
         const Regressor& own = system.regressor(equations.columns[as_size(i)]);
         const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
         if (is_new) {
-          std::vector<int> regressors = {equations.columns[as_size(i)]};
+          RegressorSet regressors = {equations.columns[as_size(i)]};
           for (const Eigen::Index other : parent.set) regressors.push_back(equations.columns[as_size(other)]);
           known->second = collector.log_prior_of(regressors, discrepancy) - own.log_prior;
         }

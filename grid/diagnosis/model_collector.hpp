@@ -10,8 +10,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Positions in the normal equations.
-using ColumnSet = std::vector<Eigen::Index>;
 struct WeighedSet {
   double weight = 0.0;
   ColumnSet set;
@@ -43,7 +41,7 @@ class ModelCollector {
   /// Whether a set of so many causes with this weight is relevant.
   [[nodiscard]] bool keeps(std::size_t size, int discrepancy, double weight) const;
   /// Log prior of a set with a discrepancy or none, including the discrepancy's share and the rejected points.
-  [[nodiscard]] double log_prior_of(const std::vector<int>& regressors, int discrepancy) const;
+  [[nodiscard]] double log_prior_of(const RegressorSet& regressors, int discrepancy) const;
 
   [[nodiscard]] double best() const { return best_; }
   [[nodiscard]] const NoiseDensity& noise() const { return noise_; }
@@ -81,8 +79,8 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
                                                 MarginalisedSystem& marginalised,
                                                 const ComparisonOptions& options,
                                                 const NormalEquations& plain,
-                                                const std::vector<std::vector<int>>& best_models,
-                                                const std::vector<std::size_t>& kernels,
+                                                const std::vector<RegressorSet>& best_models,
+                                                const Indices& kernels,
                                                 ModelCollector& collector);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -26,13 +26,13 @@ double prior_of_count(std::size_t causes, double odds) {
 }
 
 /// No cause, and each cause alone at its best place.
-std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
-                                               const std::vector<bool>& excluded,
+std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system,
+                                               const Flags& excluded,
                                                const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   const NoiseDensity noise(system.noise_dof, marginalised.kept.size());
   const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e);
-  std::vector<std::vector<int>> hypotheses = {{}};
+  std::vector<RegressorSet> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
     if (options.given_cause && !(scores.causes[k] == *options.given_cause)) continue;
     if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
@@ -63,7 +63,7 @@ void sort_by_weight(ModelComparison& comparison) {
   comparison.log_total = log_sum(weights);
 }
 
-double log_prior(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
+double log_prior(const RegressorSystem& system, const RegressorSet& set, bool discrepancy) {
   std::size_t lasting = 0, expected = 0;
   double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
   for (const int k : set) {
@@ -80,7 +80,7 @@ double log_prior(const RegressorSystem& system, const std::vector<int>& set, boo
   return value + std::log(prior_of_count(lasting, odds)) + std::lgamma(1.0 + as_double(lasting));
 }
 
-double log_odds_of_another(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
+double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set, bool discrepancy) {
   const auto lasting = as_size(std::count_if(set.begin(), set.end(), [&](int k) {
     const Regressor& d = system.regressor(k);
     return !d.expected && !d.slip;
@@ -138,15 +138,15 @@ namespace {
 
 /// The best model's outliers that are off by a whole number of links: each set of outliers is tried
 /// again without one of them.
-std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
-                                                  const std::vector<bool>& excluded,
+std::vector<Flags> sets_without_links(const RegressorSystem& system,
+                                                  const Flags& excluded,
                                                   const ModelComparison& comparison) {
   // A rejected direction is not a whole reading that is off by links.
   if (!system.groups.empty()) return {};
   const CandidateModel& best = comparison.best();
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
   const Estimate fitted = estimate(system, marginalised, best.regressors, -1);
-  std::vector<std::vector<bool>> result;
+  std::vector<Flags> result;
   for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
     if (!marginalised.outliers[i] || excluded[i]) continue;
     const SystemUnit& unit = system.units[i];
@@ -158,7 +158,7 @@ std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
               (unit.segment(fitted.left) - g).squaredNorm() < kLinksAlike * fitted.noise_square;
     }
     if (!links) continue;
-    std::vector<bool> without = marginalised.outliers;
+    Flags without = marginalised.outliers;
     without[i] = false;
     const bool known = any_of(comparison.marginalised_systems,
                               [&](const MarginalisedSystem& s) { return s.outliers == without; });
@@ -167,13 +167,13 @@ std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
   return result;
 }
 
-std::vector<std::size_t> all_kernels(const RegressorSystem& system) {
+Indices all_kernels(const RegressorSystem& system) {
   auto all = numbers_below(system.discrepancies->kernels.size());
   return all;
 }
 
 /// Heaviest first; untried ones keep their order.
-std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
+Indices by_weight(const Indices& kernels,
                                    const std::vector<double>& weight) {
   auto order = numbers_below(kernels.size());
   stable_sort(order, [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
@@ -184,13 +184,13 @@ std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
 class Comparer {
  public:
   Comparer(const RegressorSystem& system,
-           const std::vector<bool>& excluded,
+           const Flags& excluded,
            const ComparisonOptions& options)
       : system_(system), excluded_(excluded), options_(options) {
     comparison_.marginalised_systems.reserve(kMostOutlierSets);
   }
 
-  void compare_with(const std::vector<std::vector<bool>>& sets) {
+  void compare_with(const std::vector<Flags>& sets) {
     std::vector<SetSearch> searches;
     double best = kMinusInfinity;
     for (const auto& outliers : sets) {
@@ -234,7 +234,7 @@ class Comparer {
   void look_alongside(SetSearch& search) {
     const bool first = comparison_.kernels.empty();
     const bool all_again = options_.search.of_a_cause > 0;
-    const std::vector<std::size_t> kernels = !first && !all_again ? best_kernels(comparison_)
+    const Indices kernels = !first && !all_again ? best_kernels(comparison_)
                                              : !options_.kernels.empty() ? options_.kernels
                                                                          : all_kernels(system_);
     std::vector<double> weight;
@@ -243,21 +243,21 @@ class Comparer {
   }
 
   const RegressorSystem& system_;
-  const std::vector<bool>& excluded_;
+  const Flags& excluded_;
   const ComparisonOptions& options_;
   ModelComparison comparison_;
 };
 
 }  // namespace
 
-std::vector<std::size_t> best_kernels(const ModelComparison& comparison) {
-  std::vector<std::size_t> likeliest = comparison.kernels;
+Indices best_kernels(const ModelComparison& comparison) {
+  Indices likeliest = comparison.kernels;
   likeliest.resize(std::min(likeliest.size(), kBestKernels));
   return likeliest;
 }
 
 ModelComparison compare_models(const RegressorSystem& system,
-                               const std::vector<bool>& excluded,
+                               const Flags& excluded,
                                const ComparisonOptions& options) {
   Comparer comparer(system, excluded, options);
   auto sets = outlier_sets(system, excluded, first_hypotheses(system, excluded, options));

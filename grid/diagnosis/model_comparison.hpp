@@ -18,7 +18,7 @@ namespace chaintrue::grid::diagnosis {
 
 /// A set of regressors, with or without a model discrepancy, and the rejected points.
 struct CandidateModel {
-  std::vector<int> regressors;   ///< ascending
+  RegressorSet regressors;   ///< ascending
   int discrepancy = -1;          ///< number of the model discrepancy, or none
   std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
   /// Natural logarithm of prior times evidence, or of a probability averaged over parts (bed_parts.hpp).
@@ -32,7 +32,7 @@ struct ModelComparison {
   std::vector<CandidateModel> models;  ///< those that matter, best first
   double log_total = 0.0;              ///< logarithm of the sum of weights
   /// Kernels of the model discrepancy that were tried, the heaviest first.
-  std::vector<std::size_t> kernels;
+  Indices kernels;
   /// \throws std::invalid_argument if no model has a finite weight.
   [[nodiscard]] const CandidateModel& best() const;
   [[nodiscard]] double probability(const CandidateModel& model) const;
@@ -59,42 +59,42 @@ struct SearchLimits {
 struct ComparisonOptions {
   bool discrepancies = true;
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
-  std::vector<std::size_t> kernels{};
+  Indices kernels{};
   /// If set, only this cause may act.
   std::optional<CauseId> given_cause{};
   SearchLimits search{};
   /// Further sets of regressors that search for outliers, besides nothing and each cause alone.
-  std::vector<std::vector<int>> hypotheses{};
+  std::vector<RegressorSet> hypotheses{};
 };
 
 /// Points that are known not to count (held out) are `excluded`.
 [[nodiscard]] ModelComparison compare_models(const RegressorSystem& system,
-                                             const std::vector<bool>& excluded,
+                                             const Flags& excluded,
                                              const ComparisonOptions& options);
 
 /// The heaviest kernels of a comparison, for others of the same session: enough to hold the weight
 /// of a discrepancy for each of its causes.
-[[nodiscard]] std::vector<std::size_t> best_kernels(const ModelComparison& comparison);
+[[nodiscard]] Indices best_kernels(const ModelComparison& comparison);
 
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;
 
 /// Prior of a set of regressors, without its outliers.
 [[nodiscard]] double log_prior(const RegressorSystem& system,
-                               const std::vector<int>& set,
+                               const RegressorSet& set,
                                bool discrepancy);
 
 /// Log prior odds of one more lasting cause, without its share in the catalogue (exp of its
 /// log_prior); minus infinity beyond kMostCauses.
 [[nodiscard]] double log_odds_of_another(const RegressorSystem& system,
-                                         const std::vector<int>& set,
+                                         const RegressorSet& set,
                                          bool discrepancy);
 
 /// Log Bayes factor of one cause against none, averaged over its places, by position in `causes`.
 struct SingleScores {
   std::vector<CauseId> causes;
   std::vector<double> log_factor;
-  std::vector<int> best_regressor;
+  RegressorSet best_regressor;
 };
 [[nodiscard]] SingleScores single_scores(const RegressorSystem& system,
                                          const MarginalisedSystem& marginalised,

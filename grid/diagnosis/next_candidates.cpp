@@ -190,8 +190,8 @@ class HoleCandidates {
   }
 
   /// The existing holes, the farthest from a place first.
-  [[nodiscard]] std::vector<std::size_t> by_distance(const model::BedPoint& place) const {
-    std::vector<std::size_t> order;
+  [[nodiscard]] Indices by_distance(const model::BedPoint& place) const {
+    Indices order;
     for (std::size_t i = 0; i < measured_.holes.size(); ++i) order.push_back(i);
     const auto squared = [&](std::size_t i) {
       const model::BedPoint& hole = measured_.holes[i].commanded;
@@ -210,7 +210,7 @@ class HoleCandidates {
   }
 
   void add_hole(const model::BedPoint& place) {
-    const std::vector<std::size_t> others = by_distance(place);
+    const Indices others = by_distance(place);
     const model::BedPoint& nearest = measured_.holes[others.back()].commanded;
     if (std::hypot(nearest.x_mm - place.x_mm, nearest.y_mm - place.y_mm) < kApartMm) return;
     const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};

@@ -16,7 +16,7 @@ inline constexpr double kLinkPitchSigmaMm = 0.001;
 /// Some rows of the session of candidates.
 struct Candidate {
   NextMeasurement measurement;
-  std::vector<Eigen::Index> rows;
+  Rows rows;
   int times = 1;  ///< it may be chosen
 };
 

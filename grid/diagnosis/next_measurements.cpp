@@ -59,7 +59,7 @@ bool is_left_alone(const Analysis& a, const std::vector<Alternative>& alternativ
 std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& alternatives,
                                           std::vector<Candidate> options) {
   std::vector<NextMeasurement> result;
-  std::vector<Eigen::Index> chosen;
+  Rows chosen;
   ExpectedDiscrimination now = expected_discrimination(alternatives, chosen);
   double reached = now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
@@ -67,7 +67,7 @@ std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& altern
     ExpectedDiscrimination then = now;
     for (std::size_t c = 0; c < options.size(); ++c) {
       if (options[c].times == 0) continue;
-      std::vector<Eigen::Index> more = chosen;
+      Rows more = chosen;
       append_all(more, options[c].rows);
       const ExpectedDiscrimination tried = expected_discrimination(alternatives, more);
       if (tried.confusion < then.confusion) {
@@ -110,7 +110,7 @@ struct Next {
 /// The prediction of future rows by a context's causes and a law's amplitudes.
 Eigen::MatrixXd columns_of(const Analysis& a,
                            const Next& next,
-                           const std::vector<int>& regressors,
+                           const RegressorSet& regressors,
                            const Eigen::MatrixXd& law) {
   const auto causes = std::ssize(regressors);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(next.system.e.size(), causes + law.cols());
@@ -130,7 +130,7 @@ Alternative expected_with(const Analysis& a,
                           const WeighedLaw* law) {
   Eigen::MatrixXd there(next.system.e.size(), 0);
   if (law != nullptr) there = LawColumns(next.system).of(evidence.curves[law->curve], law->at);
-  const std::vector<int>& regressors =
+  const RegressorSet& regressors =
       evidence.sets[law != nullptr ? law->set : evidence.without_set];
   LawModel::Expected expected =
       model_with(a, evidence, law).expected_of(next.system, columns_of(a, next, regressors, there));

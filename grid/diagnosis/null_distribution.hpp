@@ -113,7 +113,7 @@ class SingleScore {
   Eigen::VectorXd square_;
   Eigen::VectorXd constant_;
   std::vector<int> sign_;  ///< +1: coefficient >= 0 only, -1: <= 0, 0: either
-  std::vector<bool> fixed_;
+  Flags fixed_;
 };
 
 struct NullDistribution {

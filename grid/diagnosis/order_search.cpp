@@ -48,7 +48,7 @@ std::optional<Measured> grid_alone(const Measured& measured) {
 }
 
 /// The points by place, so that the order of the file's rows does not matter.
-std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
+Indices by_place(const std::vector<MeasuredPoint>& points) {
   auto result = numbers_below(points.size());
   const auto key = [&](std::size_t i) {
     const MeasuredPoint& point = points[i];
@@ -60,8 +60,8 @@ std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
 }
 
 /// Whether a point's mark was measured more than once: which visit was first is unknown.
-std::vector<bool> measured_again(const std::vector<MeasuredPoint>& points) {
-  std::vector<bool> again(points.size(), false);
+Flags measured_again(const std::vector<MeasuredPoint>& points) {
+  Flags again(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t k = 0; k < points.size() && !again[i]; ++k) {
       again[i] = k != i && std::hypot(points[i].mark.x_mm - points[k].mark.x_mm,
@@ -80,13 +80,13 @@ struct GivenModel {
   Eigen::VectorXd e;  ///< N numbers, half-solved by it
 };
 
-GivenModel given(const Analysis& a, const CandidateModel& model, const std::vector<bool>& again) {
+GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& again) {
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[model.marginalised];
   GivenModel result;
   result.log_weight = model.log_weight;
   result.log_odds = log_odds_of_another(system, model.regressors, model.discrepancy >= 0);
-  std::vector<bool> left_out = marginalised.outliers;
+  Flags left_out = marginalised.outliers;
   for (std::size_t u = 0; u < a.session.units.size(); ++u) {
     const NumberedUnit& unit = a.session.units[u];
     if (a.session.parts[unit.part].reads_chains() && again[unit.index]) left_out[u] = true;
@@ -115,7 +115,7 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const std::vect
   return result;
 }
 
-std::vector<GivenModel> leading_models(const Analysis& a, const std::vector<bool>& again) {
+std::vector<GivenModel> leading_models(const Analysis& a, const Flags& again) {
   std::vector<GivenModel> result;
   for (const CandidateModel& model : a.comparison.models) {
     if (result.size() == kMostModels || a.comparison.probability(model) < kLeastModelShare) break;
@@ -219,7 +219,7 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, 
   VisitingOrderFound found{orders[best], probabilities[best], true};
   if (found.probability < kLeastModelShare) return std::nullopt;
   // Starting corners differ only in the few steps between lines, which repeated marks would change.
-  const std::vector<bool> again = measured_again(grid_without_order(measured)->points);
+  const Flags again = measured_again(grid_without_order(measured)->points);
   const bool tells_corners = !contains(again, true);
   if (tells_corners && found.probability >= kOrderFound) return found;
   double from_any_corner = 0.0;
@@ -234,7 +234,7 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, 
 std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder& order) {
   const MeasuredGrid* grid = grid_without_order(measured);
   if (grid == nullptr) return std::nullopt;
-  const std::vector<std::size_t> places = by_place(grid->points);
+  const Indices places = by_place(grid->points);
   std::vector<MeasuredPoint> points;
   for (const std::size_t i : places) points.push_back(grid->points[i]);
   const auto numbers = visit_numbers(points, order);

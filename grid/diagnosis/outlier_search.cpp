@@ -19,7 +19,7 @@ namespace {
 constexpr double kNoDirection = 1e-9;
 
 struct FoundSet {
-  std::vector<bool> outliers;
+  Flags outliers;
   double log_weight = 0.0;
 };
 
@@ -172,7 +172,7 @@ class MeanShifts {
 MeanShifts under(MeanShifts shifts,
                  const MarginalisedSystem& marginalised,
                  const RegressorSystem& system,
-                 const std::vector<int>& set) {
+                 const RegressorSet& set) {
   for (const int k : set) {
     if (system.regressor(k).fixed) shifts.subtract(marginalised.g.col(k));
   }
@@ -189,7 +189,7 @@ std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
   std::vector<FreeGroup> free;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const OutlierGroup& group = groups[k];
-    const std::vector<Eigen::Index>& kept = marginalised.kept.rows();
+    const Rows& kept = marginalised.kept.rows();
     const auto at = std::lower_bound(kept.begin(), kept.end(), group.first_row);
     // With one direction of a unit gone, only the other is left to test.
     const auto last = at + (group.rows - 1);
@@ -233,7 +233,7 @@ std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGr
 }
 
 /// Removes a rejected group, and its overlap with others' directions, from the free ones.
-void take_out(const FreeGroup& rejected, std::vector<FreeGroup>& free, std::vector<bool>& outliers) {
+void take_out(const FreeGroup& rejected, std::vector<FreeGroup>& free, Flags& outliers) {
   std::vector<FreeGroup> left;
   for (FreeGroup& other : free) {
     if (other.at != rejected.at) {
@@ -259,7 +259,7 @@ FoundSet search(MeanShifts shifts,
                 const MarginalisedSystem& marginalised,
                 std::vector<FreeGroup> free,
                 const OutlierLimits& limits,
-                std::vector<bool> outliers,
+                Flags outliers,
                 double log_prior) {
   const auto count = as_double(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
@@ -300,13 +300,13 @@ std::vector<OutlierGroup> groups_of(const RegressorSystem& system) {
 
 }  // namespace
 
-std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
-                                            const std::vector<bool>& excluded,
-                                            const std::vector<std::vector<int>>& hypotheses) {
+std::vector<Flags> outlier_sets(const RegressorSystem& system,
+                                            const Flags& excluded,
+                                            const std::vector<RegressorSet>& hypotheses) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   const std::vector<OutlierGroup> groups = groups_of(system);
   const std::vector<FreeGroup> free = free_groups(marginalised, groups);
-  std::vector<bool> beforehand(groups.size(), true);
+  Flags beforehand(groups.size(), true);
   for (const FreeGroup& group : free) beforehand[group.group] = false;
   const MeanShifts nothing(marginalised, free);
   std::vector<FoundSet> found;
@@ -326,7 +326,7 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
     }
   }
   stable_sort(found, descending(&FoundSet::log_weight));
-  std::vector<std::vector<bool>> sets;
+  std::vector<Flags> sets;
   for (const FoundSet& one : found) {
     if (sets.size() == kMostFoundSets ||
         one.log_weight < found.front().log_weight - kNegligibleOutliers)

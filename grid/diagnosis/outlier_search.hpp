@@ -24,9 +24,9 @@ namespace chaintrue::grid::diagnosis {
 /// A flag for each outlier group of the system, the most probable set first; groups of units that
 /// are excluded beforehand are flagged in all of them. Where a set takes all directions of some
 /// rows, all groups of these rows are flagged. `hypotheses` are sets of regressors.
-[[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
+[[nodiscard]] std::vector<Flags> outlier_sets(
     const RegressorSystem& system,
-    const std::vector<bool>& excluded,
-    const std::vector<std::vector<int>>& hypotheses);
+    const Flags& excluded,
+    const std::vector<RegressorSet>& hypotheses);
 
 }  // namespace chaintrue::grid::diagnosis

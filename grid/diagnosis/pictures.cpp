@@ -20,7 +20,7 @@ struct Residuals {
 };
 
 Residuals residuals_of(const Analysis& a) {
-  const auto of_machine = [&](const std::vector<int>& regressors) {
+  const auto of_machine = [&](const RegressorSet& regressors) {
     const Estimate fitted = estimate_of(a, regressors);
     return left_of_machine(a.system, fitted, fitted.left);
   };

@@ -22,6 +22,15 @@
 
 namespace chaintrue::grid::diagnosis {
 
+/// Some of a system's regressors, by number.
+using RegressorSet = std::vector<int>;
+/// Positions of rows in a matrix, of columns, and of anything in a list.
+using Rows = std::vector<Eigen::Index>;
+using ColumnSet = std::vector<Eigen::Index>;
+using Indices = std::vector<std::size_t>;
+/// A flag for each unit or outlier group of a system, or for each point.
+using Flags = std::vector<bool>;
+
 class RegressorColumns {
  public:
   RegressorColumns() = default;
@@ -57,7 +66,7 @@ class RegressorColumns {
   [[nodiscard]] Eigen::Index cols() const { return std::ssize(of_); }
   [[nodiscard]] auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
   /// Some rows of a column.
-  [[nodiscard]] Eigen::VectorXd column(const std::vector<Eigen::Index>& rows,
+  [[nodiscard]] Eigen::VectorXd column(const Rows& rows,
                                        Eigen::Index k) const {
     return distinct_.col(index(k))(rows) * factor(k);
   }
@@ -70,7 +79,7 @@ class RegressorColumns {
   }
 
   /// rows() x columns.size()
-  [[nodiscard]] Eigen::MatrixXd dense(const std::vector<int>& columns) const {
+  [[nodiscard]] Eigen::MatrixXd dense(const RegressorSet& columns) const {
     Eigen::MatrixXd result(rows(), std::ssize(columns));
     for (Eigen::Index k = 0; k < result.cols(); ++k) {
       result.col(k) = col(columns[as_size(k)]);
@@ -78,8 +87,8 @@ class RegressorColumns {
     return result;
   }
 
-  [[nodiscard]] RegressorColumns subset(const std::vector<Eigen::Index>& columns) const {
-    std::vector<Eigen::Index> kept;  // for the distinct columns, in their order
+  [[nodiscard]] RegressorColumns subset(const ColumnSet& columns) const {
+    ColumnSet kept;  // for the distinct columns, in their order
     RegressorColumns result;
     for (const Eigen::Index k : columns) {
       if (kept.empty() || kept.back() != index(k)) kept.push_back(index(k));

@@ -118,8 +118,8 @@ struct RegressorSystem : estimation::LinearisedSystem {
 };
 
 /// A flag for each outlier group, all false.
-[[nodiscard]] inline std::vector<bool> nothing_rejected(const RegressorSystem& system) {
-  return std::vector<bool>(system.groups.empty() ? system.units.size() : system.groups.size(),
+[[nodiscard]] inline Flags nothing_rejected(const RegressorSystem& system) {
+  return Flags(system.groups.empty() ? system.units.size() : system.groups.size(),
                            false);
 }
 

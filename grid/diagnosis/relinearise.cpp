@@ -49,7 +49,7 @@ class Round {
         MarginalisedSystem marginalised,
         int discrepancy)
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
-    std::vector<int> all;
+    RegressorSet all;
     for (std::size_t k = 0; k < system.regressors.size(); ++k) all.push_back(static_cast<int>(k));
     estimate_ = diagnosis::estimate(system, marginalised_, all, discrepancy);
   }

@@ -50,7 +50,7 @@ void add_best(const RegressorSystem& system,
 
 /// The best of each cause's places, after projection on the settings and also after projection on a
 /// leading cause.
-std::vector<int> best_of_each_cause(const RegressorSystem& system,
+RegressorSet best_of_each_cause(const RegressorSystem& system,
                                     const MarginalisedSystem& marginalised,
                                     const ComparisonOptions& options,
                                     std::size_t of_a_cause) {
@@ -120,9 +120,9 @@ std::vector<CandidateModel> SetSearch::run() {
 }
 
 std::vector<CandidateModel> SetSearch::run_given_discrepancies(
-    const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight) {
+    const Indices& kernels, std::vector<double>& kernel_weight) {
   stable_sort(scored_, descending(&WeighedSet::weight));
-  std::vector<std::vector<int>> likeliest;
+  std::vector<RegressorSet> likeliest;
   std::array<std::size_t, kMostCauses + 1> taken{};
   std::array<double, kMostCauses + 1> last{};
   for (const WeighedSet& s : scored_) {
@@ -130,7 +130,7 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(
     if (size < 2 || (taken[size] >= kSetsGivenDiscrepancy && !tied(s.weight, last[size]))) continue;
     if (taken[size] < kSetsGivenDiscrepancy) last[size] = s.weight;
     ++taken[size];
-    std::vector<int> regressors;
+    RegressorSet regressors;
     for (const Eigen::Index i : s.set) {
       regressors.push_back(equations_.columns[as_size(i)]);
     }
@@ -141,10 +141,10 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(
   return collector_.take();
 }
 
-std::vector<int> SetSearch::columns() const {
-  std::vector<int> kept;
-  std::vector<int> fixed;
-  std::vector<int> shifts;
+RegressorSet SetSearch::columns() const {
+  RegressorSet kept;
+  RegressorSet fixed;
+  RegressorSet shifts;
   const auto count = static_cast<int>(system_.regressors.size());
   const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
   const Eigen::VectorXd square = marginalised_.g.squared_norms();
@@ -157,7 +157,7 @@ std::vector<int> SetSearch::columns() const {
   const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
   stable_sort(shifts, descending(explained));
   shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
-  std::vector<int> likeliest = kept;
+  RegressorSet likeliest = kept;
   append_all(kept, shifts);
   if (fixed.size() <= kKeptFixed) {
     append_all(kept, fixed);

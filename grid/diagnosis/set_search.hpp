@@ -24,15 +24,15 @@ class SetSearch {
   [[nodiscard]] std::vector<CandidateModel> run();
   /// Call after run(). For these kernels; sets their weights.
   [[nodiscard]] std::vector<CandidateModel> run_given_discrepancies(
-      const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight);
+      const Indices& kernels, std::vector<double>& kernel_weight);
   /// Largest weight so far.
   [[nodiscard]] double best() const { return collector_.best(); }
-  [[nodiscard]] const std::vector<bool>& outliers() const { return marginalised_.outliers; }
+  [[nodiscard]] const Flags& outliers() const { return marginalised_.outliers; }
 
  private:
   /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
   /// visits; of the others the best, alone or after projection on a leading regressor.
-  [[nodiscard]] std::vector<int> columns() const;
+  [[nodiscard]] RegressorSet columns() const;
   void singles();
   /// Upper bound of a pair's weight, ignoring bounds and larger noise.
   [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const;

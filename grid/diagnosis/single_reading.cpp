@@ -70,7 +70,7 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   if (!reading) return std::nullopt;
   const ClassProbability leader = a.decision.marginal.front();
   const CauseId cause = a.decision.classes[leader.index].front();
-  std::vector<bool> excluded(a.session.units.size(), false);
+  Flags excluded(a.session.units.size(), false);
   excluded[reading->unit] = true;
   a.comparison = compare_models(a.system,
                                 excluded,

@@ -19,8 +19,8 @@ constexpr std::size_t kFewestOnLine = 3;  // on average
 constexpr double kMostOdds = 700.0;
 
 /// Units that read the chains at one mark.
-std::vector<std::size_t> units_at_marks(const ObservationSet& session) {
-  std::vector<std::size_t> result;
+Indices units_at_marks(const ObservationSet& session) {
+  Indices result;
   for (std::size_t u = 0; u < session.units.size(); ++u) {
     if (session.parts[session.units[u].part].reads_chains()) result.push_back(u);
   }
@@ -37,7 +37,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
                                  Removal::What what,
                                  double model::MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
-  std::vector<std::size_t> order = units_at_marks(session);
+  Indices order = units_at_marks(session);
   stable_sort(order, ascending(at));
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {

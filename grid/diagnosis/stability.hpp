@@ -25,7 +25,7 @@ struct LeftOut {
   Removal::What what = Removal::What::point;
   std::size_t index = 0;  ///< for a point, a distance or a hole: its number among those of all files
   double at_mm = 0.0;     ///< of a column its x, of a row its y
-  std::vector<std::size_t> units;
+  Indices units;
 };
 /// Every point, then the columns from the left, then the rows from below, then every distance and
 /// every hole; those that would leave too few units are missing.
@@ -41,7 +41,7 @@ struct LeftOut {
 /// has a stability.
 [[nodiscard]] std::string stability_in_words(const Diagnosis& diagnosis);
 /// Points without each of which the verdict would not name the same (indices into the grid's).
-[[nodiscard]] std::vector<std::size_t> influential_points(const Diagnosis& diagnosis);
+[[nodiscard]] Indices influential_points(const Diagnosis& diagnosis);
 /// " The name rests on point 17: without it ...", or nothing if it holds.
 [[nodiscard]] std::string influence_in_words(const Diagnosis& diagnosis);
 

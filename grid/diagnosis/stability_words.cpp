@@ -91,8 +91,8 @@ bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point)
 
 }  // namespace
 
-std::vector<std::size_t> influential_points(const Diagnosis& diagnosis) {
-  std::vector<std::size_t> points;
+Indices influential_points(const Diagnosis& diagnosis) {
+  Indices points;
   if (!diagnosis.stability) return points;
   for (const Removal* removal : of_kind(*diagnosis.stability, Removal::What::point, true)) {
     points.push_back(removal->index);

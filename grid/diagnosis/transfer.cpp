@@ -67,10 +67,10 @@ Eigen::VectorXd left_of(const Analysis& a,
   return left;
 }
 
-std::vector<std::size_t> block_numbers(const ObservationSet& session) {
+Indices block_numbers(const ObservationSet& session) {
   std::vector<LengthPoint> points;
   for (const NumberedPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
-  std::vector<std::size_t> number(points.size(), 0);
+  Indices number(points.size(), 0);
   const auto blocks = spatial_blocks(points);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const std::size_t i : blocks[b]) number[i] = b;
@@ -127,7 +127,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                            "a point of the other grid cannot be reached"});
   }
   const Placed place(*system);
-  const auto predicted_by = [&](const std::vector<int>& regressors, int discrepancy) {
+  const auto predicted_by = [&](const RegressorSet& regressors, int discrepancy) {
     const Estimate model = estimate(a.system, marginalised_system(a), regressors, discrepancy);
     return summary(*second, *system, place(left_of(a, model, *second, state, *system)), options.seed);
   };

@@ -96,7 +96,7 @@ Key most_of(const std::map<Key, double>& weights, double whole, Key otherwise) {
 }
 
 double mean_square_mm2(const Analysis& a, const Eigen::VectorXd& whitened) {
-  const std::vector<bool>& outliers = marginalised_system(a).outliers;
+  const Flags& outliers = marginalised_system(a).outliers;
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t u = 0; u < outliers.size(); ++u) {
@@ -239,7 +239,7 @@ constexpr Coordinate kAlong[] = {Coordinate::angle_left,
 /// Share of the squared residual that a quartic along the coordinate explains in either chain,
 /// minus the share of noise that as many terms explain.
 double share_along(const Analysis& a, Coordinate coordinate) {
-  const std::vector<bool>& outliers = marginalised_system(a).outliers;
+  const Flags& outliers = marginalised_system(a).outliers;
   std::vector<double> t;
   std::vector<Eigen::Vector2d> chain;
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {

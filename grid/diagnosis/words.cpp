@@ -144,7 +144,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
 
 /// Before changing a part because of one reading, repeat the reading.
 void advise_rereading(Diagnosis& d) {
-  const std::vector<std::size_t> points = influential_points(d);
+  const Indices points = influential_points(d);
   if (points.size() != 1) return;
   const bool is_bad = any_of(d.outliers, [&](const Outlier& b) {
     return b.of == Observations::points && b.index == points.front();
