@@ -50,11 +50,8 @@ void reject_slips(const Analysis& a, Flags& outliers) {
 }
 
 bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
-  for (const CauseClass& members : a.decision.classes) {
-    const auto in = [&](const CauseId& c) { return contains(members, c); };
-    if (in(x)) return in(y);
-  }
-  return x == y;
+  const std::size_t home = a.decision.class_of(x);
+  return x == y || (home < a.decision.classes.size() && home == a.decision.class_of(y));
 }
 
 Nearest nearest_other(const Analysis& a, int column) {

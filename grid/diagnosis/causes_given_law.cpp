@@ -26,10 +26,7 @@ bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
 }
 
 bool holds(const Analysis& a, const CauseId& cause) {
-  return any_of(a.decision.listed, [&](std::size_t index) {
-    const CauseClass& members = a.decision.classes[index];
-    return contains(members, cause);
-  });
+  return contains(a.decision.listed, a.decision.class_of(cause));
 }
 
 }  // namespace

@@ -45,20 +45,12 @@ class Decider {
   }
 
  private:
-  [[nodiscard]] std::size_t class_of(const CauseId& cause) const {
-    for (std::size_t k = 0; k < result_.classes.size(); ++k) {
-      const CauseClass& members = result_.classes[k];
-      if (contains(members, cause)) return k;
-    }
-    return result_.classes.size();
-  }
-
   void group() {
     for (const CandidateModel& model : comparison_.models) {
       const double p = comparison_.probability(model);
       Key key;
       for (const int k : model.regressors) {
-        key.push_back(class_of(system_.regressor(k).cause));
+        key.push_back(result_.class_of(system_.regressor(k).cause));
       }
       sort(key);
       Grouped& one = groups_[key];
@@ -151,7 +143,7 @@ class Decider {
     Key sure;
     for (const std::size_t k : best_key_) {
       const bool given_discrepancy = result_.discrepancy > kDiscrepancyLikely;
-      if (marginal(k) >= (given_discrepancy ? kNamedGivenDiscrepancy : kLikelierThanNot)) sure.push_back(k);
+      if (result_.probability_of(k) >= (given_discrepancy ? kNamedGivenDiscrepancy : kLikelierThanNot)) sure.push_back(k);
     }
     const auto found = groups_.find(sure);
     if (sure.empty() || found == groups_.end()) return best_model;
@@ -215,8 +207,7 @@ class Decider {
   /// Keeps only these classes' causes in the model.
   void keep_only(const Key& causes) {
     std::erase_if(result_.regressors, [&](int k) {
-      const auto own = class_of(system_.regressor(k).cause);
-      return !contains(causes, own);
+      return !contains(causes, result_.class_of(system_.regressor(k).cause));
     });
   }
 
@@ -225,7 +216,7 @@ class Decider {
       result_.verdict = Verdict::several_causes;
       result_.listed = best_key_;
       stable_sort(result_.listed,
-                  [&](std::size_t a, std::size_t b) { return marginal(a) > marginal(b); });
+                  descending([&](std::size_t index) { return result_.probability_of(index); }));
       take(best_model);
       return;
     }
@@ -285,13 +276,6 @@ class Decider {
     }
   }
 
-  [[nodiscard]] double marginal(std::size_t index) const {
-    for (const ClassProbability& one : result_.marginal) {
-      if (one.index == index) return one.probability;
-    }
-    return 0.0;
-  }
-
   const RegressorSystem& system_;
   const ModelComparison& comparison_;
   const Flags& excluded_;
@@ -330,6 +314,19 @@ std::vector<CauseId> Decision::leaders() const {
   std::vector<CauseId> causes;
   for (const std::size_t index : listed) causes.push_back(classes[index].front());
   return causes;
+}
+
+std::size_t Decision::class_of(const CauseId& cause) const {
+  const auto home = std::find_if(classes.begin(), classes.end(), [&](const CauseClass& members) {
+    return contains(members, cause);
+  });
+  return as_size(home - classes.begin());
+}
+
+double Decision::probability_of(std::size_t index) const {
+  const auto* one =
+      find_where(marginal, [&](const ClassProbability& own) { return own.index == index; });
+  return one != nullptr ? one->probability : 0.0;
 }
 
 void withdraw_names(const ModelComparison& comparison, Decision& decision) {

@@ -46,6 +46,10 @@ struct Decision {
 
   /// The cause that names each listed class.
   [[nodiscard]] std::vector<CauseId> leaders() const;
+  /// The class of a cause; the number of classes if it has none.
+  [[nodiscard]] std::size_t class_of(const CauseId& cause) const;
+  /// Of a class; 0 if there is no such class.
+  [[nodiscard]] double probability_of(std::size_t index) const;
 };
 
 /// `detected`: the strongest effect exceeds what noise produces (family-wise). Only the rejected

@@ -202,18 +202,11 @@ double raw_length(const Analysis& a, int column) {
   return length_in_noise(a.system, marginalised_system(a).kept, a.system.g.col(column));
 }
 
-double marginal(const Analysis& a, std::size_t index) {
-  for (const ClassProbability& one : a.decision.marginal) {
-    if (one.index == index) return one.probability;
-  }
-  return 0.0;
-}
-
 Cause describe(const Analysis& a, std::size_t index) {
   const CauseClass& members = a.decision.classes[index];
   Cause cause;
   cause.cause = members.front();
-  cause.probability = marginal(a, index);
+  cause.probability = a.decision.probability_of(index);
   // Other named causes stay in the model; rivals of a set are each fitted alone.
   RegressorSet others;
   for (const int k : a.decision.regressors) {
@@ -246,15 +239,6 @@ Cause describe(const Analysis& a, std::size_t index) {
   cause.order_assumed =
       a.options.order_assumed && cause.cause.effect->needs == model::effects::DataNeed::order;
   return cause;
-}
-
-std::vector<CauseId> listed_causes(const Analysis& a) {
-  std::vector<CauseId> result;
-  for (const std::size_t index : a.decision.listed) {
-    const CauseClass& members = a.decision.classes[index];
-    append_all(result, members);
-  }
-  return result;
 }
 
 }  // namespace
@@ -293,19 +277,14 @@ constexpr double kMayAct = 0.05;
 }  // namespace
 
 double probability_of(const Analysis& a, const CauseId& cause) {
-  for (const ClassProbability& one : a.decision.marginal) {
-    const CauseClass& members = a.decision.classes[one.index];
-    if (contains(members, cause)) return one.probability;
-  }
-  return 0.0;
+  return a.decision.probability_of(a.decision.class_of(cause));
 }
 
 std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testable) {
-  const std::vector<CauseId> listed = listed_causes(a);
   const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
-    if (contains(listed, cause)) continue;
+    if (contains(a.decision.listed, a.decision.class_of(cause))) continue;
     const int column = best_regressor(a, cause);
     const EffectParameter& size = cause.effect->parameters.front();
     const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();

@@ -11,6 +11,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
+#include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/raster.hpp"
 #include "interp/linear_algebra.hpp"
@@ -186,17 +187,7 @@ HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
 /// Each hole with all its distances; none if too few distances would remain.
 HeldOutBlocks blocks_by_hole(const ObservationSet& session) {
   HeldOutBlocks result;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
-    const MeasuredHoles& set = tape->set();
-    const std::size_t first = result.units.size();
-    result.units.resize(first + set.holes.size());
-    for (std::size_t k = 0; k < set.distances.size(); ++k) {
-      const HoleDistance& distance = set.distances[k];
-      result.units[first + distance.from].push_back(part->first_unit + k);
-      if (!distance.edge) result.units[first + distance.to].push_back(part->first_unit + k);
-    }
-  }
-  std::erase_if(result.units, [](const auto& block) { return block.empty(); });
+  for (LeftOut& hole : holes_to_leave_out(session)) result.units.push_back(std::move(hole.units));
   const bool enough = all_of(result.units, [&](const auto& block) {
     return session.units.size() - block.size() >= kFewestDistances;
   });

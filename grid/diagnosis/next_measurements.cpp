@@ -35,10 +35,9 @@ void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   }
   NextMeasurement reading{MeasurementKind::reading, "", "left", std::nullopt, kLinkPitchSigmaMm};
   reading.reading = ReadingOf::link_pitch;
-  for (const ClassProbability& one : a.decision.marginal) {
-    if (one.index == a.decision.listed.front()) reading.raises_probability_to = one.probability;
-  }
-  if (!list.empty()) reading.raises_probability_to = list.back().raises_probability_to;
+  reading.raises_probability_to = list.empty()
+                                      ? a.decision.probability_of(a.decision.listed.front())
+                                      : list.back().raises_probability_to;
   list.push_back(std::move(reading));
 }
 

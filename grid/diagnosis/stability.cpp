@@ -41,8 +41,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
   stable_sort(order, ascending(at));
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm)
-      lines.push_back({what, 0, 0.0, {}});
+    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm) lines.push_back({what});
     lines.back().units.push_back(order[k]);
     lines.back().at_mm += at(order[k]);
   }
@@ -59,58 +58,43 @@ void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
   append_all(groups, more);
 }
 
-/// Each distance, and each hole with all its distances.
-void add_distances_and_holes(const ObservationSet& session, std::vector<LeftOut>& groups) {
-  std::vector<LeftOut> distances;
-  std::vector<LeftOut> holes;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
-    const std::size_t first_hole = holes.size();
-    for (const observation::Place& hole : tape->places()) {
-      holes.push_back({Removal::What::hole, hole.index, 0.0, {}});
-    }
-    for (std::size_t k = 0; k < tape->units().size(); ++k) {
-      const std::size_t unit = part->first_unit + k;
-      const HoleDistance& distance = tape->set().distances[k];
-      distances.push_back({Removal::What::distance, tape->units()[k].index, 0.0, {unit}});
-      holes[first_hole + distance.from].units.push_back(unit);
-      if (!distance.edge) holes[first_hole + distance.to].units.push_back(unit);
-    }
-  }
-  std::erase_if(holes, [](const LeftOut& hole) { return hole.units.empty(); });
-  add_by_index(std::move(distances), groups);
-  add_by_index(std::move(holes), groups);
+/// Whether a model agrees with the verdict: every cause named, or one of the set.
+bool agrees(const Analysis& a, const CandidateModel& model) {
+  const auto acts = [&](std::size_t index) {
+    return any_of(model.regressors,
+                  [&](int k) { return a.decision.class_of(regressor(a, k).cause) == index; });
+  };
+  const auto& listed = a.decision.listed;
+  return a.decision.verdict == Verdict::named_set ? any_of(listed, acts) : all_of(listed, acts);
 }
 
-/// Whether a model agrees with the verdict: every cause named, or one of the set.
-class Statement {
- public:
-  explicit Statement(const Analysis& a) : a_(a) {}
-
-  [[nodiscard]] bool holds(const CandidateModel& model) const {
-    const auto acts = [&](std::size_t index) {
-      const CauseClass& members = a_.decision.classes[index];
-      return any_of(model.regressors,
-                    [&](int k) { return contains(members, regressor(a_, k).cause); });
-    };
-    const auto& listed = a_.decision.listed;
-    return a_.decision.verdict == Verdict::named_set ? any_of(listed, acts) : all_of(listed, acts);
-  }
-
-  /// Logarithm of its odds.
-  [[nodiscard]] double log_odds(const ModelComparison& comparison) const {
-    std::vector<double> with, against;
-    for (const CandidateModel& model : comparison.models)
-      (holds(model) ? with : against).push_back(model.log_weight);
-    return std::clamp(log_sum(with) - log_sum(against), -kMostOdds, kMostOdds);
-  }
-
- private:
-  const Analysis& a_;
-};
+/// Logarithm of the verdict's odds.
+double log_odds_of_verdict(const Analysis& a, const ModelComparison& comparison) {
+  std::vector<double> with, against;
+  for (const CandidateModel& model : comparison.models)
+    (agrees(a, model) ? with : against).push_back(model.log_weight);
+  return std::clamp(log_sum(with) - log_sum(against), -kMostOdds, kMostOdds);
+}
 
 double probability_of(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 }  // namespace
+
+std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session) {
+  std::vector<LeftOut> holes;
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
+    const std::size_t first = holes.size();
+    for (const observation::Place& hole : tape->places())
+      holes.push_back({Removal::What::hole, hole.index});
+    for (std::size_t k = 0; k < tape->units().size(); ++k) {
+      const HoleDistance& distance = tape->set().distances[k];
+      holes[first + distance.from].units.push_back(part->first_unit + k);
+      if (!distance.edge) holes[first + distance.to].units.push_back(part->first_unit + k);
+    }
+  }
+  std::erase_if(holes, [](const LeftOut& hole) { return hole.units.empty(); });
+  return holes;
+}
 
 std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
   std::vector<LeftOut> groups;
@@ -124,7 +108,15 @@ std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
     const auto lines = lines_along(session, what, coordinate);
     append_all(groups, lines);
   }
-  add_distances_and_holes(session, groups);
+  std::vector<LeftOut> distances;
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
+    for (std::size_t k = 0; k < tape->units().size(); ++k) {
+      distances.push_back(
+          {Removal::What::distance, tape->units()[k].index, 0.0, {part->first_unit + k}});
+    }
+  }
+  add_by_index(std::move(distances), groups);
+  add_by_index(holes_to_leave_out(session), groups);
   std::erase_if(groups, [&](const LeftOut& group) {
     return session.units.size() - group.units.size() < session.fewest_units;
   });
@@ -132,20 +124,13 @@ std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
 }
 
 bool still_named(const Decision& all, const Decision& without) {
+  const std::vector<CauseId> leaders = without.leaders();
   const auto is_listed = [&](std::size_t index) {
-    const CauseClass& members = all.classes[index];
-    return any_of(without.listed, [&](std::size_t other) {
-      const CauseId& leader = without.classes[other].front();
-      return contains(members, leader);
-    });
+    return any_of(leaders, [&](const CauseId& leader) { return all.class_of(leader) == index; });
   };
-  const bool set_without = without.verdict == Verdict::named_set;
   if (all.verdict == Verdict::named_set) return is_listed(all.listed.front());
-  if (set_without) {
-    const CauseId& leader = without.classes[without.listed.front()].front();
-    const CauseClass& members = all.classes[all.listed.front()];
-    return all.listed.size() == 1 && contains(members, leader);
-  }
+  if (without.verdict == Verdict::named_set)
+    return all.listed.size() == 1 && all.class_of(leaders.front()) == all.listed.front();
   return all_of(all.listed, is_listed);
 }
 
@@ -154,8 +139,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   const std::vector<LeftOut> groups = groups_to_leave_out(a.session);
   if (groups.empty()) return std::nullopt;
   const Downdating downdating(a.system, a.comparison);
-  const Statement statement(a);
-  const double all = statement.log_odds(downdating.without({}).comparison);
+  const double all = log_odds_of_verdict(a, downdating.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
   tell(a.options.progress, {"the name without each reading", 2, 4});
@@ -163,7 +147,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   for_each_index(groups.size(), [&](std::size_t k) {
     const LeftOut& group = groups[k];
     const auto [without, decision] = decided_without(a, downdating, group.units);
-    const double log_odds = statement.log_odds(without.comparison);
+    const double log_odds = log_odds_of_verdict(a, without.comparison);
     Removal& removal = result.removals[k];
     removal.what = group.what;
     removal.index = group.index;

@@ -25,8 +25,10 @@ struct LeftOut {
   Removal::What what = Removal::What::point;
   std::size_t index = 0;  ///< for a point, a distance or a hole: its number among those of all files
   double at_mm = 0.0;     ///< of a column its x, of a row its y
-  Indices units;
+  Indices units{};
 };
+/// Each hole with the distances that end there.
+[[nodiscard]] std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session);
 /// Every point, then the columns from the left, then the rows from below, then every distance and
 /// every hole; those that would leave too few units are missing.
 [[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session);
