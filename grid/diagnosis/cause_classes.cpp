@@ -92,9 +92,7 @@ bool is_whole(const RegressorSystem& system,
   if (!model) return false;
   const Estimate found = estimate(
       system, comparison.marginalised_systems[model->marginalised], model->regressors, -1);
-  const auto at =
-      as_index(std::find(model->regressors.begin(), model->regressors.end(), model->free) -
-               model->regressors.begin());
+  const Eigen::Index at = found.position(model->free);
   const Eigen::VectorXd own = system.g.col(model->free);
   const Regressor& of_free = system.regressor(model->free);
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {

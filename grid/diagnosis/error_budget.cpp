@@ -7,6 +7,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/other_places.hpp"
+#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -27,12 +28,6 @@ namespace {
 constexpr double kPartMm = 100.0;
 
 using Shifts = std::vector<Eigen::Vector2d>;
-
-double mean_square(const Shifts& shifts) {
-  double sum = 0.0;
-  for (const Eigen::Vector2d& shift : shifts) sum += shift.squaredNorm();
-  return shifts.empty() ? 0.0 : sum / as_double(shifts.size());
-}
 
 BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
   if (effect.by_direction) return BudgetLine::ChangesWith::direction;
@@ -99,13 +94,11 @@ class Budget {
   [[nodiscard]] ErrorBudget measure() {
     const auto stated = linearise(a_.session, stated_state(a_.session));
     if (!stated || units_.empty()) return {};
-    Shifts before_calibration;
-    for (const std::size_t u : units_) before_calibration.push_back(error_of_unit(*stated, stated->e, u));
-    as_delivered_ = before_calibration;
+    as_delivered_ = errors_of_units(*stated, stated->e, units_);
     ErrorBudget budget;
-    budget.uncalibrated_mm = std::sqrt(mean_square(before_calibration));
+    budget.uncalibrated_mm = rms_length(as_delivered_);
     // Each part is the reduction of the error without it; together they are the error.
-    Shifts settings = before_calibration;
+    Shifts settings = as_delivered_;
     add_causes(budget, settings);
     const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_given_discrepancy);
     const Shifts noise =
@@ -127,9 +120,7 @@ class Budget {
 
  private:
   [[nodiscard]] Shifts shifts_of(const Eigen::VectorXd& whitened) const {
-    Shifts result;
-    for (const std::size_t u : units_) result.push_back(error_of_unit(a_.system, whitened, u));
-    return result;
+    return errors_of_units(a_.system, whitened, units_);
   }
 
   static void take_away(const Shifts& part, Shifts& from) {
@@ -137,10 +128,10 @@ class Budget {
   }
 
   void add(BudgetLine line, const Shifts& shifts, ErrorBudget& budget) const {
-    line.mean_square_mm2 = mean_square(shifts);
+    line.mean_square_mm2 = std::pow(rms_length(shifts), 2);
     Shifts rest = as_delivered_;
     take_away(shifts, rest);
-    line.without_mm = std::sqrt(mean_square(rest));
+    line.without_mm = rms_length(rest);
     budget.lines.push_back(line);
   }
 

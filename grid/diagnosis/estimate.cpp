@@ -11,30 +11,29 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Linear unknowns with a prior each.
-struct Unknowns {
-  Eigen::MatrixXd design;
-  Eigen::VectorXd mean;
-  Eigen::VectorXd sigma;
-};
-
 struct Solution {
   Eigen::VectorXd value;
   Eigen::MatrixXd covariance;
 };
 
-Solution solve(Unknowns unknowns, Eigen::VectorXd data, const linear::Cholesky* noise) {
+/// `settings`: the settings' expected change; the sizes' is zero.
+Solution solve(Unknowns unknowns,
+               const Eigen::VectorXd& settings,
+               Eigen::VectorXd data,
+               const linear::Cholesky* noise) {
   Eigen::MatrixXd& design = unknowns.design;
   if (noise != nullptr) {
     noise->half_solve_in_place(design);
     noise->half_solve_in_place(data);
   }
-  linear::add_product(data, -1.0, design, unknowns.mean);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(design.cols());
+  mean.head(settings.size()) = settings;
+  linear::add_product(data, -1.0, design, mean);
   // Scaled by the priors the normal equations are well conditioned: I + S A'A S.
   const Eigen::MatrixXd scaled = linear::scaled_columns(design, unknowns.sigma);
   const linear::Cholesky normal(linear::one_plus_gram(scaled));
   const Eigen::VectorXd x = normal.solve(linear::product(linear::transposed(scaled), data));
-  return {unknowns.mean + unknowns.sigma.cwiseProduct(x),
+  return {mean + unknowns.sigma.cwiseProduct(x),
           unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }
 
@@ -64,6 +63,32 @@ void take_discrepancy_out(const RegressorSystem& system,
 }
 
 }  // namespace
+
+RegressorSet Estimate::free_regressors() const {
+  RegressorSet result;
+  for (const std::size_t k : free) result.push_back(regressors[k]);
+  return result;
+}
+
+Eigen::Index Estimate::position(int regressor) const {
+  return std::find(regressors.begin(), regressors.end(), regressor) - regressors.begin();
+}
+
+Unknowns unknowns_of(const RegressorSystem& system,
+                     const MarginalisedSystem& marginalised,
+                     const RegressorSet& free) {
+  const Eigen::Index settings = system.setting.size();
+  const Eigen::Index all = settings + std::ssize(free);
+  Unknowns result{Eigen::MatrixXd(marginalised.kept.size(), all), Eigen::VectorXd(all)};
+  result.design.leftCols(settings) = marginalised.kept.of(system.by_setting);
+  result.sigma.head(settings) = system.sigma;
+  for (Eigen::Index k = settings; k < all; ++k) {
+    const int column = free[as_size(k - settings)];
+    result.design.col(k) = marginalised.kept(system.g.col(column));
+    result.sigma(k) = wide_coefficient_sigma(system, marginalised, column);
+  }
+  return result;
+}
 
 Estimate estimate(const RegressorSystem& system,
                   const MarginalisedSystem& marginalised,
@@ -110,21 +135,8 @@ Estimate estimate(const RegressorSystem& system,
   Solution solution;
   // A coefficient that leaves its bounds is fixed there and the rest solved again.
   while (true) {
-    const auto free = std::ssize(result.free);
-    Unknowns unknowns{
-        Eigen::MatrixXd(marginalised.kept.size(), settings + free),
-        Eigen::VectorXd::Zero(settings + free),
-        Eigen::VectorXd(settings + free)};
-    unknowns.design.leftCols(settings) = marginalised.kept.of(system.by_setting);
-    unknowns.mean.head(settings) = system.expected_change;
-    unknowns.sigma.head(settings) = system.sigma;
-    for (Eigen::Index k = 0; k < free; ++k) {
-      const int column = regressors[result.free[as_size(k)]];
-      unknowns.design.col(settings + k) = marginalised.kept(system.g.col(column));
-      unknowns.sigma(settings + k) =
-          wide_coefficient_sigma(system, marginalised, column);
-    }
-    solution = solve(std::move(unknowns),
+    solution = solve(unknowns_of(system, marginalised, result.free_regressors()),
+                     system.expected_change,
                      marginalised.kept(data),
                      noise != nullptr ? &noise->covariance : nullptr);
     std::size_t outside = result.free.size();
@@ -214,6 +226,35 @@ Eigen::Vector2d error_of_unit(const RegressorSystem& system,
   const SystemUnit& own = system.units[unit];
   const Eigen::Vector2d mm = own.unwhitened(whitened);
   return own.reads_chains ? tool_shift(system.places[own.places.front().place], mm) : mm;
+}
+
+std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
+                                             const Eigen::VectorXd& whitened,
+                                             const Indices& units) {
+  std::vector<Eigen::Vector2d> result;
+  for (const std::size_t unit : units) result.push_back(error_of_unit(system, whitened, unit));
+  return result;
+}
+
+double rms_of_units_mm(const RegressorSystem& system,
+                       const KeptRows& kept,
+                       const Eigen::VectorXd& whitened,
+                       const Indices& units) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const KeptRows::Unit& unit : kept.units()) {
+    if (unit.across || (!units.empty() && !contains(units, unit.unit))) continue;
+    sum += error_of_unit(system, whitened, unit.unit).squaredNorm();
+    // A place's four belts leave two checks.
+    count += system.is_of_lengths() ? 2.0 : 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+double noise_of_units_mm(const RegressorSystem& system, const Indices& units) {
+  double sum = 0.0;
+  for (const std::size_t unit : units) sum += noise_of_unit_mm2(system, unit).trace();
+  return std::sqrt(sum / as_double(units.size()));
 }
 
 Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit) {

@@ -29,7 +29,20 @@ struct Estimate {
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
   Indices free;  ///< positions in `regressors`
+
+  [[nodiscard]] RegressorSet free_regressors() const;
+  /// Of a regressor of the model.
+  [[nodiscard]] Eigen::Index position(int regressor) const;
 };
+
+/// The linear unknowns of a model: the settings, nuisances included, then the sizes of some regressors.
+struct Unknowns {
+  Eigen::MatrixXd design;  ///< N x unknowns
+  Eigen::VectorXd sigma;   ///< of each beforehand
+};
+[[nodiscard]] Unknowns unknowns_of(const RegressorSystem& system,
+                                   const MarginalisedSystem& marginalised,
+                                   const RegressorSet& free);
 
 /// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
@@ -67,8 +80,19 @@ struct DiscrepancyNoise {
 [[nodiscard]] Eigen::Vector2d error_of_unit(const RegressorSystem& system,
                                             const Eigen::VectorXd& whitened,
                                             std::size_t unit);
+[[nodiscard]] std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
+                                                           const Eigen::VectorXd& whitened,
+                                                           const Indices& units);
+/// Root mean square over the kept units in mm: of the tool where chains were read, of distances, or of one belt. `units`
+/// empty: all units.
+[[nodiscard]] double rms_of_units_mm(const RegressorSystem& system,
+                                     const KeptRows& kept,
+                                     const Eigen::VectorXd& whitened,
+                                     const Indices& units = {});
 /// Its covariance with noise as stated.
 [[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
+/// Root mean square of that over some units.
+[[nodiscard]] double noise_of_units_mm(const RegressorSystem& system, const Indices& units);
 
 /// A chain residual (read minus predicted) as an error of the tool [mm]: where it landed minus where the model has it.
 [[nodiscard]] Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);

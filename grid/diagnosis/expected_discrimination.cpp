@@ -71,21 +71,16 @@ std::vector<Group> groups_of(const Analysis& a) {
 Eigen::MatrixXd add_discrepancy(const Analysis& a,
                                 const RegressorSystem& system,
                                 const Estimate& fitted,
+                                const linear::Cholesky& covariance,
                                 Eigen::VectorXd& mean,
                                 Eigen::MatrixXd& design) {
-  const KeptRows& kept = marginalised_system(a).kept;
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
-  const Eigen::MatrixXd k = square * discrepancy_covariance(system, a.system, kept, kernel);
-  Eigen::MatrixXd c = square * discrepancy_covariance(a.system, kept, kernel);
-  c.diagonal().array() += 1.0;
-  Eigen::MatrixXd x(c.rows(), design.cols());
-  const linear::Cholesky covariance(std::move(c));
-  const Eigen::Index settings = fitted.setting_change.size();
-  x.leftCols(settings) = kept.of(a.system.by_setting);
-  for (std::size_t i = 0; i < fitted.free.size(); ++i) {
-    x.col(settings + as_index(i)) = kept(a.system.g.col(fitted.regressors[fitted.free[i]]));
-  }
+  const Eigen::MatrixXd k =
+      square * discrepancy_covariance(system, a.system, marginalised.kept, kernel);
+  const Eigen::MatrixXd x =
+      unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
   linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(design, -1.0, k, covariance.solve(x));
   Eigen::MatrixXd own =
@@ -99,8 +94,9 @@ void predict(const Analysis& a,
              const RegressorSystem& system,
              const ColumnOf& column_of_cause,
              Alternative& h) {
-  const Estimate fitted =
-      estimate(a.system, marginalised_system(a), h.regressors, h.discrepancy);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const auto noise = discrepancy_noise(a.system, marginalised, h.discrepancy);
+  const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise.get());
   // Holes not yet cut have their own columns, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
@@ -120,7 +116,8 @@ void predict(const Analysis& a,
     }
   }
   h.covariance.setZero(design.rows(), design.rows());
-  if (h.discrepancy >= 0) h.covariance = add_discrepancy(a, system, fitted, h.mean, design);
+  if (noise)
+    h.covariance = add_discrepancy(a, system, fitted, noise->covariance, h.mean, design);
   linear::add_outer(
       h.covariance, 1.0, linear::product(design, linear::Cholesky(fitted.covariance).lower()));
   linear::add_outer(

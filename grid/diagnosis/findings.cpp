@@ -94,29 +94,23 @@ double fitted_place_sigma(const Analysis& a,
   const EffectParameter& place = own.cause.effect->parameters[which];
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const RegressorSystem& system = a.system;
-  const Eigen::Index settings = system.setting.size();
-  const auto free = std::ssize(fitted.free);
-  Eigen::MatrixXd design(marginalised.kept.size(), settings + free + 1);
-  Eigen::VectorXd sigma(settings + free + 1);
-  design.leftCols(settings) =
-      marginalised.kept.of(system.by_setting + coefficient * slope_by_settings(a, own));
-  sigma.head(settings) = system.sigma;
-  for (Eigen::Index k = 0; k < free; ++k) {
-    const int other = fitted.regressors[fitted.free[as_size(k)]];
-    design.col(settings + k) = marginalised.kept(system.g.col(other));
-    sigma(settings + k) = wide_coefficient_sigma(system, marginalised, other);
-  }
-  design.col(settings + free) = coefficient * marginalised.kept(slope);
+  Unknowns unknowns = unknowns_of(system, marginalised, fitted.free_regressors());
+  auto& [design, sigma] = unknowns;
+  const Eigen::Index last = sigma.size();
+  design.leftCols(system.setting.size()) +=
+      coefficient * marginalised.kept.of(slope_by_settings(a, own));
+  design.conservativeResize(Eigen::NoChange, last + 1);
+  design.col(last) = coefficient * marginalised.kept(slope);
+  sigma.conservativeResize(last + 1);
   // The prior is uniform between the bounds; a phase is cyclic.
   const double range = place.name.ends_with("_rad")
                            ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
                            : place.upper - place.lower;
-  sigma(settings + free) = range / std::sqrt(12.0);
+  sigma(last) = range / std::sqrt(12.0);
   if (a.noise) a.noise->covariance.half_solve_in_place(design);
   const Eigen::MatrixXd scaled =
       linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
   const linear::Cholesky normal(linear::one_plus_gram(scaled));
-  const Eigen::Index last = settings + free;
   const Eigen::VectorXd column_of_inverse = normal.solve(Eigen::VectorXd::Unit(last + 1, last));
   // With a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
   // step either way.
@@ -170,18 +164,12 @@ ParameterEstimate estimated_place(
   return result;
 }
 
-/// Index of a regressor among those of a fit.
-Eigen::Index position_of(const Estimate& e, int column) {
-  const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
-  return as_index(found - e.regressors.begin());
-}
-
 /// The cause of regressor `column`, in the effect's order. \pre `fitted` has the regressor.
 std::vector<ParameterEstimate> parameters_of(const Analysis& a,
                                              int column,
                                              const Estimate& fitted) {
   const Regressor& d = regressor(a, column);
-  const Eigen::Index at = position_of(fitted, column);
+  const Eigen::Index at = fitted.position(column);
   const double coefficient = fitted.coefficient(at);
   const double sigma = fitted.coefficient_sigma(at);
   std::vector<ParameterEstimate> result;
@@ -221,7 +209,7 @@ Cause describe(const Analysis& a, std::size_t index) {
     RegressorSet set = others;
     set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
-    const Eigen::Index at = position_of(fitted, column);
+    const Eigen::Index at = fitted.position(column);
     auto found = parameters_of(a, column, fitted);
     if (member == members.front()) {
       const double length = marginalised_system(a).g.col(column).norm();
@@ -301,7 +289,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     RegressorSet set = a.decision.regressors;
     if (!contains(set, column)) set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
-    const Eigen::Index at = position_of(fitted, column);
+    const Eigen::Index at = fitted.position(column);
     const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));

@@ -61,10 +61,8 @@ class FoldErrors {
   /// The model's residual without its discrepancy.
   [[nodiscard]] std::vector<Eigen::Vector2d> left_at(const Indices& units,
                                                      const Estimate& model) const {
-    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_given_discrepancy);
-    std::vector<Eigen::Vector2d> result;
-    for (const std::size_t u : units) result.push_back(error_of_unit(a_.system, left, u));
-    return result;
+    return errors_of_units(
+        a_.system, left_of_machine(a_.system, model, model.left_given_discrepancy), units);
   }
 
   const Analysis& a_;

@@ -23,13 +23,6 @@ bool names_agree(const Fold& fold, const Analysis& a) {
                             : contains(a.decision.leaders(), fold.named.front());
 }
 
-/// Root mean square of a reading's noise at the tool.
-double noise_floor(const Analysis& a, const Indices& units) {
-  double sum = 0.0;
-  for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
-  return std::sqrt(a.estimate.noise_square * sum / as_double(units.size()));
-}
-
 /// Errors of the machine as delivered, and with only the sheets' placement fitted.
 struct BeforeCalibration {
   std::vector<Eigen::Vector2d> as_stated, placed;
@@ -48,17 +41,14 @@ BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
         moves || (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
   }
   const Eigen::VectorXd as_stated = uncalibrated(session, *stated);
-  Eigen::VectorXd placed = as_stated;
   if (moves) {
-    placed = left_by(marginalised_system(a).kept,
+    const Eigen::VectorXd placed = left_by(marginalised_system(a).kept,
                      stated->by_setting.middleCols(kOfMachine, sheet),
                      stated->sigma.segment(kOfMachine, sheet),
                      as_stated);
+    result.placed = errors_of_units(*stated, placed, units);
   }
-  for (const std::size_t u : units) {
-    result.as_stated.push_back(error_of_unit(*stated, as_stated, u));
-    if (moves) result.placed.push_back(error_of_unit(*stated, placed, u));
-  }
+  result.as_stated = errors_of_units(*stated, as_stated, units);
   return result;
 }
 
@@ -185,7 +175,8 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   improvement.scheme = scheme_of(a.session, blocks, extension.naming_repeated);
   improvement.extended = summarise(extension.errors.machine, number, seed);
   improvement.extended_and_surface = summarise(extension.errors.and_surface, number, seed);
-  improvement.noise_floor_mm = noise_floor(a, units);
+  improvement.noise_floor_mm =
+      std::sqrt(a.estimate.noise_square) * noise_of_units_mm(a.system, units);
   if (extension.helps) {
     const ExpectedImprovement expected = expected_improvement(a);
     improvement.drop_mm2 = expected.drop_mm2;

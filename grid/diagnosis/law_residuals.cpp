@@ -80,8 +80,6 @@ constexpr std::size_t kFolds = 4;
 /// Number of values of a place or period that a part may choose from.
 constexpr std::size_t kMostValues = 5;
 
-bool has(const Indices& units, std::size_t unit) { return contains(units, unit); }
-
 /// Distances between holes.
 bool joins_places(const RegressorSystem& system) {
   return any_of(system.units, [](const SystemUnit& unit) { return unit.places.size() > 1; });
@@ -169,7 +167,7 @@ class Predictor {
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
     Eigen::Index at = 0;
     for (const KeptRows::Unit& unit : kept_.units()) {
-      if (!has(units, unit.unit)) continue;
+      if (!contains(units, unit.unit)) continue;
       if (!unit.across)
         rows.segment(system_.units[unit.unit].first_row, unit.rows) = wrong.segment(at, unit.rows);
       at += unit.rows;
@@ -199,21 +197,6 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a,
                                            : quarter.units);
   }
   return LawHeldOut{predictor.errors(folds(a.system, kept)), predictor.errors(parts)};
-}
-
-double rms_of_units_mm(const RegressorSystem& system,
-                       const KeptRows& kept,
-                       const Eigen::VectorXd& rows,
-                       const Indices& units) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const KeptRows::Unit& unit : kept.units()) {
-    if (unit.across || (!units.empty() && !has(units, unit.unit))) continue;
-    sum += error_of_unit(system, rows, unit.unit).squaredNorm();
-    // A place's four belts leave two checks.
-    count += system.is_of_lengths() ? 2.0 : 1.0;
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 double averaged_over_parts(const Analysis& a,

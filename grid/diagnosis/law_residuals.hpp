@@ -34,13 +34,6 @@ namespace chaintrue::grid::diagnosis {
                                                       const LawEvidence& evidence,
                                                       const WeighedLaw& law);
 
-/// Root mean square of the rows of the kept units in mm: of the tool where chains were read, of
-/// distances, or of one belt. `units` empty: all units.
-[[nodiscard]] double rms_of_units_mm(const RegressorSystem& system,
-                                     const KeptRows& kept,
-                                     const Eigen::VectorXd& rows,
-                                     const Indices& units = {});
-
 /// The probability of a law averaged over parts of the bed, as that of causes given a pattern is
 /// (bed_parts.hpp): a real pattern follows no law exactly, and a slightly wrong likelihood gives
 /// large odds from a few marks. A true law holds without any quarter of the bed.

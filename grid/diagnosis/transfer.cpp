@@ -14,30 +14,17 @@ namespace {
 
 /// Residuals with the placement of the sheet, and nothing else, fitted to the points that count:
 /// whitened rows of points.
-class Placed {
- public:
-  explicit Placed(const RegressorSystem& system) : sheet_(system) {
-    const auto machine = std::ssize(model::kMachineSettings);
-    const Eigen::Index sheet = system.setting.size() - machine;
-    sheet_.by_setting = system.by_setting.rightCols(sheet).eval();
-    sheet_.setting = Eigen::VectorXd::Zero(sheet);
-    sheet_.expected_change = Eigen::VectorXd::Zero(sheet);
-    sheet_.sigma = system.sigma.tail(sheet).eval();
-    sheet_.g = RegressorColumns(system.e.size());
-    sheet_.regressors.clear();
-  }
-
-  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& left) const {
-    if (sheet_.by_setting.cols() == 0) return left;
-    RegressorSystem system = sheet_;
-    system.e = left;
-    const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}).front();
-    return estimate(system, marginalise_rows(system, outliers), {}, -1).left;
-  }
-
- private:
-  RegressorSystem sheet_;  ///< only the sheet's settings are free
-};
+Eigen::VectorXd placed(RegressorSystem system, const Eigen::VectorXd& left) {
+  const Eigen::Index sheet = system.setting.size() - std::ssize(model::kMachineSettings);
+  if (sheet == 0) return left;
+  system.by_setting = system.by_setting.rightCols(sheet).eval();
+  system.setting = system.expected_change = Eigen::VectorXd::Zero(sheet);
+  system.sigma = system.sigma.tail(sheet).eval();
+  system.g = RegressorColumns(system.e.size());
+  system.e = left;
+  const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}).front();
+  return estimate(system, marginalise_rows(system, outliers), {}, -1).left;
+}
 
 /// Residuals of the second session with the first one's model, before placing its sheet.
 Eigen::VectorXd left_of(const Analysis& a,
@@ -82,17 +69,9 @@ HeldOut summary(const ObservationSet& to,
                 const RegressorSystem& system,
                 const Eigen::VectorXd& left,
                 std::uint64_t seed) {
-  std::vector<Eigen::Vector2d> tool;
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    tool.push_back(error_of_unit(system, left, u));
-  }
-  return summarise(tool, block_numbers(to), seed);
-}
-
-double noise_floor_of(const RegressorSystem& system) {
-  double sum = 0.0;
-  for (std::size_t u = 0; u < system.units.size(); ++u) sum += noise_of_unit_mm2(system, u).trace();
-  return std::sqrt(sum / as_double(system.units.size()));
+  return summarise(errors_of_units(system, left, numbers_below(system.units.size())),
+                   block_numbers(to),
+                   seed);
 }
 
 }  // namespace
@@ -126,19 +105,22 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});
   }
-  const Placed place(*system);
   const auto predicted_by = [&](const RegressorSet& regressors, int discrepancy) {
     const Estimate model = estimate(a.system, marginalised_system(a), regressors, discrepancy);
-    return summary(*second, *system, place(left_of(a, model, *second, state, *system)), options.seed);
+    return summary(*second,
+                   *system,
+                   placed(*system, left_of(a, model, *second, state, *system)),
+                   options.seed);
   };
   Transfer result;
   result.points = second->places.size();
   result.uncalibrated =
-      summary(*second, *stated, Placed(*stated)(uncalibrated(*second, *stated)), options.seed);
+      summary(*second, *stated, placed(*stated, uncalibrated(*second, *stated)), options.seed);
   result.calibrated = predicted_by({}, -1);
   result.extended = predicted_by(a.decision.regressors, -1);
   result.extended_and_surface = predicted_by(a.decision.regressors, a.decision.best_discrepancy);
-  result.noise_floor_mm = noise_floor_of(*system);
+  result.noise_floor_mm =
+      noise_of_units_mm(*system, numbers_below(system->units.size()));
   return result;
 }
 

@@ -95,18 +95,6 @@ Key most_of(const std::map<Key, double>& weights, double whole, Key otherwise) {
   return otherwise;
 }
 
-double mean_square_mm2(const Analysis& a, const Eigen::VectorXd& whitened) {
-  const Flags& outliers = marginalised_system(a).outliers;
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t u = 0; u < outliers.size(); ++u) {
-    if (outliers[u]) continue;
-    sum += error_of_unit(a.system, whitened, u).squaredNorm();
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
 /// The decision's discrepancy in all rows, and its length in units of noise.
 struct Pattern {
   Eigen::VectorXd rows;
@@ -131,11 +119,12 @@ Unexplained unexplained(const Analysis& a) {
   if (a.decision.best_discrepancy < 0) return result;
   const Pattern pattern = pattern_of(a);
   result.signal_to_noise = pattern.signal_to_noise;
-  const double own = mean_square_mm2(a, pattern.rows);
-  result.rms_mm = std::sqrt(own);
+  const KeptRows& kept = marginalised_system(a).kept;
+  result.rms_mm = rms_of_units_mm(a.system, kept, pattern.rows);
   const Estimate plain = estimate_of(a, {});
-  const double all = mean_square_mm2(a, left_of_machine(a.system, plain, plain.left));
-  result.share = all > 0.0 ? std::min(own / all, 1.0) : 0.0;
+  const double all_mm =
+      rms_of_units_mm(a.system, kept, left_of_machine(a.system, plain, plain.left));
+  result.share = all_mm > 0.0 ? std::min(std::pow(result.rms_mm / all_mm, 2), 1.0) : 0.0;
   const Said said = said_of(a);
   const Coordinate of = most_of(said.of, said.weight, Coordinate::place);
   if (chain_of(of) || of == Coordinate::x || of == Coordinate::y) result.follows = name(of);
@@ -155,23 +144,6 @@ constexpr double kFollowsShare = 0.2;
 /// named.
 constexpr double kTimeOverPlace = 0.3;
 
-/// X in units of each unknown's prior sigma.
-Eigen::MatrixXd design_of(const Analysis& a) {
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const Eigen::Index n = marginalised.kept.size();
-  const Eigen::Index settings = a.system.by_setting.cols();
-  const auto causes = std::ssize(a.estimate.free);
-  Eigen::MatrixXd design(n, settings + causes);
-  design.leftCols(settings) =
-      linear::scaled_columns(marginalised.kept.of(a.system.by_setting), a.system.sigma);
-  for (Eigen::Index k = 0; k < causes; ++k) {
-    const int column = a.estimate.regressors[a.estimate.free[as_size(k)]];
-    design.col(settings + k) = marginalised.kept(a.system.g.col(column)) * kWideSignalToNoise /
-                               std::max(marginalised.g.col(column).norm(), 1e-12);
-  }
-  return design;
-}
-
 /// Noise after a fit, one column per draw: residuals come out of a fit, so the noise that they are
 /// compared with must too. The nuisances' share is put back, as left_of_machine() does.
 ///
@@ -180,7 +152,10 @@ Eigen::MatrixXd design_of(const Analysis& a) {
 /// X, the columns of settings, nuisances (B, with their sigmas s) and named causes; P, their prior
 /// precision.
 Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
-  const Eigen::MatrixXd design = design_of(a);
+  const Unknowns unknowns =
+      unknowns_of(a.system, marginalised_system(a), a.estimate.free_regressors());
+  // X in units of each unknown's prior sigma.
+  const Eigen::MatrixXd design = linear::scaled_columns(unknowns.design, unknowns.sigma);
   const Eigen::Index n = design.rows();
   const Eigen::Index shared = a.system.nuisances;
   const auto by_nuisance = design.middleCols(a.system.by_setting.cols() - shared, shared);
