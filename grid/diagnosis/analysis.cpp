@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/bed_parts.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/evidence.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/statistics.hpp"
@@ -20,11 +20,12 @@ double log_share_of_links(double links) { return std::log(0.25) * (std::abs(link
 
 /// In logarithms: for readings much better than usual every density underflows.
 double log_strength_density(double signal_to_noise) {
-  const auto log_normal = [&](double sigma) {
-    return -0.5 * std::pow(signal_to_noise / sigma, 2) - std::log(sigma);
-  };
-  return log_sum(std::log(1.0 - kWideSignalToNoisePrior) + log_normal(kUsualSignalToNoise),
-                 std::log(kWideSignalToNoisePrior) + log_normal(kWideSignalToNoise));
+  double sum = kMinusInfinity;
+  for (const auto& [sigma, share] : kStrengthPriors) {
+    sum = log_sum(sum,
+                  std::log(share) - 0.5 * std::pow(signal_to_noise / sigma, 2) - std::log(sigma));
+  }
+  return sum;
 }
 
 /// Divides a cause's prior among its visits and numbers of links, and sets the odds of slips at one
@@ -39,7 +40,7 @@ void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& sy
     std::vector<double> log_weight;
     for (; last < system.regressors.size(); ++last) {
       const Regressor& d = system.regressors[last];
-      if (!(d.cause == system.regressors[first].cause)) break;
+      if (d.cause != system.regressors[first].cause) break;
       log_weight.push_back(log_share_of_links(d.values.front()) +
                            log_strength_density(marginalised.g.col(as_index(last)).norm()));
       log_all = last == first ? log_weight.back() : log_sum(log_all, log_weight.back());
@@ -142,11 +143,10 @@ void drop_hidden(std::string_view reason, Analysis& a) {
   const MarginalisedSystem marginalised = marginalise(a.system, nothing_rejected(a.system));
   const auto shows = [&](const CauseId& cause) {
     double most = 0.0;
-    for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-      const Regressor& d = a.system.regressors[k];
-      if (!(d.cause == cause)) continue;
+    for (const int k : a.system.regressors_of(cause)) {
+      const Regressor& d = a.system.regressor(k);
       const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-      most = std::max(most, size * marginalised.g.col(as_index(k)).norm());
+      most = std::max(most, size * marginalised.g.col(k).norm());
     }
     return most >= kLeastReach;
   };
@@ -172,18 +172,15 @@ void drop_hidden(std::string_view reason, Analysis& a) {
 
 void test_significance(const AnalysisRules& rules, Analysis& a) {
   const RegressorSystem causes = rules.tried_with_noise(a);
-  const MarginalisedSystem marginalised =
-      marginalise(causes,
-                  a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers);
-  const bool is_stated = rules.noise == NoiseSize::stated;
+  const MarginalisedSystem marginalised = marginalise(causes, a.comparison.best_system().outliers);
   // Given the length of the residuals, nothing else is known about the noise.
   constexpr double kNothingStated = 1e-3;
-  const SingleScore score(causes, marginalised, is_stated ? causes.noise_dof : kNothingStated);
+  const SingleScore score(
+      causes, marginalised, rules.noise == NoiseSize::stated ? causes.noise_dof : kNothingStated);
   // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
   constexpr std::size_t kManyUnits = 150;
   const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
-  a.null = is_stated ? draw_null(score, marginalised.e.size(), draws, a.options.seed)
-                     : draw_null_of_length(score, marginalised, draws, a.options.seed);
+  a.null = draw_null(score, marginalised, rules.noise, draws, a.options.seed);
   a.score = score.largest(marginalised.e);
   // C. Bonferroni's bound.
   a.family_wise_p = std::min(1.0, a.options.orders_tried * a.null.p_value(a.score));
@@ -222,8 +219,7 @@ const AnalysisRules& calibrated_rules() {
 }
 
 void estimate_decided(Analysis& a) {
-  const MarginalisedSystem& marginalised =
-      a.comparison.marginalised_systems[a.decision.marginalised];
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   a.noise = discrepancy_noise(
       a.system, marginalised, a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
   a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());

@@ -39,12 +39,6 @@ struct Analysis {
   Estimate estimate;  ///< of the decision's causes
 };
 
-/// What is stated about the noise. If nothing is stated, residuals of a given length point in every
-/// direction with equal probability, whatever the noise, so the strongest score has one
-/// distribution for all residuals of that length (E. Lehmann and J. Romano, Testing Statistical
-/// Hypotheses (2005), section 5.2: an unknown scale is conditioned out).
-enum class NoiseSize { stated, unknown };
-
 /// The steps from a session to a decision that differ between machines.
 class AnalysisRules {
  public:

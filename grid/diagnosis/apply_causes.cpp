@@ -10,9 +10,7 @@ namespace chaintrue::grid::diagnosis {
 
 void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   const ObservationSet& session = a.session;
-  const bool scale_read = any_of(session.readings(), [](const ExtraReading& r) {
-    return r.what == ReadingOf::link_pitch || r.what == ReadingOf::tape_error;
-  });
+  const bool scale_read = any_of(session.readings(), shows_scale);
   // The most probable of a set is applied: at these points its rivals do the same.
   std::vector<Cause> used = diagnosis.causes;
   if (diagnosis.verdict == Verdict::named_set) used.resize(1);
@@ -25,13 +23,12 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
     const int column = best_regressor(a, cause.cause);
     // Miscounted or skipped links are not properties of the machine: readings are always corrected.
     if (worse && !regressor(a, column).fixed) continue;
-    const bool paper_too = any_of(cause.same_as, [](const auto& s) {
-      return s.cause.effect->station == model::effects::Station::paper;
-    });
+    const bool paper_too = any_of(
+        cause.same_as, [](const auto& s) { return s.cause.effect->station == Station::paper; });
     // Chain or paper: neither is changed before the links are read or the tape is checked.
     if (paper_too && !scale_read && !a.options.accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
-                            cause.cause.effect->station != model::effects::Station::paper;
+                            cause.cause.effect->station != Station::paper;
     auto& into = in_machine ? into_machine : diagnosis.data_corrections;
     into.push_back(applied(cause));
     into.back().probability = cause.probability;

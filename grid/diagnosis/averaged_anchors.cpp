@@ -42,10 +42,9 @@ constexpr CauseWeight kWeights[] = {{"belt_zero", 0.06}, {"drift", 0.045}};
 constexpr double kOtherWeight = 0.013;
 
 double odds_of(const CauseId& cause) {
-  const auto* found = std::find_if(std::begin(kWeights), std::end(kWeights), [&](const auto& own) {
-    return own.effect == cause.effect->id;
-  });
-  return found == std::end(kWeights) ? kOtherWeight : found->odds;
+  const auto* found =
+      find_where(kWeights, [&](const CauseWeight& own) { return own.effect == cause.effect->id; });
+  return found == nullptr ? kOtherWeight : found->odds;
 }
 
 bool is_in(const std::vector<SizedCause>& known, const CauseId& cause) {

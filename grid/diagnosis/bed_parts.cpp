@@ -50,8 +50,7 @@ Eigen::Vector2d place_of(const RegressorSystem& system, std::size_t u) {
   return sum / as_double(unit.places.size());
 }
 
-std::vector<UnitPlace> places_of_units(const RegressorSystem& system,
-                                       const Flags& excluded) {
+std::vector<UnitPlace> places_of_units(const RegressorSystem& system, const Flags& excluded) {
   std::vector<UnitPlace> result;
   const KeptRows kept(system, excluded);
   for (const KeptRows::Unit& unit : kept.units()) {

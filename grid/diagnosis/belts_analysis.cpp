@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/statistics.hpp"
@@ -38,12 +39,10 @@ constexpr std::size_t kKernelOfMany = 1;
 RegressorSet found_before(const Analysis& a) {
   RegressorSet found;
   for (const SizedCause& own : a.known) {
-    for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-      const Regressor& d = a.system.regressors[k];
-      if (d.cause == own.cause && d.values == own.values) {
-        found.push_back(static_cast<int>(k));
-        break;
-      }
+    for (const int k : a.system.regressors_of(own.cause)) {
+      if (a.system.regressor(k).values != own.values) continue;
+      found.push_back(k);
+      break;
     }
   }
   sort(found);
@@ -149,8 +148,7 @@ void BeltRules::restrain(bool detected, Analysis& a) const {
 }
 
 belts::Counting decided_counting(const Analysis& a) {
-  const Flags& rejected =
-      a.comparison.marginalised_systems[a.decision.marginalised].outliers;
+  const Flags& rejected = marginalised_system(a).outliers;
   belts::Counting counting(a.system.places.size());
   for (std::size_t u = 0; u < counting.size(); ++u) {
     for (const model::Belt belt : model::kBelts) {

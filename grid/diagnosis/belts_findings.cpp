@@ -8,6 +8,7 @@
 #include "grid/belts/fit_report.hpp"
 #include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_readings.hpp"
@@ -192,7 +193,7 @@ Unexplained unexplained(const BeltsAnalysis& a) {
   Unexplained result;
   result.probability = std::clamp(a.decision.discrepancy, 0.0, 1.0);
   if (a.noise == nullptr) return result;
-  const KeptRows& kept = a.comparison.marginalised_systems[a.decision.marginalised].kept;
+  const KeptRows& kept = marginalised_system(a).kept;
   const Eigen::VectorXd all = kept(a.estimate.left);
   const Eigen::VectorXd taken = all - kept(a.estimate.left_given_discrepancy);
   result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / as_double(taken.size()));

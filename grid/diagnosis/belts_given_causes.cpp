@@ -41,8 +41,7 @@ std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
   return free;
 }
 
-const model::effects::EffectParameter& parameter_of(const std::vector<SizedCause>& causes,
-                                                    FreeValue which) {
+const EffectParameter& parameter_of(const std::vector<SizedCause>& causes, FreeValue which) {
   return causes[which.cause].cause.effect->parameters[which.value];
 }
 

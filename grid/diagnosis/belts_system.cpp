@@ -17,7 +17,6 @@ namespace chaintrue::grid::diagnosis {
 
 using model::Belt;
 using model::kBelts;
-using model::effects::EffectSide;
 
 namespace {
 
@@ -53,7 +52,7 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
 CausePrior prior_of_belts() {
   constexpr double kRarerThanChains = 3.0;
   CausePrior prior{.shares = 0.0, .odds_given_discrepancy = 1.0};
-  for (const model::effects::Effect* effect : model::belts::belt_effects()) {
+  for (const Effect* effect : model::belts::belt_effects()) {
     if (!(effect->expected > 0.0)) prior.shares += kRarerThanChains * effect->share;
   }
   return prior;
@@ -170,7 +169,7 @@ class Columns {
  private:
   /// For an expected effect, the share that makes it alone as likely as no cause (CausePrior).
   [[nodiscard]] double share_of(const CauseId& cause) const {
-    const model::effects::Effect& effect = *cause.effect;
+    const Effect& effect = *cause.effect;
     if (!(effect.expected > 0.0)) return effect.share;
     return effect.expected * system_.prior.shares * kPriorOfNothing / kPriorOfOne;
   }
@@ -235,7 +234,7 @@ Candidates candidates(const MeasuredBelts& belts) {
     for (const Belt belt : kBelts) is_pulled_anywhere[is_pulled(point, belt) ? 1 : 0] = true;
   }
   const bool tells_pull = is_pulled_anywhere[0] && is_pulled_anywhere[1];
-  const auto hidden_because = [&](const model::effects::Effect* effect, EffectSide side) {
+  const auto hidden_because = [&](const Effect* effect, EffectSide side) {
     if (effect == &model::belts::anchor_moved && side == EffectSide::all)
       return "moving the whole frame with its places changes no length: measure from two edges of "
              "the sheet to a hole that the machine cut";
@@ -251,7 +250,7 @@ Candidates candidates(const MeasuredBelts& belts) {
     return "";
   };
   Candidates result;
-  for (const model::effects::Effect* effect : model::belts::belt_effects()) {
+  for (const Effect* effect : model::belts::belt_effects()) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{effect, side};
       const std::string reason = hidden_because(effect, side);

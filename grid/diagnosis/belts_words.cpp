@@ -99,8 +99,7 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
   constexpr double kEqualWithin = 0.1;
   const double reach = model::reach_mm(belts.machine);
   for (const Cause& c : d.causes) {
-    if (c.cause.effect->id != "belt_zero" || c.cause.side != model::effects::EffectSide::all)
-      continue;
+    if (c.cause.effect->id != "belt_zero" || c.cause.side != EffectSide::all) continue;
     const double offset = c.parameters.front().value;
     if (std::abs(offset + reach) < kEqualWithin * reach &&
         belts.machine.lengths != model::BeltLengths::belt) {

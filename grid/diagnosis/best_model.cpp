@@ -24,13 +24,12 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   int best = -1;
   double most = -1.0;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-    if (!(a.system.regressors[k].cause == cause)) continue;
-    const auto g = marginalised.g.col(as_index(k));
+  for (const int k : a.system.regressors_of(cause)) {
+    const auto g = marginalised.g.col(k);
     const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
     if (score > most) {
       most = score;
-      best = static_cast<int>(k);
+      best = k;
     }
   }
   return best;

@@ -26,7 +26,7 @@ std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& syst
     const double length = column.norm();
     if (!(length > 1e-4)) continue;
     const double score = std::abs(column.dot(marginalised.e)) / length;
-    if (result.empty() || !(result.back().first == system.regressors[k].cause)) {
+    if (result.empty() || result.back().first != system.regressors[k].cause) {
       result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
       best = score;
     } else if (score > best) {
@@ -37,9 +37,7 @@ std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& syst
   return result;
 }
 
-bool on_paper(const CauseId& cause) {
-  return cause.effect->station == model::effects::Station::paper;
-}
+bool on_paper(const CauseId& cause) { return cause.effect->station == Station::paper; }
 
 /// A cause's signature with the settings free, and with what was stated of them.
 struct Representative {
@@ -64,14 +62,12 @@ std::optional<FreeModel> model_with(const RegressorSystem& system,
     FreeModel found{{}, -1, model.marginalised};
     for (const int k : model.regressors) {
       if (regressor(k).cause == free) found.free = k;
-      if (!(regressor(k).cause == whole)) {
+      if (regressor(k).cause != whole) {
         found.regressors.push_back(k);
         continue;
       }
-      for (std::size_t other = 0; other < system.regressors.size(); ++other) {
-        const Regressor& own = system.regressors[other];
-        if (own.cause == free && own.values.back() == regressor(k).values.back())
-          found.free = static_cast<int>(other);
+      for (const int other : system.regressors_of(free)) {
+        if (regressor(other).values.back() == regressor(k).values.back()) found.free = other;
       }
       if (found.free >= 0) found.regressors.push_back(found.free);
     }
@@ -95,10 +91,9 @@ bool is_whole(const RegressorSystem& system,
   const Eigen::Index at = found.position(model->free);
   const Eigen::VectorXd own = system.g.col(model->free);
   const Regressor& of_free = system.regressor(model->free);
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-    const Regressor& of_whole = system.regressors[k];
-    if (!(of_whole.cause == whole) || of_whole.values.back() != of_free.values.back()) continue;
-    const double asked = own.dot(Eigen::VectorXd(system.g.col(as_index(k)))) / own.squaredNorm();
+  for (const int k : system.regressors_of(whole)) {
+    if (system.regressor(k).values.back() != of_free.values.back()) continue;
+    const double asked = own.dot(Eigen::VectorXd(system.g.col(k))) / own.squaredNorm();
     if (std::abs(found.coefficient(at) - asked) <= kSigmas * found.coefficient_sigma(at)) return true;
   }
   return false;
@@ -131,8 +126,7 @@ void put_likelier_first(const RegressorSystem& system,
     }
     return sum;
   };
-  const auto is_paper = [](const CauseId& cause) { return on_paper(cause); };
-  const auto end = std::find_if(members.begin(), members.end(), is_paper);
+  const auto end = std::find_if(members.begin(), members.end(), on_paper);
   std::stable_sort(members.begin(), end, descending(weight_of));
 }
 
@@ -149,8 +143,7 @@ Eigen::MatrixXd range_of_settings(const RegressorSystem& system, const Eigen::Ma
 
 std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                    const ModelComparison& comparison) {
-  const MarginalisedSystem& marginalised =
-      comparison.marginalised_systems[comparison.best().marginalised];
+  const MarginalisedSystem& marginalised = comparison.best_system();
   // Settings are free, so that classes do not depend on how well they were stated.
   const linear::Cholesky noise = nuisance_noise(system, marginalised.kept);
   const auto visible = [&](Eigen::MatrixXd columns) {
@@ -188,8 +181,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   }
   for (std::size_t k = 0; k < classes.size(); ++k) {
     CauseClass& members = classes[k];
-    std::stable_partition(
-        members.begin(), members.end(), [](const CauseId& c) { return !on_paper(c); });
+    std::stable_partition(members.begin(), members.end(), std::not_fn(on_paper));
     if (mixed[k]) put_likelier_first(system, comparison, members);
   }
   return classes;

@@ -25,9 +25,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::Station;
-
-using model::effects::EffectParameter;
 using model::effects::PlaceVariable;
 
 /// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
@@ -125,7 +122,7 @@ bool has_order(const MeasuredFile& file) {
 
 /// Its place, if a step or bend depends on it and it is uncertain; else null.
 const ParameterEstimate* unsure_place(const Cause& cause) {
-  const model::effects::Effect& effect = *cause.cause.effect;
+  const Effect& effect = *cause.cause.effect;
   const EffectParameter* place = place_parameter(effect);
   if (place == nullptr || place->integer) return nullptr;
   const PlaceVariable of = variable_of_place(effect, *place);
@@ -192,17 +189,10 @@ std::size_t readings_of(const Measured& measured) {
 }
 
 bool scale_was_read(const Measured& measured) {
-  const auto decides = [](const ExtraReading& reading) {
-    return reading.what == ReadingOf::link_pitch || reading.what == ReadingOf::tape_error;
-  };
-  return std::any_of(
-      measured.files().begin(), measured.files().end(), [&](const MeasuredFile& file) {
-        return std::visit(
-            [&](const auto& own) {
-              return std::any_of(own.readings.begin(), own.readings.end(), decides);
-            },
-            file.measured);
-      });
+  return any_of(measured.files(), [](const MeasuredFile& file) {
+    return std::visit([](const auto& own) { return any_of(own.readings, shows_scale); },
+                      file.measured);
+  });
 }
 
 bool is_of_the_paper(const CauseId& cause) { return cause.effect->station == Station::paper; }
@@ -212,9 +202,7 @@ std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
   if (cause.probability < kSureOfCause) return OfferedCause::Reason::not_sure;
   if (is_of_the_paper(cause.cause)) return OfferedCause::Reason::is_paper;
   const bool may_be_paper =
-      std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const SameCause& same) {
-        return is_of_the_paper(same.cause);
-      });
+      any_of(cause.same_as, [](const SameCause& same) { return is_of_the_paper(same.cause); });
   if (may_be_paper && !decided) return OfferedCause::Reason::may_be_paper;
   return std::nullopt;
 }
@@ -280,9 +268,7 @@ std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) 
         one.cause.probability >= kLeastProbability)
       open.push_back(&one.cause);
   }
-  std::stable_sort(open.begin(), open.end(), [](const Cause* a, const Cause* b) {
-    return a->probability > b->probability;
-  });
+  stable_sort(open, descending(&Cause::probability));
   if (open.size() > kMostMaps) open.resize(kMostMaps);
   return open;
 }
@@ -343,6 +329,10 @@ void offer(const std::vector<Cause>& causes, OfferedCause::Reason reason, Causes
 }
 
 }  // namespace
+
+bool shows_scale(const ExtraReading& reading) {
+  return reading.what == ReadingOf::link_pitch || reading.what == ReadingOf::tape_error;
+}
 
 model::AppliedEffect applied(const Cause& cause) {
   model::AppliedEffect effect{

@@ -37,7 +37,7 @@ std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& a, const Laws
   const LawEvidence& evidence = laws.evidence[first.evidence];
   const WeighedLaw& law = evidence.laws[first.law];
   Eigen::VectorXd rows =
-      LawColumns(a.system).of(evidence.curves[law.curve], law.at) * law.amplitude;
+      law_columns(a.system, evidence.curves[law.curve], {law.at}) * law.amplitude;
   if (a.decision.listed.empty() && !may_name_a_cause(a, rows)) return std::nullopt;
   return rows;
 }

@@ -143,7 +143,9 @@ class Decider {
     Key sure;
     for (const std::size_t k : best_key_) {
       const bool given_discrepancy = result_.discrepancy > kDiscrepancyLikely;
-      if (result_.probability_of(k) >= (given_discrepancy ? kNamedGivenDiscrepancy : kLikelierThanNot)) sure.push_back(k);
+      if (result_.probability_of(k) >=
+          (given_discrepancy ? kNamedGivenDiscrepancy : kLikelierThanNot))
+        sure.push_back(k);
     }
     const auto found = groups_.find(sure);
     if (sure.empty() || found == groups_.end()) return best_model;
@@ -317,10 +319,9 @@ std::vector<CauseId> Decision::leaders() const {
 }
 
 std::size_t Decision::class_of(const CauseId& cause) const {
-  const auto home = std::find_if(classes.begin(), classes.end(), [&](const CauseClass& members) {
-    return contains(members, cause);
-  });
-  return as_size(home - classes.begin());
+  const auto* home =
+      find_where(classes, [&](const CauseClass& members) { return contains(members, cause); });
+  return home != nullptr ? as_size(home - classes.data()) : classes.size();
 }
 
 double Decision::probability_of(std::size_t index) const {

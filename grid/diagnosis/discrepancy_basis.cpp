@@ -142,27 +142,17 @@ class DiscrepancyBasis::Fields {
       : system_(system), marginalised_(marginalised) {}
 
   Products& of(const DiscrepancyKernel& kernel) {
-    Products& p = all_.emplace_back();
-    p.field = kernel.fields.front();
-    p.parts.first = low_rank_lengths(system_, marginalised_, kernel);
-    p.parts.second.setZero(p.parts.first.rows(), p.parts.first.cols());
-    p.gram11 = linear::gram(p.parts.first);
-    p.gram12.setZero(p.gram11.rows(), p.gram11.cols());
-    p.gram22 = p.gram12;
-    return p;
+    Components parts{low_rank_lengths(system_, marginalised_, kernel), {}};
+    parts.second.setZero(parts.first.rows(), parts.first.cols());
+    return add(kernel.fields.front(), std::move(parts));
   }
 
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
     auto* known = find_where(all_, [&](const Products& p) { return p.field == field; });
-    if (known != nullptr) return *known;
-    Products& p = all_.emplace_back();
-    p.field = field;
-    p.parts = components_of(system_, marginalised_, field, system_.places);
-    p.gram11 = linear::gram(p.parts.first);
-    p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
-    p.gram22 = linear::gram(p.parts.second);
-    return p;
+    return known != nullptr
+               ? *known
+               : add(field, components_of(system_, marginalised_, field, system_.places));
   }
 
   /// Inner products of a block with the residual and these columns.
@@ -186,6 +176,16 @@ class DiscrepancyBasis::Fields {
   }
 
  private:
+  Products& add(const DiscrepancyField& field, Components parts) {
+    Products& p = all_.emplace_back();
+    p.field = field;
+    p.parts = std::move(parts);
+    p.gram11 = linear::gram(p.parts.first);
+    p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
+    p.gram22 = linear::gram(p.parts.second);
+    return p;
+  }
+
   /// The residual and these columns.
   [[nodiscard]] Eigen::MatrixXd columns_of(const NormalEquations& plain) const {
     Eigen::MatrixXd e(marginalised_.e.size(), std::ssize(plain.columns) + 1);
@@ -333,7 +333,7 @@ DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(
 }
 
 NormalEquations DiscrepancyBasis::GivenKernel::equations(double strength,
-                                                    RegressorSet columns) const {
+                                                         RegressorSet columns) const {
   ColumnSet at;
   Rows line = {0};
   for (const int k : columns) {

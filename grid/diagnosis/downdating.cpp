@@ -80,10 +80,7 @@ void clear_unobserved_columns(const NormalEquations& before, NormalEquations& eq
 }
 
 /// The outlier groups with all of these units set to `rejected`.
-Flags with_units(const RegressorSystem& system,
-                             Flags groups,
-                             const Indices& units,
-                             bool rejected) {
+Flags with_units(const RegressorSystem& system, Flags groups, const Indices& units, bool rejected) {
   if (system.groups.empty()) {
     for (const std::size_t unit : units) groups[unit] = rejected;
     return groups;
@@ -98,14 +95,12 @@ Flags with_units(const RegressorSystem& system,
 
 /// The comparison's marginalised system that rejects these points; it is made if there is none.
 std::size_t home_of(ModelComparison& comparison, Flags outliers) {
-  const auto same = std::find_if(
-      comparison.marginalised_systems.begin(),
-      comparison.marginalised_systems.end(),
-      [&](const MarginalisedSystem& marginalised) { return marginalised.outliers == outliers; });
-  if (same != comparison.marginalised_systems.end())
-    return as_size(same - comparison.marginalised_systems.begin());
-  comparison.marginalised_systems.emplace_back().outliers = std::move(outliers);
-  return comparison.marginalised_systems.size() - 1;
+  auto& systems = comparison.marginalised_systems;
+  const auto* same =
+      find_where(systems, [&](const MarginalisedSystem& own) { return own.outliers == outliers; });
+  if (same != nullptr) return as_size(same - systems.data());
+  systems.emplace_back().outliers = std::move(outliers);
+  return systems.size() - 1;
 }
 
 }  // namespace
@@ -115,9 +110,7 @@ Downdating::Downdating(const RegressorSystem& system,
                        const FollowedModels& limits)
     : system_(system),
       comparison_(comparison),
-      score_(system,
-             comparison.marginalised_systems[comparison.best().marginalised],
-             system.noise_dof) {
+      score_(system, comparison.best_system(), system.noise_dof) {
   auto followed = models_to_follow(system, comparison, limits);
   std::vector<std::pair<const FactorisationKey, std::vector<CandidateModel>>*> all;
   for (auto& one : followed) all.push_back(&one);

@@ -76,7 +76,7 @@ class Downdating {
     Eigen::MatrixXd inverse;    ///< L^-1; empty without a discrepancy, where V's root gives its columns
     Eigen::MatrixXd precision;  ///< U: first column the residual
     std::vector<CandidateModel> models;
-    std::vector<ColumnSet> sets;  ///< of each: its columns in the equations
+    std::vector<ColumnSet> sets;                  ///< of each: its columns in the equations
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
@@ -84,17 +84,16 @@ class Downdating {
   struct Downdated {
     NormalEquations equations;
     Eigen::Index rows = 0;       ///< that are left
-    Flags outliers;  ///< of the units that are left
+    Flags outliers;              ///< of the units that are left
     double price = 0.0;          ///< of these
   };
-  [[nodiscard]] Downdated downdated(const Factorisation& factorised,
-                                    const Indices& units) const;
+  [[nodiscard]] Downdated downdated(const Factorisation& factorised, const Indices& units) const;
   [[nodiscard]] Factorisation factorisation_of(std::size_t marginalised,
                                                int discrepancy,
                                                std::vector<CandidateModel> models) const;
   /// Inner products with these rows of the marginalised system gone.
-  [[nodiscard]] NormalEquations downdated_equations(
-      const Factorisation& factorised, const Rows& out) const;
+  [[nodiscard]] NormalEquations downdated_equations(const Factorisation& factorised,
+                                                    const Rows& out) const;
 
   const RegressorSystem& system_;
   const ModelComparison& comparison_;

@@ -29,9 +29,9 @@ constexpr double kPartMm = 100.0;
 
 using Shifts = std::vector<Eigen::Vector2d>;
 
-BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
+BudgetLine::ChangesWith changes_with(const Effect& effect) {
   if (effect.by_direction) return BudgetLine::ChangesWith::direction;
-  if (effect.station == model::effects::Station::reading) return BudgetLine::ChangesWith::order;
+  if (effect.station == Station::reading) return BudgetLine::ChangesWith::order;
   return BudgetLine::ChangesWith::place;
 }
 

@@ -66,27 +66,27 @@ double log_price_of_outlier(Eigen::Index rows) {
 }
 
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers) {
-  std::array<double, 2> rejected{};
+  double price = 0.0;
   if (system.groups.empty()) {
     for (std::size_t u = 0; u < outliers.size(); ++u) {
-      if (outliers[u]) rejected[as_size(system.units[u].rows - 1)] += 1.0;
+      if (outliers[u]) price += log_price_of_outlier(system.units[u].rows);
     }
-  } else {
-    // Each direction is a separate slip, and a unit has at most as many as rows.
-    Rows of_unit(system.units.size(), 0);
-    for (std::size_t k = 0; k < outliers.size(); ++k) {
-      const OutlierGroup& group = system.groups[k];
-      const int unit = system.unit_of_row[as_size(group.first_row)];
-      Eigen::Index& own = of_unit[as_size(unit)];
-      if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
-    }
-    for (const Eigen::Index directions : of_unit) rejected[0] += as_double(directions);
+    return price;
   }
-  return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
+  // Each direction is a separate slip, and a unit has at most as many as rows.
+  Rows of_unit(system.units.size(), 0);
+  for (std::size_t k = 0; k < outliers.size(); ++k) {
+    const OutlierGroup& group = system.groups[k];
+    const int unit = system.unit_of_row[as_size(group.first_row)];
+    Eigen::Index& own = of_unit[as_size(unit)];
+    if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
+  }
+  for (const Eigen::Index directions : of_unit)
+    price += as_double(directions) * log_price_of_outlier(1);
+  return price;
 }
 
-MarginalisedSystem marginalise_rows(const RegressorSystem& system,
-                                    const Flags& outliers) {
+MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& outliers) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
@@ -325,29 +325,18 @@ SetEvidence set_evidence(const NormalEquations& equations,
   return wide;
 }
 
-namespace {
-
-struct SizePrior {
-  double sigma;
-  double share;
-};
-constexpr std::array<SizePrior, 2> kSizePriors = {{{kUsualSignalToNoise, 1.0 - kWideSignalToNoisePrior},
-                                                   {kWideSignalToNoise, kWideSignalToNoisePrior}}};
-
-}  // namespace
-
 EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
                                const std::vector<Regressor>& regressors,
                                const NoiseDensity& noise)
     : equations_(equations),
       regressors_(regressors),
       noise_(noise),
-      outside_(equations.ge.size(), std::ssize(kSizePriors)) {
+      outside_(equations.ge.size(), std::ssize(kStrengthPriors)) {
   const double s = std::sqrt(noise.noise_square(equations.ee));
   for (Eigen::Index i = 0; i < outside_.rows(); ++i) {
     const double unit = s / std::sqrt(equations.prior_square(i));
     for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
-      const double sigma = unit * kSizePriors[as_size(k)].sigma;
+      const double sigma = unit * kStrengthPriors[as_size(k)].sigma;
       outside_(i, k) =
           regressor(i).fixed ? 0.0 : -log_mass(0.0, sigma, regressor(i).lowest, regressor(i).highest);
     }
@@ -365,7 +354,7 @@ Eigen::ArrayXd EvidenceBounds::with_each(std::span<const Eigen::Index> set) cons
   }
   Eigen::ArrayXd most = Eigen::ArrayXd::Constant(of_data.size(), kMinusInfinity);
   for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
-    const SizePrior& prior = kSizePriors[as_size(k)];
+    const StrengthPrior& prior = kStrengthPriors[as_size(k)];
     const auto occam = [&](Eigen::Index i, double square) {
       return outside_(i, k) -
              0.5 * std::log(square / equations_.prior_square(i) * prior.sigma * prior.sigma);

@@ -76,7 +76,7 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points rejected.
 struct MarginalisedSystem {
-  Flags outliers;  ///< a flag for each outlier group
+  Flags outliers;              ///< a flag for each outlier group
   KeptRows kept;               ///< N rows
   CovarianceRoot root;         ///< N x N, R of V = R R
   Eigen::VectorXd e;           ///< N, R^-1 times the residual
@@ -90,10 +90,8 @@ struct MarginalisedSystem {
 /// Natural logarithm of the prior times the density of one rejected unit with this many rows.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
 /// For all these groups; directions count separately.
-[[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
-                                           const Flags& outliers);
-[[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
-                                             const Flags& outliers);
+[[nodiscard]] double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers);
+[[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers);
 /// The same without g.
 [[nodiscard]] MarginalisedSystem marginalise_rows(const RegressorSystem& system,
                                                   const Flags& outliers);
@@ -132,7 +130,7 @@ template <class One, class Other>
 
 /// Inner products of the residual and of some columns.
 struct NormalEquations {
-  RegressorSet columns;  ///< m regressors, ascending
+  RegressorSet columns;      ///< m regressors, ascending
   double ee = 0.0;           ///< e'e
   Eigen::VectorXd ge;        ///< m, g'e
   Eigen::MatrixXd gg;        ///< m x m, g'g
@@ -154,6 +152,15 @@ struct NormalEquations {
 [[nodiscard]] Discrepancy discrepancy_of(const RegressorSystem& system,
                                          const MarginalisedSystem& marginalised,
                                          int discrepancy);
+
+/// Priors of a signal-to-noise ratio: the usual one, and the wide one.
+struct StrengthPrior {
+  double sigma = 0.0;
+  double share = 0.0;
+};
+inline constexpr std::array<StrengthPrior, 2> kStrengthPriors = {
+    {{kUsualSignalToNoise, 1.0 - kWideSignalToNoisePrior},
+     {kWideSignalToNoise, kWideSignalToNoisePrior}}};
 
 /// Bounds the memory of a set's factorisation, which is allocated on the stack: twice the causes that a comparison takes.
 inline constexpr int kMostFreeRegressors = 8;

@@ -79,8 +79,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
   const Eigen::MatrixXd k =
       square * discrepancy_covariance(system, a.system, marginalised.kept, kernel);
-  const Eigen::MatrixXd x =
-      unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
+  const Eigen::MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
   linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(design, -1.0, k, covariance.solve(x));
   Eigen::MatrixXd own =
@@ -116,8 +115,7 @@ void predict(const Analysis& a,
     }
   }
   h.covariance.setZero(design.rows(), design.rows());
-  if (noise)
-    h.covariance = add_discrepancy(a, system, fitted, noise->covariance, h.mean, design);
+  if (noise) h.covariance = add_discrepancy(a, system, fitted, noise->covariance, h.mean, design);
   linear::add_outer(
       h.covariance, 1.0, linear::product(design, linear::Cholesky(fitted.covariance).lower()));
   linear::add_outer(
@@ -135,8 +133,7 @@ double distance(const Alternative& k, const Alternative& l, const Rows& rows) {
 }
 
 /// D between all alternatives.
-Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives,
-                          const Rows& rows) {
+Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives, const Rows& rows) {
   const auto count = std::ssize(alternatives);
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
   if (rows.empty()) return d;
@@ -167,6 +164,12 @@ Eigen::MatrixXd without_negligible(const Eigen::MatrixXd& covariance) {
   return linear::outer(linear::PivotedCholesky(covariance).root(kNegligible));
 }
 
+void normalise(std::vector<Alternative>& alternatives) {
+  double sum = 0.0;
+  for (const Alternative& one : alternatives) sum += one.probability;
+  for (Alternative& one : alternatives) one.probability /= sum;
+}
+
 std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   std::vector<Group> groups = groups_of(a);
   double all = 0.0;
@@ -182,9 +185,7 @@ std::vector<Alternative> alternatives_of_best(const Analysis& a) {
       result.push_back(std::move(one));
     }
   }
-  double sum = 0.0;
-  for (const Alternative& one : result) sum += one.probability;
-  for (Alternative& one : result) one.probability /= sum;
+  normalise(result);
   return result;
 }
 

@@ -63,6 +63,9 @@ using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>
 /// As above without predictions: no means and covariances.
 [[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
 
+/// Divides their probabilities by their sum.
+void normalise(std::vector<Alternative>& alternatives);
+
 /// A covariance of whitened rows without what is below a hundredth of the noise.
 [[nodiscard]] Eigen::MatrixXd without_negligible(const Eigen::MatrixXd& covariance);
 

@@ -21,8 +21,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::EffectParameter;
-
 double circular(double difference, const EffectParameter& p) {
   const bool turns = p.upper - p.lower >= 2.0 * std::numbers::pi;
   return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
@@ -75,7 +73,7 @@ Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
 double step_of_places(const Analysis& a, const Regressor& own, std::size_t which) {
   double least = kInfinity;
   for (const Regressor& other : a.system.regressors) {
-    if (!(other.cause == own.cause)) continue;
+    if (other.cause != own.cause) continue;
     const double step = std::abs(other.values[which] - own.values[which]);
     if (step > 0.0) least = std::min(least, step);
   }
@@ -128,7 +126,7 @@ double place_scatter(const Analysis& a, int column, std::size_t which, double ab
   for (const CandidateModel& model : a.comparison.models) {
     for (const int k : model.regressors) {
       const Regressor& other = regressor(a, k);
-      if (!(other.cause == own.cause)) continue;
+      if (other.cause != own.cause) continue;
       const double p = a.comparison.probability(model);
       const double off = circular(other.values[which] - about, place);
       weight += p;
@@ -383,9 +381,7 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
     if (&part.observation->kind() == &observation::drawn_measures)
       result.back().of = Observations::drawing;
   }
-  sort(result, [](const Outlier& x, const Outlier& y) {
-    return std::pair(x.of, x.index) < std::pair(y.of, y.index);
-  });
+  sort(result, ascending([](const Outlier& own) { return std::pair(own.of, own.index); }));
   return result;
 }
 

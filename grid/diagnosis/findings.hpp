@@ -36,6 +36,9 @@ namespace chaintrue::grid::diagnosis {
 /// Verdict, causes, hypotheses, bounds and untestable causes: the part common to all answers.
 void take_findings(const Analysis& analysis, Diagnosis& diagnosis);
 
+/// Whether a reading decides between chain and paper.
+[[nodiscard]] bool shows_scale(const ExtraReading& reading);
+
 /// Sets the machine and the corrections of the data from the causes; a class that may also be on
 /// the paper only if the options accept it.
 void apply_causes(const Analysis& analysis, Diagnosis& diagnosis);

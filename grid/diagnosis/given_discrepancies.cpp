@@ -46,11 +46,7 @@ class Scout {
     for (std::size_t k = 0; k < plain_.columns.size(); ++k) {
       all.emplace_back(prior_[k] + share + single(d, as_index(k)), plain_.columns[k]);
     }
-    sort(all, [](const auto& a, const auto& b) {
-      return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    all.resize(count_with_ties(
-        all, kSinglesGivenDiscrepancy, [](const auto& single) { return single.first; }));
+    keep_best(all, kSinglesGivenDiscrepancy);
     if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
     result.singles = std::move(all);
     if (best_models_.empty()) return result;
@@ -99,131 +95,80 @@ class Scout {
   double prior_of_nothing_ = 0.0;
 };
 
-/// The sets given one discrepancy, with full weights.
-class GivenDiscrepancySearch {
- public:
-  GivenDiscrepancySearch(const RegressorSystem& system,
-               NormalEquations equations,
-               int discrepancy,
-               const SearchLimits& limits,
-               ModelCollector& collector)
-      : system_(system),
-        equations_(std::move(equations)),
-        discrepancy_(discrepancy),
-        limits_(limits),
-        collector_(collector) {}
-
-  void run(const RegressorSet& singles, const std::vector<RegressorSet>& best_models) {
-    consider({});
-    std::vector<WeighedSet> parents;
-    for (const int k : singles) {
-      const ColumnSet set = {equations_.position(k)};
-      parents.push_back({consider(set), set});
-    }
-    for (const RegressorSet& regressors : best_models) {
-      ColumnSet set;
-      for (const int k : regressors) set.push_back(equations_.position(k));
-      if (known_.contains(set)) continue;
-      grown_[set.size()].push_back({consider(set), set});
-    }
-    const std::vector<WeighedSet> alone = parents;
-    for (std::size_t size = 2; size <= kMostCauses; ++size) {
-      narrow(parents, collector_.best(), kBeamGivenDiscrepancy);
-      if (parents.empty()) return;
-      for (const WeighedSet& parent : parents) extend(parent.set, alone);
-      parents = grown_[size];
-    }
-  }
-
- private:
-  double consider(const ColumnSet& set) {
-    const double weight = collector_.consider(set, discrepancy_, equations_);
-    known_.emplace(set, weight);
-    return weight;
-  }
-
-  void extend(const ColumnSet& parent, const std::vector<WeighedSet>& alone) {
-    for (const WeighedSet& one : alone) {
-      const auto set = with_column(system_, equations_, limits_, parent, one.set.front());
-      if (set && !known_.contains(*set)) grown_[set->size()].push_back({consider(*set), *set});
-    }
-  }
-
-  const RegressorSystem& system_;
-  NormalEquations equations_;
-  int discrepancy_;
-  const SearchLimits& limits_;
-  ModelCollector& collector_;
-  std::map<ColumnSet, double> known_;
-  std::array<std::vector<WeighedSet>, kMostCauses + 1> grown_;
-};
-
-/// Counts the places of each cause in a list that is sorted by score.
-class PlacesOfCauses {
- public:
-  PlacesOfCauses(const RegressorSystem& system, int most) : system_(system), most_(most) {}
-
-  /// Whether this one is among the first `most` of its cause, or ties with the last of these.
-  [[nodiscard]] bool takes(int regressor, double score) {
-    const CauseId& cause = system_.regressor(regressor).cause;
-    auto* known = find_where(taken_, [&](const Taken& own) { return own.cause == cause; });
-    Taken& own = known != nullptr ? *known : taken_.emplace_back(Taken{cause, 0, 0.0});
-    if (own.count == most_) return tied(score, own.last_score);
-    ++own.count;
-    own.last_score = score;
-    return true;
-  }
-
- private:
-  struct Taken {
-    CauseId cause;
-    int count = 0;
-    double last_score = 0.0;
+/// The sets given one discrepancy, with full weights: `best_models`, and those grown from singles.
+void search_given(const RegressorSystem& system,
+                  const NormalEquations& equations,
+                  int discrepancy,
+                  const SearchLimits& limits,
+                  const RegressorSet& singles,
+                  const std::vector<RegressorSet>& best_models,
+                  ModelCollector& collector) {
+  GrowingSets sets(system, equations, discrepancy, limits, collector);
+  const auto positions = [&](const RegressorSet& regressors) {
+    ColumnSet set;
+    for (const int k : regressors) set.push_back(equations.position(k));
+    return set;
   };
-  const RegressorSystem& system_;
-  int most_;
-  std::vector<Taken> taken_;
-};
+  const ColumnSet alone = positions(singles);
+  sets.weigh({});
+  for (const Eigen::Index column : alone) sets.weigh({column});
+  for (const RegressorSet& regressors : best_models) sets.weigh(positions(regressors));
+  sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true}, [&](const ColumnSet&) {
+    return alone;
+  });
+}
 
-/// Only the best places of each cause.
-RegressorSet worth_trying(const RegressorSystem& system, const Scouted& scouted) {
-  PlacesOfCauses places(system, 2);
+/// Regressors with a score, best first.
+using ScoredRegressors = std::vector<std::pair<double, int>>;
+
+/// The first `most` of each cause, and those that tie with the last of these.
+RegressorSet first_of_each_cause(const RegressorSystem& system,
+                                 const ScoredRegressors& sorted,
+                                 std::size_t most) {
   RegressorSet result;
-  for (const auto& [weight, k] : scouted.singles) {
-    if (weight < scouted.weight - kNegligibleModel) break;
-    if (places.takes(k, weight)) result.push_back(k);
+  std::vector<std::pair<CauseId, std::vector<double>>> taken;
+  for (const auto& [score, k] : sorted) {
+    const CauseId& cause = system.regressor(k).cause;
+    auto* known = find_where(taken, [&](const auto& own) { return own.first == cause; });
+    auto& scores =
+        (known != nullptr ? *known : taken.emplace_back(cause, std::vector<double>{})).second;
+    if (scores.size() >= most && !tied(score, scores[most - 1])) continue;
+    scores.push_back(score);
+    result.push_back(k);
   }
   return result;
 }
 
 /// The best places of each cause alone, and all leading ones.
 RegressorSet columns_to_scout(const RegressorSystem& system,
-                                  const NormalEquations& plain,
-                                  const std::vector<RegressorSet>& best_models) {
-  PlacesOfCauses places(system, 4);
-  std::vector<std::pair<double, int>> order;
+                              const NormalEquations& plain,
+                              const std::vector<RegressorSet>& best_models) {
+  ScoredRegressors scored;
   for (std::size_t k = 0; k < plain.columns.size(); ++k) {
     const auto at = as_index(k);
     const bool fixed = system.regressor(plain.columns[k]).fixed;
     const double gain = fixed ? 2.0 * plain.ge(at) - plain.gg(at, at)
                               : plain.ge(at) * plain.ge(at) / plain.gg(at, at);
-    order.emplace_back(-gain, plain.columns[k]);
+    scored.emplace_back(gain, plain.columns[k]);
   }
-  sort(order);
-  RegressorSet result;
-  for (const auto& [gain, k] : order) {
-    if (places.takes(k, gain)) result.push_back(k);
-  }
+  stable_sort(scored, descending(&ScoredRegressors::value_type::first));
+  RegressorSet result = first_of_each_cause(system, scored, 4);
   for (const auto& set : best_models) append_all(result, set);
   sort_unique(result);
   return result;
 }
 
+/// Only the best places of each cause.
+RegressorSet worth_trying(const RegressorSystem& system, Scouted scouted) {
+  std::erase_if(scouted.singles, [&](const auto& single) {
+    return single.first < scouted.weight - kNegligibleModel;
+  });
+  return first_of_each_cause(system, scouted.singles, 2);
+}
+
 /// Those with a share of the weight, best first.
 std::vector<int> worth_searching(std::vector<Scouted> scouted) {
-  stable_sort(scouted, descending(&Scouted::weight));
-  scouted.resize(count_with_ties(
-      scouted, kMostDiscrepanciesSearched, [](const Scouted& own) { return own.weight; }));
+  keep_best(scouted, kMostDiscrepanciesSearched, &Scouted::weight);
   std::vector<int> result;
   for (const Scouted& one : scouted) {
     if (one.weight < scouted.front().weight - kDiscrepanciesWithin) break;
@@ -259,12 +204,12 @@ std::vector<double> search_all_by_beam(const RegressorSystem& system,
 }  // namespace
 
 std::vector<double> search_given_discrepancies(const RegressorSystem& system,
-                                                MarginalisedSystem& marginalised,
-                                                const ComparisonOptions& options,
-                                                const NormalEquations& plain,
-                                                const std::vector<RegressorSet>& best_models,
-                                                const Indices& kernels,
-                                                ModelCollector& collector) {
+                                               MarginalisedSystem& marginalised,
+                                               const ComparisonOptions& options,
+                                               const NormalEquations& plain,
+                                               const std::vector<RegressorSet>& best_models,
+                                               const Indices& kernels,
+                                               ModelCollector& collector) {
   DiscrepancyBasis basis(system, marginalised, kernels);
   if (options.search.of_a_cause > 0)
     return search_all_by_beam(system, basis, options.search, plain, kernels, collector);
@@ -292,16 +237,17 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
     const DiscrepancyBasis::GivenKernel& given = all_columns.at(kernel);
     const RegressorSet singles =
         options.given_cause ? plain.columns
-                     : worth_trying(system, closer_look.look_at(given, discrepancy));
+                            : worth_trying(system, closer_look.look_at(given, discrepancy));
     RegressorSet used = singles;
     for (const auto& set : best_models) append_all(used, set);
     sort_unique(used);
-    GivenDiscrepancySearch(system,
+    search_given(system,
                  given.equations(family.strength_of(discrepancy), used),
                  discrepancy,
                  options.search,
-                 collector)
-        .run(singles, best_models);
+                 singles,
+                 best_models,
+                 collector);
   }
   return of_kernel;
 }

@@ -20,56 +20,43 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
+/// The discrepancy preferred given these causes, or none. If the comparison contains no model of these causes, the best
+/// model's is used.
+int preferred_discrepancy(const ModelComparison& comparison,
+                          std::size_t marginalised,
+                          const RegressorSet& causes) {
+  const auto* model = find_where(comparison.models, [&](const CandidateModel& own) {
+    return own.regressors == causes && own.marginalised == marginalised;
+  });
+  return model != nullptr ? model->discrepancy : comparison.best().discrepancy;
+}
+
 /// Errors at the units of a fold, of models fitted without them.
-class FoldErrors {
- public:
-  FoldErrors(const Analysis& analysis, const Downdating::Without& without, const Decision& decision)
-      : a_(analysis),
-        comparison_(without.comparison),
-        decision_(decision),
-        marginalised_(marginalise_rows(
-            a_.system, comparison_.marginalised_systems[decision.marginalised].outliers)) {}
-
-  [[nodiscard]] Errors at(const Indices& units) const {
-    const RegressorSet& all = a_.decision.regressors;
-    std::map<int, std::shared_ptr<const DiscrepancyNoise>> noise;
-    const auto with = [&](const MarginalisedSystem& marginalised, const RegressorSet& causes) {
-      const int discrepancy = preferred_discrepancy(causes);
-      const auto [known, is_new] = noise.try_emplace(discrepancy);
-      if (is_new) known->second = discrepancy_noise(a_.system, marginalised_, discrepancy);
-      const auto left = [&](const MarginalisedSystem& own, const DiscrepancyNoise* given) {
-        return left_at(units, estimate(a_.system, own, causes, given));
-      };
-      return ErrorsWith{left(marginalised, nullptr), left(marginalised_, known->second.get())};
-    };
-    return {with(without_slips(a_, marginalised_), {}),
-            with(marginalised_, decision_.regressors),
-            with(marginalised_, all)};
-  }
-
- private:
-  /// The discrepancy preferred given these causes, or none. If the comparison contains no model of
-  /// these causes, the best model's is used.
-  [[nodiscard]] int preferred_discrepancy(const RegressorSet& regressors) const {
-    for (const CandidateModel& model : comparison_.models) {
-      if (model.regressors == regressors && model.marginalised == decision_.marginalised)
-        return model.discrepancy;
-    }
-    return comparison_.best().discrepancy;
-  }
-
-  /// The model's residual without its discrepancy.
-  [[nodiscard]] std::vector<Eigen::Vector2d> left_at(const Indices& units,
-                                                     const Estimate& model) const {
+Errors errors_at(const Indices& units,
+                 const Analysis& a,
+                 const ModelComparison& comparison,
+                 const Decision& decision) {
+  const MarginalisedSystem marginalised =
+      marginalise_rows(a.system, comparison.marginalised_systems[decision.marginalised].outliers);
+  std::map<int, std::shared_ptr<const DiscrepancyNoise>> noise;
+  // The residual without the model's discrepancy.
+  const auto left = [&](const MarginalisedSystem& own,
+                        const RegressorSet& causes,
+                        const DiscrepancyNoise* given) {
+    const Estimate model = estimate(a.system, own, causes, given);
     return errors_of_units(
-        a_.system, left_of_machine(a_.system, model, model.left_given_discrepancy), units);
-  }
-
-  const Analysis& a_;
-  const ModelComparison& comparison_;
-  const Decision& decision_;
-  MarginalisedSystem marginalised_;
-};
+        a.system, left_of_machine(a.system, model, model.left_given_discrepancy), units);
+  };
+  const auto with = [&](const MarginalisedSystem& own, const RegressorSet& causes) {
+    const int discrepancy = preferred_discrepancy(comparison, decision.marginalised, causes);
+    const auto [known, is_new] = noise.try_emplace(discrepancy);
+    if (is_new) known->second = discrepancy_noise(a.system, marginalised, discrepancy);
+    return ErrorsWith{left(own, causes, nullptr), left(marginalised, causes, known->second.get())};
+  };
+  return {with(without_slips(a, marginalised), {}),
+          with(marginalised, decision.regressors),
+          with(marginalised, a.decision.regressors)};
+}
 
 bool hangs_on_visits(const Analysis& a) {
   return any_of(a.decision.regressors, [&](int k) {
@@ -142,12 +129,8 @@ DecidedWithout decided_without(const Analysis& a,
   return result;
 }
 
-HeldOutFolds::HeldOutFolds(const Analysis& analysis)
-    : analysis_(analysis), downdating_(analysis.system, analysis.comparison) {}
-
-Fold HeldOutFolds::without(const Indices& units) const {
-  const Analysis& a = analysis_;
-  const auto [without, decision] = decided_without(a, downdating_, units);
+Fold fold_without(const Analysis& a, const Downdating& downdating, const Indices& units) {
+  const auto [without, decision] = decided_without(a, downdating, units);
   // A reading that is wrong only at its own visit carries no information about others.
   Flags out = marginalised_system(a).outliers;
   reject_slips(a, out);
@@ -156,7 +139,7 @@ Fold HeldOutFolds::without(const Indices& units) const {
     if (!out[u]) fold.units.push_back(u);
   }
   fold.named = decision.leaders();
-  fold.errors = FoldErrors(a, without, decision).at(fold.units);
+  fold.errors = errors_at(fold.units, a, without.comparison, decision);
   return fold;
 }
 

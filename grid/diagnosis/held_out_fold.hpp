@@ -4,8 +4,8 @@
 /// model's error at them.
 ///
 /// \code
-///   const HeldOutFolds folds(analysis);
-///   const Fold fold = folds.without(block);   // fold.errors.extended: mm at the units of the block
+///   const Downdating downdating(analysis.system, analysis.comparison);
+///   const Fold fold = fold_without(analysis, downdating, block);   // fold.errors.extended: mm at the units of the block
 /// \endcode
 #pragma once
 
@@ -64,24 +64,16 @@ struct Fold {
   std::vector<CauseId> named;
 };
 
-class HeldOutFolds {
- public:
-  /// Keeps the analysis by reference.
-  explicit HeldOutFolds(const Analysis& analysis);
-
-  /// \param units of the analysis' session, left out of everything. The gate and the decision are
-  /// those for all units; the models are those of the whole comparison, weighed without these units
-  /// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
-  [[nodiscard]] Fold without(const Indices& units) const;
-
- private:
-  const Analysis& analysis_;
-  Downdating downdating_;
-};
+/// \param units of the analysis' session, left out of everything. The gate and the decision are
+/// those for all units; the models are those of the whole comparison, weighed without these units
+/// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
+[[nodiscard]] Fold fold_without(const Analysis& analysis,
+                                const Downdating& downdating,
+                                const Indices& units);
 
 /// Groups of units that are held out together.
 struct HeldOutBlocks {
-  std::vector<Indices> units;  ///< empty if there are too few units
+  std::vector<Indices> units;                   ///< empty if there are too few units
   bool of_the_bed = false;                      ///< or each hole with all distances that end there
 };
 

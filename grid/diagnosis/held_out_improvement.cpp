@@ -43,9 +43,9 @@ BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
   const Eigen::VectorXd as_stated = uncalibrated(session, *stated);
   if (moves) {
     const Eigen::VectorXd placed = left_by(marginalised_system(a).kept,
-                     stated->by_setting.middleCols(kOfMachine, sheet),
-                     stated->sigma.segment(kOfMachine, sheet),
-                     as_stated);
+                                           stated->by_setting.middleCols(kOfMachine, sheet),
+                                           stated->sigma.segment(kOfMachine, sheet),
+                                           as_stated);
     result.placed = errors_of_units(*stated, placed, units);
   }
   result.as_stated = errors_of_units(*stated, as_stated, units);
@@ -87,10 +87,10 @@ struct AllFolds {
 AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
   AllFolds all;
   tell(a.options.progress, {"what a name gains", 3, 4});
-  const HeldOutFolds held_out(a);
+  const Downdating downdating(a.system, a.comparison);
   std::vector<Fold> folds(blocks.units.size());
   for_each_index(folds.size(),
-                 [&](std::size_t b) { folds[b] = held_out.without(blocks.units[b]); });
+                 [&](std::size_t b) { folds[b] = fold_without(a, downdating, blocks.units[b]); });
   for (std::size_t b = 0; b < folds.size(); ++b) {
     const Fold& fold = folds[b];
     all.agree += names_agree(fold, a) ? 1 : 0;

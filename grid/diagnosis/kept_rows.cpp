@@ -29,8 +29,7 @@ void reject(const OutlierGroup& group, Rejected& unit) {
   unit.whole = unit.whole || std::abs(sine) > kOneDirection;
 }
 
-std::vector<Rejected> rejected_units(const RegressorSystem& system,
-                                     const Flags& rejected) {
+std::vector<Rejected> rejected_units(const RegressorSystem& system, const Flags& rejected) {
   std::vector<Rejected> units(system.units.size());
   if (system.groups.empty()) {
     for (std::size_t u = 0; u < units.size(); ++u) units[u].whole = rejected[u];

@@ -306,12 +306,6 @@ void share_out(std::vector<LawCurve>& curves) {
   for (LawCurve& curve : curves) curve.share = curve.weight / sum;
 }
 
-LawColumns::LawColumns(const RegressorSystem& system) : system_(system) {}
-
-Eigen::MatrixXd LawColumns::of(const LawCurve& curve, double at) const {
-  return of(curve, std::vector<double>{at});
-}
-
 namespace {
 
 /// Values of every amplitude at each of some points of the grid.
@@ -325,12 +319,14 @@ Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& a
 
 }  // namespace
 
-Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
+Eigen::MatrixXd law_columns(const RegressorSystem& system,
+                            const LawCurve& curve,
+                            const std::vector<double>& at) {
   const Eigen::Index count = columns_of(curve.shape) * std::ssize(at);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), count);
-  for (std::size_t u = 0; u < system_.units.size(); ++u) {
-    const SystemUnit& unit = system_.units[u];
-    for (const LawRows& own : law_rows(system_, u, curve))
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system.e.size(), count);
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    const SystemUnit& unit = system.units[u];
+    for (const LawRows& own : law_rows(system, u, curve))
       columns.middleRows(unit.first_row, unit.rows) += own.rows * values_at(curve, at, own.v);
   }
   return columns;

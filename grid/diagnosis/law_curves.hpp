@@ -111,17 +111,9 @@ void share_out(std::vector<LawCurve>& curves);
 /// Prior density of a grid point, up to a factor.
 [[nodiscard]] double density_at(const LawCurve& curve, double at);
 
-/// Whitened rows that a law's amplitudes add to, all rows by columns_of().
-class LawColumns {
- public:
-  explicit LawColumns(const RegressorSystem& system);
-  /// At one point of a grid.
-  [[nodiscard]] Eigen::MatrixXd of(const LawCurve& curve, double at) const;
-  /// At several, concatenated.
-  [[nodiscard]] Eigen::MatrixXd of(const LawCurve& curve, const std::vector<double>& at) const;
-
- private:
-  const RegressorSystem& system_;
-};
+/// Whitened rows that a law's amplitudes add to at some points of its grid, one after the other: all rows by columns_of().
+[[nodiscard]] Eigen::MatrixXd law_columns(const RegressorSystem& system,
+                                          const LawCurve& curve,
+                                          const std::vector<double>& at);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -127,7 +127,6 @@ class LawSearch {
           grid.begin() + static_cast<std::ptrdiff_t>(from),
           grid.begin() + static_cast<std::ptrdiff_t>(std::min(from + step, grid.size())));
       Eigen::MatrixXd columns = system_.columns(curve, own);
-      std::vector<LawPoint> some(own.size());
       std::vector<std::vector<double>> terms(own.size());
       system_.take(columns);
       for (const LawContext& context : first_) {
@@ -184,9 +183,7 @@ class LawSearch {
     if (!is_continuous(curve.shape)) return;
     std::vector<LawPoint>& points = points_[c];
     for (int pass = 0; pass < 2; ++pass) {
-      const auto best = max_element(points, [](const LawPoint& a, const LawPoint& b) {
-            return a.weight < b.weight;
-          });
+      const auto best = max_element(points, ascending(&LawPoint::weight));
       std::vector<double> finer;
       const auto between = [&](double from, double to) {
         for (int k = 1; k < kFiner; ++k) finer.push_back(from + (to - from) * k / kFiner);
@@ -305,9 +302,8 @@ class LawSearch {
     for (const LawContext& context : without_) {
       if (!contains(contexts, context)) contexts.push_back(context);
     }
-    sort(contexts, [](const LawContext& a, const LawContext& b) {
-      return std::pair(a.discrepancy, a.set) < std::pair(b.discrepancy, b.set);
-    });
+    sort(contexts,
+         ascending([](const LawContext& own) { return std::pair(own.discrepancy, own.set); }));
     return contexts;
   }
 
@@ -341,8 +337,7 @@ class LawSearch {
       laws[k].log_weight = log_sum(terms[k]) + chosen[k].log_prior;
     }
     std::erase_if(laws, [](const WeighedLaw& law) { return !std::isfinite(law.log_weight); });
-    stable_sort(
-        laws, [](const WeighedLaw& a, const WeighedLaw& b) { return a.log_weight > b.log_weight; });
+    stable_sort(laws, descending(&WeighedLaw::log_weight));
     return laws;
   }
 

@@ -34,7 +34,7 @@ struct WeighedLaw {
 
 struct LawEvidence {
   std::vector<LawCurve> curves;
-  std::vector<RegressorSet> sets;  ///< of the system's regressors
+  std::vector<RegressorSet> sets;      ///< of the system's regressors
   std::size_t marginalised = 0;        ///< in which they were weighed
   double log_without = 0.0;            ///< no law acts
   std::size_t without_set = 0;         ///< in the best context of these

@@ -61,7 +61,10 @@ class LawModel {
 
   /// For all kept rows, after subtracting `known` (all rows).
   [[nodiscard]] double log_density(const Eigen::VectorXd& known) const {
-    return log_density_of(covariance_, e_ - marginalised_.kept(known), dof_);
+    const linear::Cholesky factor(covariance_);
+    return NoiseDensity(dof_, e_.size())
+               .log_density(factor.half_solve(e_ - marginalised_.kept(known)).squaredNorm()) -
+           0.5 * factor.log_det();
   }
 
   /// The noise part of the kept rows and, with the discrepancy added, the machine's residual, after
@@ -161,14 +164,6 @@ class LawModel {
   };
 
  private:
-  static double log_density_of(const Eigen::MatrixXd& covariance,
-                               const Eigen::VectorXd& e,
-                               double dof) {
-    const linear::Cholesky factor(covariance);
-    return NoiseDensity(dof, e.size()).log_density(factor.half_solve(e).squaredNorm()) -
-           0.5 * factor.log_det();
-  }
-
   static double square_of(const Discrepancy& process) {
     return process.sigma_mm * process.sigma_mm;
   }
@@ -194,7 +189,7 @@ class LawModel {
                  evidence.sets[law != nullptr ? law->set : evidence.without_set],
                  law != nullptr ? law->discrepancy : evidence.without_discrepancy);
   if (law == nullptr) return model;
-  const Eigen::MatrixXd columns = LawColumns(a.system).of(evidence.curves[law->curve], law->at);
+  const Eigen::MatrixXd columns = law_columns(a.system, evidence.curves[law->curve], {law->at});
   for (Eigen::Index k = 0; k < columns.cols(); ++k) model.add(Eigen::VectorXd(columns.col(k)));
   return model;
 }

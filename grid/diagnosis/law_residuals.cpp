@@ -22,7 +22,7 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
   const LawCurve& curve = evidence.curves[weighed.curve];
   const LawModel model(a, marginalised, evidence.sets[weighed.set], weighed.discrepancy);
   const LawModel::Left left =
-      model.left_of(LawColumns(system).of(curve, weighed.at) * weighed.amplitude);
+      model.left_of(law_columns(system, curve, {weighed.at}) * weighed.amplitude);
   std::vector<LawResidual> points;
   const bool of_belts = system.is_of_lengths();
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
@@ -74,7 +74,6 @@ const Law* claimed_law(const Diagnosis& d) {
 }
 
 namespace {
-
 
 constexpr std::size_t kFolds = 4;
 /// Number of values of a place or period that a part may choose from.

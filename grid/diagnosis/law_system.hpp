@@ -45,8 +45,7 @@ class LawSystem {
   LawSystem(const Analysis& a, std::size_t number, const std::vector<RegressorSet>& sets)
       : from_(a.system),
         marginalised_(a.comparison.marginalised_systems[number]),
-        noise_(a.system.noise_dof, marginalised_.kept.size()),
-        columns_(a.system) {
+        noise_(a.system.noise_dof, marginalised_.kept.size()) {
     std::set<int> used;
     for (const auto& set : sets) used.insert(set.begin(), set.end());
     const RegressorSet all(used.begin(), used.end());
@@ -75,7 +74,7 @@ class LawSystem {
   /// A curve's columns at these grid points, in the kept rows after projection on the settings.
   [[nodiscard]] Eigen::MatrixXd columns(const LawCurve& curve,
                                         const std::vector<double>& at) const {
-    return marginalised_.root.solve(marginalised_.kept.of(columns_.of(curve, at)));
+    return marginalised_.root.solve(marginalised_.kept.of(law_columns(from_, curve, at)));
   }
 
   /// Replaces the columns of laws.
@@ -137,8 +136,7 @@ class LawSystem {
 
  private:
   /// Columns in a context: of its causes and of some laws.
-  [[nodiscard]] ColumnSet all_columns(const LawContext& context,
-                                                      const ColumnSet& laws) const {
+  [[nodiscard]] ColumnSet all_columns(const LawContext& context, const ColumnSet& laws) const {
     ColumnSet all = sets_[context.set];
     for (const Eigen::Index k : laws) all.push_back(causes_.cols() + k);
     return all;
@@ -151,7 +149,6 @@ class LawSystem {
   const RegressorSystem& from_;
   MarginalisedSystem marginalised_;
   NoiseDensity noise_;
-  LawColumns columns_;
   RegressorSystem own_;
   Eigen::MatrixXd causes_;
   std::vector<Regressor> cause_regressors_;

@@ -162,7 +162,7 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[best.evidence->marginalised];
   const Eigen::VectorXd rows =
-      LawColumns(system).of(best.curve(), best.law->at) * best.law->amplitude;
+      law_columns(system, best.curve(), {best.law->at}) * best.law->amplitude;
   const auto left_mm = [&](Eigen::VectorXd of_rows) {
     const KeptRows& kept = marginalised.kept;
     return rms_of_units_mm(
@@ -173,10 +173,10 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   law.share = all > 0.0 ? std::min(std::pow(law.rms_mm / all, 2), 1.0) : 0.0;
 }
 
-/// Laws with one variable and one way to enter; empty if they are too improbable to report.
-std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
-                                                 const std::vector<FoundPoint>& points,
-                                                 double log_all) {
+/// Laws with one variable and one way to enter; without a probability if they are too improbable to report.
+std::pair<Law, FoundPoint> law_of(const Analysis& a,
+                                  const std::vector<FoundPoint>& points,
+                                  double log_all) {
   std::map<LawShape, double> shapes;
   double sum = 0.0;
   for (const FoundPoint& point : points) {
@@ -184,7 +184,7 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
     shapes[point.curve().shape] += p;
     sum += p;
   }
-  if (sum < kLeastLaw) return std::nullopt;
+  if (sum < kLeastLaw) return {};
   const auto likeliest =
       max_element(shapes, [](const auto& x, const auto& y) { return x.second < y.second; });
   const FoundPoint* best = nullptr;
@@ -207,7 +207,7 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
   measure(a, *best, law);
   law.points = residuals_about(a, *best->evidence, *best->law, law);
   if (law.probability >= kLawLikely) law.held_out = held_out_with(a, *best->evidence, *best->law);
-  return std::pair(std::move(law), *best);
+  return {std::move(law), *best};
 }
 
 /// Systems of the best model and of the one that rejects least: a law at the border looks like bad
@@ -247,14 +247,9 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
   }
   std::vector<std::vector<FoundPoint>> points;  // for each variable and way to enter
   for (auto& [key, own] : answers) points.push_back(std::move(own));
-  std::vector<std::optional<std::pair<Law, FoundPoint>>> worth(points.size());
-  for_each_index(points.size(), [&](std::size_t k) { worth[k] = law_of(a, points[k], log_all); });
-  std::vector<std::pair<Law, FoundPoint>> laws;
-  for (auto& law : worth) {
-    if (law) laws.push_back(*std::move(law));
-  }
-  stable_sort(
-      laws, [](const auto& x, const auto& y) { return x.first.probability > y.first.probability; });
+  std::vector<std::pair<Law, FoundPoint>> laws(points.size());
+  for_each_index(points.size(), [&](std::size_t k) { laws[k] = law_of(a, points[k], log_all); });
+  stable_sort(laws, descending([](const auto& law) { return law.first.probability; }));
   // Parts of the bed may contradict the result of the whole.
   std::erase_if(laws, [](const auto& law) { return law.first.probability < kLeastLaw; });
   double any = 0.0;

@@ -39,7 +39,6 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
       a.values.back() == b.values.back())
     return false;
   if (a.cause.effect != b.cause.effect) return true;
-  using model::effects::EffectSide;
   const auto joint = [](EffectSide s) {
     return s == EffectSide::both || s == EffectSide::all || s == EffectSide::none;
   };
@@ -91,27 +90,49 @@ double ModelCollector::log_prior_of(const RegressorSet& regressors, int discrepa
   return value;
 }
 
-void narrow(std::vector<WeighedSet>& parents, double best, std::size_t most) {
-  stable_sort(parents, descending(&WeighedSet::weight));
-  if (!parents.empty() && parents.front().weight < best - kGrowWithin) parents.clear();
-  parents.resize(
-      count_with_ties(parents, most, [](const WeighedSet& one) { return one.weight; }));
-}
-
-std::optional<ColumnSet> with_column(const RegressorSystem& system,
-                                     const NormalEquations& equations,
-                                     const SearchLimits& limits,
-                                     ColumnSet set,
-                                     Eigen::Index column) {
-  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
-    return system.regressor(equations.columns[as_size(i)]);
-  };
-  const bool fits = all_of(set, [&](Eigen::Index other) {
-    return compatible(regressor(column), regressor(other), limits);
-  });
-  if (!fits) return std::nullopt;
+ColumnSet with_column(ColumnSet set, Eigen::Index column) {
   set.insert(std::lower_bound(set.begin(), set.end(), column), column);
   return set;
+}
+
+GrowingSets::GrowingSets(const RegressorSystem& system,
+                         const NormalEquations& equations,
+                         int discrepancy,
+                         const SearchLimits& limits,
+                         ModelCollector& collector)
+    : system_(system),
+      equations_(equations),
+      discrepancy_(discrepancy),
+      limits_(limits),
+      collector_(collector) {}
+
+void GrowingSets::weigh(const ColumnSet& set) {
+  if (known_.insert(set).second)
+    weighed_[set.size()].push_back({collector_.consider(set, discrepancy_, equations_), set});
+}
+
+bool GrowingSets::fits(const ColumnSet& set, Eigen::Index column) const {
+  return all_of(set, [&](Eigen::Index other) {
+    return compatible(regressor(column), regressor(other), limits_);
+  });
+}
+
+void GrowingSets::grow(std::size_t size,
+                       const GrowthLimits& limits,
+                       const std::function<ColumnSet(const ColumnSet&)>& extensions) {
+  for (; size < kMostCauses; ++size) {
+    std::vector<WeighedSet> parents = weighed_[size];
+    std::erase_if(parents, [&](const WeighedSet& own) {
+      return !limits.impossible && !std::isfinite(own.weight);
+    });
+    keep_best(parents, limits.parents, &WeighedSet::weight);
+    if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
+    for (const WeighedSet& parent : parents) {
+      for (const Eigen::Index column : extensions(parent.set)) {
+        if (fits(parent.set, column)) weigh(with_column(parent.set, column));
+      }
+    }
+  }
 }
 
 void search_by_beam(const RegressorSystem& system,
@@ -121,6 +142,7 @@ void search_by_beam(const RegressorSystem& system,
                     ModelCollector& collector) {
   // Number of sets of none, one, two and three causes that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
+  const GrowingSets sets(system, equations, discrepancy, limits, collector);
   collector.consider({}, discrepancy, equations);
   const EvidenceBounds bounds(equations, system.regressors, collector.noise());
   std::vector<WeighedSet> parents = {{0.0, {}}};
@@ -133,7 +155,7 @@ void search_by_beam(const RegressorSystem& system,
       const Eigen::ArrayXd most = bounds.with_each(parent.set);
       std::map<std::pair<bool, bool>, double> prior;  // of one more, by its kind
       for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
-        const Regressor& own = system.regressor(equations.columns[as_size(i)]);
+        const Regressor& own = sets.regressor(i);
         const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
         if (is_new) {
           RegressorSet regressors = {equations.columns[as_size(i)]};
@@ -143,11 +165,12 @@ void search_by_beam(const RegressorSystem& system,
         const double at_most = most(i) + known->second + own.log_prior;
         const bool may_be_extended = extended > 0 && (heaviest.size() < extended || at_most >= *heaviest.begin());
         if (!may_be_extended && !collector.keeps(size, discrepancy, at_most)) continue;
-        auto set = with_column(system, equations, limits, parent.set, i);
-        if (!set || !found.insert(*set).second) continue;
-        const double weight = collector.consider(*set, discrepancy, equations);
+        if (!sets.fits(parent.set, i)) continue;
+        ColumnSet set = with_column(parent.set, i);
+        if (!found.insert(set).second) continue;
+        const double weight = collector.consider(set, discrepancy, equations);
         if (!std::isfinite(weight)) continue;
-        children.push_back({weight, *std::move(set)});
+        children.push_back({weight, std::move(set)});
         heaviest.insert(weight);
         if (heaviest.size() > extended) heaviest.erase(heaviest.begin());
       }

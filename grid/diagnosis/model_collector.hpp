@@ -3,7 +3,9 @@
 /// Computes the weights of sets of causes in one marginalised system and keeps the relevant ones.
 #pragma once
 
-#include <optional>
+#include <array>
+#include <functional>
+#include <set>
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
@@ -14,20 +16,9 @@ struct WeighedSet {
   double weight = 0.0;
   ColumnSet set;
 };
-/// The heaviest `most` sets and those that tie with the last of them; none if no set is within
-/// reach of the best.
-void narrow(std::vector<WeighedSet>& parents, double best, std::size_t most);
-
 /// Whether two regressors may act together: a cause acts at one place, an effect on both chains
 /// excludes the same on one of them, and one effect may set in at one visit of one chain.
 [[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
-/// The set with one more column; empty if that may not act together with the others.
-[[nodiscard]] std::optional<ColumnSet> with_column(const RegressorSystem& system,
-                                                   const NormalEquations& equations,
-                                                   const SearchLimits& limits,
-                                                   ColumnSet set,
-                                                   Eigen::Index column);
-
 class ModelCollector {
  public:
   /// `number` is the marginalised system's in its comparison; the references must outlive this.
@@ -58,6 +49,48 @@ class ModelCollector {
   double best_;
 };
 
+/// How the best sets of a size are extended.
+struct GrowthLimits {
+  std::size_t parents = 0;  ///< of each size
+  bool impossible = false;  ///< whether sets without weight are among them
+};
+
+/// Sets of causes weighed given one discrepancy or none, each once, and grown from the best of each size.
+class GrowingSets {
+ public:
+  /// All references must outlive this; all sets go to the collector.
+  GrowingSets(const RegressorSystem& system,
+              const NormalEquations& equations,
+              int discrepancy,
+              const SearchLimits& limits,
+              ModelCollector& collector);
+
+  void weigh(const ColumnSet& set);
+  [[nodiscard]] const std::vector<WeighedSet>& of_size(std::size_t size) const {
+    return weighed_[size];
+  }
+  [[nodiscard]] const Regressor& regressor(Eigen::Index column) const {
+    return system_.regressor(equations_.columns[as_size(column)]);
+  }
+  /// Whether the columns may act together.
+  [[nodiscard]] bool fits(const ColumnSet& set, Eigen::Index column) const;
+  /// Weighs the best sets of `size` and more columns with one more, as `extensions` has for each.
+  void grow(std::size_t size,
+            const GrowthLimits& limits,
+            const std::function<ColumnSet(const ColumnSet&)>& extensions);
+
+ private:
+  const RegressorSystem& system_;
+  const NormalEquations& equations_;
+  int discrepancy_;
+  const SearchLimits& limits_;
+  ModelCollector& collector_;
+  std::set<ColumnSet> known_;
+  std::array<std::vector<WeighedSet>, kMostCauses + 1> weighed_;
+};
+/// The set with one more column.
+[[nodiscard]] ColumnSet with_column(ColumnSet set, Eigen::Index column);
+
 /// Sets of up to kMostCauses columns grown from nothing by a beam search, given one discrepancy or
 /// none; all go to the collector.
 void search_by_beam(const RegressorSystem& system,
@@ -76,11 +109,11 @@ void search_by_beam(const RegressorSystem& system,
 /// collector. Notes the traces in the marginalised system. Returns of each of `kernels` the largest
 /// weight that it was found to have.
 std::vector<double> search_given_discrepancies(const RegressorSystem& system,
-                                                MarginalisedSystem& marginalised,
-                                                const ComparisonOptions& options,
-                                                const NormalEquations& plain,
-                                                const std::vector<RegressorSet>& best_models,
-                                                const Indices& kernels,
-                                                ModelCollector& collector);
+                                               MarginalisedSystem& marginalised,
+                                               const ComparisonOptions& options,
+                                               const NormalEquations& plain,
+                                               const std::vector<RegressorSet>& best_models,
+                                               const Indices& kernels,
+                                               ModelCollector& collector);
 
 }  // namespace chaintrue::grid::diagnosis

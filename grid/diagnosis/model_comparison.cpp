@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/estimate.hpp"
@@ -27,14 +28,14 @@ double prior_of_count(std::size_t causes, double odds) {
 
 /// No cause, and each cause alone at its best place.
 std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system,
-                                               const Flags& excluded,
-                                               const ComparisonOptions& options) {
+                                           const Flags& excluded,
+                                           const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   const NoiseDensity noise(system.noise_dof, marginalised.kept.size());
   const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e);
   std::vector<RegressorSet> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
-    if (options.given_cause && !(scores.causes[k] == *options.given_cause)) continue;
+    if (options.given_cause && scores.causes[k] != *options.given_cause) continue;
     if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
   }
   append_all(hypotheses, options.hypotheses);
@@ -80,7 +81,9 @@ double log_prior(const RegressorSystem& system, const RegressorSet& set, bool di
   return value + std::log(prior_of_count(lasting, odds)) + std::lgamma(1.0 + as_double(lasting));
 }
 
-double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set, bool discrepancy) {
+double log_odds_of_another(const RegressorSystem& system,
+                           const RegressorSet& set,
+                           bool discrepancy) {
   const auto lasting = as_size(std::count_if(set.begin(), set.end(), [&](int k) {
     const Regressor& d = system.regressor(k);
     return !d.expected && !d.slip;
@@ -110,7 +113,7 @@ SingleScores single_scores(const RegressorSystem& system,
   const std::array<Eigen::Index, 1> first = {0};
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const Regressor& regressor = system.regressors[k];
-    if (scores.causes.empty() || !(scores.causes.back() == regressor.cause)) {
+    if (scores.causes.empty() || scores.causes.back() != regressor.cause) {
       scores.causes.push_back(regressor.cause);
       scores.best_regressor.push_back(-1);
       terms.emplace_back();
@@ -139,13 +142,12 @@ namespace {
 /// The best model's outliers that are off by a whole number of links: each set of outliers is tried
 /// again without one of them.
 std::vector<Flags> sets_without_links(const RegressorSystem& system,
-                                                  const Flags& excluded,
-                                                  const ModelComparison& comparison) {
+                                      const Flags& excluded,
+                                      const ModelComparison& comparison) {
   // A rejected direction is not a whole reading that is off by links.
   if (!system.groups.empty()) return {};
-  const CandidateModel& best = comparison.best();
-  const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
-  const Estimate fitted = estimate(system, marginalised, best.regressors, -1);
+  const MarginalisedSystem& marginalised = comparison.best_system();
+  const Estimate fitted = estimate(system, marginalised, comparison.best().regressors, -1);
   std::vector<Flags> result;
   for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
     if (!marginalised.outliers[i] || excluded[i]) continue;
@@ -167,31 +169,23 @@ std::vector<Flags> sets_without_links(const RegressorSystem& system,
   return result;
 }
 
-Indices all_kernels(const RegressorSystem& system) {
-  auto all = numbers_below(system.discrepancies->kernels.size());
-  return all;
-}
-
 /// Heaviest first; untried ones keep their order.
-Indices by_weight(const Indices& kernels,
-                                   const std::vector<double>& weight) {
+Indices by_weight(const Indices& kernels, const std::vector<double>& weight) {
   auto order = numbers_below(kernels.size());
-  stable_sort(order, [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  stable_sort(order, descending([&](std::size_t k) { return weight[k]; }));
   for (std::size_t& k : order) k = kernels[k];
   return order;
 }
 
 class Comparer {
  public:
-  Comparer(const RegressorSystem& system,
-           const Flags& excluded,
-           const ComparisonOptions& options)
+  Comparer(const RegressorSystem& system, const Flags& excluded, const ComparisonOptions& options)
       : system_(system), excluded_(excluded), options_(options) {
     comparison_.marginalised_systems.reserve(kMostOutlierSets);
   }
 
   void compare_with(const std::vector<Flags>& sets) {
-    std::vector<SetSearch> searches;
+    std::deque<SetSearch> searches;
     double best = kMinusInfinity;
     for (const auto& outliers : sets) {
       auto& systems = comparison_.marginalised_systems;
@@ -222,11 +216,9 @@ class Comparer {
     std::move(models.begin(), models.end(), std::back_inserter(comparison_.models));
   }
 
-  void look_alongside_likeliest(std::vector<SetSearch>& searches) {
+  void look_alongside_likeliest(std::deque<SetSearch>& searches) {
     auto order = numbers_below(searches.size());
-    stable_sort(order, [&](std::size_t a, std::size_t b) {
-      return searches[a].best() > searches[b].best();
-    });
+    stable_sort(order, descending([&](std::size_t k) { return searches[k].best(); }));
     order.resize(std::min(order.size(), options_.search.sets_given));
     for (const std::size_t k : order) look_alongside(searches[k]);
   }
@@ -235,8 +227,9 @@ class Comparer {
     const bool first = comparison_.kernels.empty();
     const bool all_again = options_.search.of_a_cause > 0;
     const Indices kernels = !first && !all_again ? best_kernels(comparison_)
-                                             : !options_.kernels.empty() ? options_.kernels
-                                                                         : all_kernels(system_);
+                            : !options_.kernels.empty()
+                                ? options_.kernels
+                                : numbers_below(system_.discrepancies->kernels.size());
     std::vector<double> weight;
     take(search.run_given_discrepancies(kernels, weight));
     if (first) comparison_.kernels = by_weight(kernels, weight);

@@ -18,7 +18,7 @@ namespace chaintrue::grid::diagnosis {
 
 /// A set of regressors, with or without a model discrepancy, and the rejected points.
 struct CandidateModel {
-  RegressorSet regressors;   ///< ascending
+  RegressorSet regressors;       ///< ascending
   int discrepancy = -1;          ///< number of the model discrepancy, or none
   std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
   /// Natural logarithm of prior times evidence, or of a probability averaged over parts (bed_parts.hpp).
@@ -35,6 +35,10 @@ struct ModelComparison {
   Indices kernels;
   /// \throws std::invalid_argument if no model has a finite weight.
   [[nodiscard]] const CandidateModel& best() const;
+  /// In which that is.
+  [[nodiscard]] const MarginalisedSystem& best_system() const {
+    return marginalised_systems[best().marginalised];
+  }
   [[nodiscard]] double probability(const CandidateModel& model) const;
 };
 

@@ -128,9 +128,8 @@ Alternative expected_with(const Analysis& a,
                           const LawEvidence& evidence,
                           const WeighedLaw* law) {
   Eigen::MatrixXd there(next.system.e.size(), 0);
-  if (law != nullptr) there = LawColumns(next.system).of(evidence.curves[law->curve], law->at);
-  const RegressorSet& regressors =
-      evidence.sets[law != nullptr ? law->set : evidence.without_set];
+  if (law != nullptr) there = law_columns(next.system, evidence.curves[law->curve], {law->at});
+  const RegressorSet& regressors = evidence.sets[law != nullptr ? law->set : evidence.without_set];
   LawModel::Expected expected =
       model_with(a, evidence, law).expected_of(next.system, columns_of(a, next, regressors, there));
   Alternative one;
@@ -162,9 +161,7 @@ std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& f
       expected_with(a, next, found.evidence[found.heaviest.front().evidence], nullptr));
   alternatives.back().group = found.laws.size();
   alternatives.back().probability = std::max(none, kLeastOfNone);
-  double all = 0.0;
-  for (const Alternative& one : alternatives) all += one.probability;
-  for (Alternative& one : alternatives) one.probability /= all;
+  normalise(alternatives);
   return most_telling(alternatives, std::move(candidates.all));
 }
 

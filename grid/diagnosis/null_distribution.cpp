@@ -5,53 +5,36 @@
 #include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
-namespace {
 
-/// `prepare` makes residuals of a block of standard normals.
-template <class Prepare>
-NullDistribution drawn(const SingleScore& score,
-                       Eigen::Index rows,
-                       int draws,
-                       std::uint64_t seed,
-                       const Prepare& prepare) {
+NullDistribution draw_null(const SingleScore& score,
+                           const MarginalisedSystem& marginalised,
+                           NoiseSize noise,
+                           int draws,
+                           std::uint64_t seed) {
   constexpr std::uint64_t kStream = 61;
   constexpr int kBlock = 250;  // draws at a time
   Random random(seed, kStream);
   std::vector<Eigen::MatrixXd> blocks;
   for (int done = 0; done < draws; done += kBlock) {
-    Eigen::MatrixXd& e = blocks.emplace_back(rows, std::min(kBlock, draws - done));
+    Eigen::MatrixXd& e = blocks.emplace_back(marginalised.e.size(), std::min(kBlock, draws - done));
     for (double& own : e.reshaped()) own = random.normal();
   }
+  const double length = marginalised.e.norm();
   NullDistribution result;
   result.largest.resize(as_size(draws));
   for_each_index(blocks.size(), [&](std::size_t k) {
-    prepare(blocks[k]);
-    const Eigen::VectorXd largest = score.largest(blocks[k]);
+    Eigen::MatrixXd& e = blocks[k];
+    if (noise == NoiseSize::unknown) {
+      e = marginalised.root.solve(e);
+      for (Eigen::Index draw = 0; draw < e.cols(); ++draw)
+        e.col(draw) *= length / e.col(draw).norm();
+    }
+    const Eigen::VectorXd largest = score.largest(e);
     std::copy(largest.begin(), largest.end(), result.largest.begin() + static_cast<std::ptrdiff_t>(k) * kBlock);
-    blocks[k].resize(0, 0);
+    e.resize(0, 0);
   });
   sort(result.largest);
   return result;
-}
-
-}  // namespace
-
-NullDistribution draw_null(const SingleScore& score,
-                           Eigen::Index rows,
-                           int draws,
-                           std::uint64_t seed) {
-  return drawn(score, rows, draws, seed, [](Eigen::MatrixXd&) {});
-}
-
-NullDistribution draw_null_of_length(const SingleScore& score,
-                                     const MarginalisedSystem& marginalised,
-                                     int draws,
-                                     std::uint64_t seed) {
-  const double length = marginalised.e.norm();
-  return drawn(score, marginalised.e.size(), draws, seed, [&](Eigen::MatrixXd& e) {
-    e = marginalised.root.solve(e);
-    for (Eigen::Index k = 0; k < e.cols(); ++k) e.col(k) *= length / e.col(k).norm();
-  });
 }
 
 }  // namespace chaintrue::grid::diagnosis

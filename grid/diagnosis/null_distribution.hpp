@@ -125,15 +125,18 @@ struct NullDistribution {
     return (above + 1.0) / (as_double(largest.size()) + 1.0);
   }
 };
+/// What is stated about the noise. If nothing is stated, residuals of a given length point in every
+/// direction with equal probability, whatever the noise, so the strongest score has one
+/// distribution for all residuals of that length (E. Lehmann and J. Romano, Testing Statistical
+/// Hypotheses (2005), section 5.2: an unknown scale is conditioned out).
+enum class NoiseSize { stated, unknown };
+
+/// For residuals like those of `marginalised`; of unknown size: as long as those, and projected on the
+/// settings in the same way.
 [[nodiscard]] NullDistribution draw_null(const SingleScore& score,
-                                         Eigen::Index rows,
+                                         const MarginalisedSystem& marginalised,
+                                         NoiseSize noise,
                                          int draws,
                                          std::uint64_t seed);
-/// For residuals as long as those of `marginalised`: noise of unknown size, projected on the
-/// settings in the same way.
-[[nodiscard]] NullDistribution draw_null_of_length(const SingleScore& score,
-                                                   const MarginalisedSystem& marginalised,
-                                                   int draws,
-                                                   std::uint64_t seed);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -119,9 +119,7 @@ std::vector<std::string> unmeasured(const MeasuredHoles& set, std::size_t most) 
       if (done.count({i, j}) == 0) left.push_back({.from = i, .to = j});
     }
   }
-  stable_sort(left, [&](const HoleDistance& a, const HoleDistance& b) {
-    return commanded_mm(set, a) > commanded_mm(set, b);
-  });
+  stable_sort(left, descending([&](const HoleDistance& own) { return commanded_mm(set, own); }));
   std::vector<std::string> words;
   for (const HoleDistance& d : left) {
     if (words.size() < most) words.push_back(words_of(set, d));

@@ -11,10 +11,9 @@ namespace {
 
 /// The first part with chain readings at marks.
 std::size_t chain_part(const ObservationSet& session) {
-  const auto found = std::find_if(session.parts.begin(),
-                                  session.parts.end(),
-                                  [](const ObservationPart& part) { return part.reads_chains(); });
-  return as_size(found - session.parts.begin());
+  const auto* found =
+      find_where(session.parts, [](const auto& part) { return part.reads_chains(); });
+  return as_size(found - session.parts.data());
 }
 
 const observation::ChainLengthReadings& readings_of(const ObservationSet& session, std::size_t part) {

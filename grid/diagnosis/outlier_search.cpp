@@ -204,11 +204,6 @@ std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
   return free;
 }
 
-/// Prior and density of what was rejected, by the number of directions of each group.
-double price_of(const std::array<double, 2>& rejected) {
-  return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
-}
-
 /// The best group to reject: its reduction of the quadratic form against the cost of rejecting its
 /// directions.
 struct Worst {
@@ -258,16 +253,16 @@ FoundSet search(MeanShifts shifts,
                 const RegressorSystem& system,
                 const MarginalisedSystem& marginalised,
                 std::vector<FreeGroup> free,
-                const OutlierLimits& limits,
                 Flags outliers,
                 double log_prior) {
   const auto count = as_double(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
   Eigen::Index n = marginalised.kept.size();
-  std::array<double, 2> rejected{};
+  const OutlierLimits& limits = system.limits;
+  double price = 0.0;  // prior and density of what was rejected
   const auto weight = [&] {
     return NoiseDensity(system.noise_dof, n).log_density(shifts.quadratic()) -
-           0.5 * shifts.log_det() + log_prior + price_of(rejected);
+           0.5 * shifts.log_det() + log_prior + price;
   };
   FoundSet best{outliers, weight()};
   std::size_t at_best = 0;
@@ -279,7 +274,7 @@ FoundSet search(MeanShifts shifts,
     const FreeGroup group = free[worst->position];
     shifts.reject(group, worst->drop);
     take_out(group, free, outliers);
-    rejected[as_size(group.directions() - 1)] += 1.0;
+    price += log_price_of_outlier(group.directions());
     n -= group.directions();
     const double own = weight();
     if (own > best.log_weight) {
@@ -301,8 +296,8 @@ std::vector<OutlierGroup> groups_of(const RegressorSystem& system) {
 }  // namespace
 
 std::vector<Flags> outlier_sets(const RegressorSystem& system,
-                                            const Flags& excluded,
-                                            const std::vector<RegressorSet>& hypotheses) {
+                                const Flags& excluded,
+                                const std::vector<RegressorSet>& hypotheses) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   const std::vector<OutlierGroup> groups = groups_of(system);
   const std::vector<FreeGroup> free = free_groups(marginalised, groups);
@@ -315,7 +310,6 @@ std::vector<Flags> outlier_sets(const RegressorSystem& system,
                           system,
                           marginalised,
                           free,
-                          system.limits,
                           beforehand,
                           log_prior(system, set, false));
     auto* same = find_where(found, [&](const FoundSet& f) { return f.outliers == one.outliers; });

@@ -33,13 +33,6 @@ Residuals residuals_of(const Analysis& a) {
   return result;
 }
 
-void draw_pose(const model::Pose& pose, PointPicture& p) {
-  p.angle_left_rad = pose.chains.left.angle_rad;
-  p.angle_right_rad = pose.chains.right.angle_rad;
-  p.tension_left_n = pose.chains.left.tension_at_sprocket_n;
-  p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
-}
-
 PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size_t u) {
   const SystemUnit& unit = a.system.units[u];
   const std::size_t at = unit.places.front().place;
@@ -59,7 +52,10 @@ PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size
   p.rival_mm = unit.unwhitened(residuals.rival);
   p.lengths = place.lengths;
   const model::Pose& pose = state.state.reading.pose;
-  draw_pose(pose, p);
+  p.angle_left_rad = pose.chains.left.angle_rad;
+  p.angle_right_rad = pose.chains.right.angle_rad;
+  p.tension_left_n = pose.chains.left.tension_at_sprocket_n;
+  p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
   if (!state.ordered) return p;
   const bool first = at == a.session.parts[place.part].first_place;
   const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
@@ -94,11 +90,6 @@ DistancePicture picture_of(const Analysis& a,
   return picture;
 }
 
-template <class Picture>
-void in_order_of_files(std::vector<Picture>& pictures) {
-  sort(pictures, ascending(&Picture::index));
-}
-
 }  // namespace
 
 std::string words_of_ends(const DistancePicture& distance) {
@@ -114,7 +105,7 @@ std::vector<PointPicture> point_pictures(const Analysis& a) {
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {
     if (a.system.units[u].reads_chains) result.push_back(picture_of(a, residuals, u));
   }
-  in_order_of_files(result);
+  sort(result, ascending(&PointPicture::index));
   return result;
 }
 
@@ -146,7 +137,7 @@ std::vector<DistancePicture> distance_pictures(const Analysis& a) {
       result.push_back(picture_of(a, residuals, *tape, k, part->first_unit + k));
     }
   }
-  in_order_of_files(result);
+  sort(result, ascending(&DistancePicture::index));
   return result;
 }
 

@@ -66,8 +66,7 @@ class RegressorColumns {
   [[nodiscard]] Eigen::Index cols() const { return std::ssize(of_); }
   [[nodiscard]] auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
   /// Some rows of a column.
-  [[nodiscard]] Eigen::VectorXd column(const Rows& rows,
-                                       Eigen::Index k) const {
+  [[nodiscard]] Eigen::VectorXd column(const Rows& rows, Eigen::Index k) const {
     return distinct_.col(index(k))(rows) * factor(k);
   }
 

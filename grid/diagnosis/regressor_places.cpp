@@ -9,9 +9,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
 using model::effects::ParameterRole;
 using model::effects::PlaceVariable;
 

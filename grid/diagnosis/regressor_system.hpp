@@ -101,6 +101,11 @@ struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
   std::vector<Regressor> regressors;
   [[nodiscard]] const Regressor& regressor(Eigen::Index k) const { return regressors[as_size(k)]; }
+  [[nodiscard]] RegressorSet regressors_of(const CauseId& cause) const {
+    auto all = numbers_below<int>(regressors.size());
+    std::erase_if(all, [&](int k) { return regressor(k).cause != cause; });
+    return all;
+  }
   /// Of a mechanism whose lengths are not those of two chains: a place for each unit, whose by_reading has
   /// the lengths' effect on its rows.
   [[nodiscard]] bool is_of_lengths() const {
@@ -119,8 +124,7 @@ struct RegressorSystem : estimation::LinearisedSystem {
 
 /// A flag for each outlier group, all false.
 [[nodiscard]] inline Flags nothing_rejected(const RegressorSystem& system) {
-  return Flags(system.groups.empty() ? system.units.size() : system.groups.size(),
-                           false);
+  return Flags(system.groups.empty() ? system.units.size() : system.groups.size(), false);
 }
 
 /// Without regressors. Fails with the first place that the machine cannot reach.

@@ -14,9 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
 using model::effects::PlaceVariable;
 
 constexpr int kMostLinks = 3;  // larger ones are visible to the eye
@@ -59,9 +56,7 @@ std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const St
   return all;
 }
 
-bool is_of_readings(CauseId cause) {
-  return cause.effect->station == model::effects::Station::reading;
-}
+bool is_of_readings(CauseId cause) { return cause.effect->station == Station::reading; }
 
 /// What an effect adds to the chains at a place, or to the written readings there.
 Eigen::Vector2d added_at(const SystemPlace& place,
@@ -100,27 +95,22 @@ Eigen::VectorXd added(const RegressorSystem& system,
 }
 
 /// Whitened columns of effects about one state, whose own readings are predicted once.
-class Signatures {
- public:
-  Signatures(const ObservationSet& session, const State& state, const RegressorSystem& system)
-      : session_(session), state_(state), system_(system) {}
+struct Signatures {
+  const ObservationSet& session;
+  const State& state;
+  const RegressorSystem& system;
+  std::optional<Eigen::VectorXd> without{};
 
   /// As signature().
   [[nodiscard]] std::optional<Eigen::VectorXd> of(CauseId cause, const std::vector<double>& values) {
-    if (!state_.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
-      return added(system_, state_.machine.sprocket, cause, values);
-    if (!problems_with_effect(state_, cause, values).empty()) return std::nullopt;
-    const auto with = predicted(session_, with_effect(state_, cause, values));
-    if (with && !without_) without_ = predicted(session_, state_);
-    if (!with || !without_) return std::nullopt;
-    return whitened(system_, *with - *without_);
+    if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
+      return added(system, state.machine.sprocket, cause, values);
+    if (!problems_with_effect(state, cause, values).empty()) return std::nullopt;
+    const auto with = predicted(session, with_effect(state, cause, values));
+    if (with && !without) without = predicted(session, state);
+    if (!with || !without) return std::nullopt;
+    return whitened(system, *with - *without);
   }
-
- private:
-  const ObservationSet& session_;
-  const State& state_;
-  const RegressorSystem& system_;
-  std::optional<Eigen::VectorXd> without_;
 };
 
 const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
@@ -131,13 +121,13 @@ bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 class Builder {
  public:
   Builder(const ObservationSet& session, const State& state, RegressorSystem& system)
-      : system_(system), signatures_(session, state, system) {}
+      : system_(system), signatures_{session, state, system} {}
 
   void add(CauseId cause, const std::vector<SizedCause>& known) {
     std::vector<double> values = model::effects::nominal_values(*cause.effect);
     refined_ = false;
     for (const SizedCause& r : known) {
-      if (!(r.cause == cause)) continue;
+      if (r.cause != cause) continue;
       values.front() = r.values.front();
       refined_ = true;
     }
@@ -275,7 +265,7 @@ std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                          const RegressorSystem& system,
                                          CauseId cause,
                                          const std::vector<double>& values) {
-  return Signatures(session, state, system).of(cause, values);
+  return Signatures{session, state, system}.of(cause, values);
 }
 
 void add_regressors(const ObservationSet& session,
@@ -294,7 +284,7 @@ bool renew_regressors(const ObservationSet& session,
                       RegressorSystem& system) {
   system.regressors = regressors;
   system.g = RegressorColumns(session.rows);
-  Signatures signatures(session, state, system);
+  Signatures signatures{session, state, system};
   for (Regressor& d : system.regressors) {
     const auto g = signatures.of(d.cause, d.values);
     if (!g || !(g->norm() > 0.0)) return false;
@@ -337,7 +327,7 @@ double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) 
 }
 
 void limit(Regressor& regressor) {
-  const model::effects::EffectParameter& size = regressor.cause.effect->parameters.front();
+  const EffectParameter& size = regressor.cause.effect->parameters.front();
   const double at = regressor.values.front();
   const auto coefficient = [&](double bound) {
     const double ratio = bound / at;

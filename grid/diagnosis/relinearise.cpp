@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -30,7 +31,7 @@ bool has_continuous_place(const Regressor& regressor) {
 Reach reach(const RegressorSystem& system, const Regressor& own) {
   Reach result;
   for (const Regressor& d : system.regressors) {
-    if (!(d.cause == own.cause)) continue;
+    if (d.cause != own.cause) continue;
     const double step = d.values.back() - own.values.back();
     if (step < 0.0 && (result.below == 0.0 || -step < result.below)) result.below = -step;
     if (step > 0.0 && (result.above == 0.0 || step < result.above)) result.above = step;
@@ -49,9 +50,8 @@ class Round {
         MarginalisedSystem marginalised,
         int discrepancy)
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
-    RegressorSet all;
-    for (std::size_t k = 0; k < system.regressors.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(system, marginalised_, all, discrepancy);
+    estimate_ = diagnosis::estimate(
+        system, marginalised_, numbers_below<int>(system.regressors.size()), discrepancy);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
@@ -90,25 +90,25 @@ class Round {
       low = std::max(low, bounds.lower);
       high = std::min(high, bounds.upper);
     }
-    const Others others(*this, which);
+    const auto gain = gain_given_others(which);
     constexpr double kGolden = 0.381966011250105;
     double x1 = low + kGolden * (high - low);
     double x2 = high - kGolden * (high - low);
-    double f1 = others.gain(x1);
-    double f2 = others.gain(x2);
+    double f1 = gain(x1);
+    double f2 = gain(x2);
     for (int step = 0; step < 18; ++step) {
       if (f1 > f2) {
         high = x2;
         x2 = x1;
         f2 = f1;
         x1 = low + kGolden * (high - low);
-        f1 = others.gain(x1);
+        f1 = gain(x1);
       } else {
         low = x1;
         x1 = x2;
         f1 = f2;
         x2 = high - kGolden * (high - low);
-        f2 = others.gain(x2);
+        f2 = gain(x2);
       }
     }
     return 0.5 * (low + high);
@@ -118,52 +118,45 @@ class Round {
   [[nodiscard]] std::optional<double> length(std::size_t which, double size) const {
     std::vector<double> values = system_.regressors[which].values;
     values.front() = size;
-    const auto g = signature(session_, state_, system_, system_.regressors[which].cause, values);
+    const auto g = column(which, values);
     if (!g) return std::nullopt;
     const auto own = marginalised_.g.col(as_index(which));
-    return own.dot(reduced(marginalised_, *g)) / own.squaredNorm();
+    return own.dot(*g) / own.squaredNorm();
   }
 
-  /// The residual for one regressor after projection on the others.
-  class Others {
-   public:
-    Others(const Round& round, std::size_t which) : round_(round), which_(which) {
-      for (std::size_t k = 0; k < round.system_.regressors.size(); ++k) {
-        if (k == which) continue;
-        columns_.conservativeResize(round.marginalised_.e.size(), columns_.cols() + 1);
-        columns_.rightCols<1>() = round.marginalised_.g.col(as_index(k));
+  /// R^-1 of a regressor's signature at other values.
+  [[nodiscard]] std::optional<Eigen::VectorXd> column(std::size_t which,
+                                                      const std::vector<double>& values) const {
+    const auto g = signature(session_, state_, system_, system_.regressors[which].cause, values);
+    if (!g) return std::nullopt;
+    return reduced(marginalised_, *g);
+  }
+
+  /// What a regressor explains by its place, after projection on the others.
+  [[nodiscard]] std::function<double(double)> gain_given_others(std::size_t which) const {
+    Eigen::MatrixXd others(marginalised_.e.size(), marginalised_.g.cols() - 1);
+    for (Eigen::Index k = 0; k < others.cols(); ++k)
+      others.col(k) = marginalised_.g.col(k < as_index(which) ? k : k + 1);
+    const auto without = [gram = linear::PivotedCholesky(linear::gram(others)),
+                          others](Eigen::VectorXd v) {
+      if (others.cols() > 0) {
+        linear::add_product(
+            v, -1.0, others, gram.solve(linear::product(linear::transposed(others), v)));
       }
-      gram_.emplace(linear::gram(columns_));
-      e_ = without(round.marginalised_.e);
-    }
-
-    [[nodiscard]] double gain(double place) const {
-      const Regressor& own = round_.system_.regressors[which_];
-      std::vector<double> values = own.values;
-      values.back() = place;
-      const auto g = signature(round_.session_, round_.state_, round_.system_, own.cause, values);
-      if (!g) return 0.0;
-      const Eigen::VectorXd left = without(reduced(round_.marginalised_, *g));
-      const double square = left.squaredNorm();
-      const double c = left.dot(e_);
-      const double sign = round_.estimate_.coefficient(as_index(which_));
-      return square > 1e-12 && c * sign > 0.0 ? c * c / square : 0.0;
-    }
-
-   private:
-    [[nodiscard]] Eigen::VectorXd without(Eigen::VectorXd v) const {
-      if (columns_.cols() == 0) return v;
-      linear::add_product(
-          v, -1.0, columns_, gram_->solve(linear::product(linear::transposed(columns_), v)));
       return v;
-    }
-
-    const Round& round_;
-    std::size_t which_;
-    Eigen::MatrixXd columns_;
-    std::optional<linear::PivotedCholesky> gram_;
-    Eigen::VectorXd e_;
-  };
+    };
+    return [this, which, without, e = without(marginalised_.e)](double place) {
+      std::vector<double> values = system_.regressors[which].values;
+      values.back() = place;
+      const auto g = column(which, values);
+      if (!g) return 0.0;
+      const Eigen::VectorXd left = without(*g);
+      const double square = left.squaredNorm();
+      const double c = left.dot(e);
+      const double sign = estimate_.coefficient(as_index(which));
+      return square > 1e-12 && c * sign > 0.0 ? c * c / square : 0.0;
+    };
+  }
 
   const ObservationSet& session_;
   const State& state_;
@@ -177,8 +170,7 @@ class Round {
 void relinearise(Analysis& a) {
   const ObservationSet& session = a.session;
   const RegressorSystem& system = a.system;
-  const MarginalisedSystem& marginalised =
-      a.comparison.marginalised_systems[a.decision.marginalised];
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   const int discrepancy = a.decision.discrepancy_left ? a.decision.best_discrepancy : -1;
   std::vector<Regressor> own;
   std::vector<Reach> reaches;

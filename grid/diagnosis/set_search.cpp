@@ -33,14 +33,14 @@ void add_best(const RegressorSystem& system,
   const Eigen::VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
   const auto take = [&] {
-    stable_sort(scores, [](const auto& x, const auto& y) { return x.first > y.first; });
-    for (std::size_t k = 0; k < std::min(scores.size(), of_a_cause); ++k)
-      chosen.insert(scores[k].second);
+    stable_sort(scores, descending(&std::pair<double, int>::first));
+    if (scores.size() > of_a_cause) scores.resize(of_a_cause);
+    for (const auto& [score, k] : scores) chosen.insert(k);
     scores.clear();
   };
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const Regressor& own = system.regressors[k];
-    if (k > 0 && !(own.cause == system.regressors[k - 1].cause)) take();
+    if (k > 0 && own.cause != system.regressors[k - 1].cause) take();
     const auto at = as_index(k);
     if (!(square(at) > kLeastSquare)) continue;
     scores.emplace_back(score_alone(own, c(at), square(at)), static_cast<int>(k));
@@ -51,9 +51,9 @@ void add_best(const RegressorSystem& system,
 /// The best of each cause's places, after projection on the settings and also after projection on a
 /// leading cause.
 RegressorSet best_of_each_cause(const RegressorSystem& system,
-                                    const MarginalisedSystem& marginalised,
-                                    const ComparisonOptions& options,
-                                    std::size_t of_a_cause) {
+                                const MarginalisedSystem& marginalised,
+                                const ComparisonOptions& options,
+                                std::size_t of_a_cause) {
   std::set<int> chosen;
   const Eigen::MatrixXd all = marginalised.g.dense();
   add_best(system, all, marginalised.e, of_a_cause, chosen);
@@ -78,7 +78,7 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
   }
   std::erase_if(chosen, [&](int k) {
     const CauseId& cause = system.regressor(k).cause;
-    return options.given_cause && !(cause == *options.given_cause);
+    return options.given_cause && cause != *options.given_cause;
   });
   return {chosen.begin(), chosen.end()};
 }
@@ -98,7 +98,8 @@ SetSearch::SetSearch(const RegressorSystem& system,
     : system_(system),
       marginalised_(marginalised),
       options_(options),
-      collector_(system, marginalised, number, options) {}
+      collector_(system, marginalised, number, options),
+      sets_(system, equations_, -1, options.search, collector_) {}
 
 std::vector<CandidateModel> SetSearch::run() {
   const std::size_t few = options_.search.of_a_cause;
@@ -110,31 +111,28 @@ std::vector<CandidateModel> SetSearch::run() {
     search_by_beam(system_, equations_, -1, options_.search, collector_);
     return collector_.take();
   }
-  consider({});
-  singles();
+  sets_.weigh({});
+  for (Eigen::Index k = 0; k < equations_.ge.size(); ++k) sets_.weigh({k});
   if (!options_.given_cause) {
     pairs();
-    grow();
+    sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
   }
   return collector_.take();
 }
 
-std::vector<CandidateModel> SetSearch::run_given_discrepancies(
-    const Indices& kernels, std::vector<double>& kernel_weight) {
-  stable_sort(scored_, descending(&WeighedSet::weight));
+std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& kernels,
+                                                               std::vector<double>& kernel_weight) {
+  std::vector<WeighedSet> leading;
+  for (std::size_t size = 2; size <= kMostCauses; ++size) {
+    std::vector<WeighedSet> own = sets_.of_size(size);
+    keep_best(own, kSetsGivenDiscrepancy, &WeighedSet::weight);
+    append_all(leading, own);
+  }
+  stable_sort(leading, descending(&WeighedSet::weight));
   std::vector<RegressorSet> likeliest;
-  std::array<std::size_t, kMostCauses + 1> taken{};
-  std::array<double, kMostCauses + 1> last{};
-  for (const WeighedSet& s : scored_) {
-    const std::size_t size = s.set.size();
-    if (size < 2 || (taken[size] >= kSetsGivenDiscrepancy && !tied(s.weight, last[size]))) continue;
-    if (taken[size] < kSetsGivenDiscrepancy) last[size] = s.weight;
-    ++taken[size];
-    RegressorSet regressors;
-    for (const Eigen::Index i : s.set) {
-      regressors.push_back(equations_.columns[as_size(i)]);
-    }
-    likeliest.push_back(std::move(regressors));
+  for (const WeighedSet& own : leading) {
+    RegressorSet& regressors = likeliest.emplace_back();
+    for (const Eigen::Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
   }
   kernel_weight = search_given_discrepancies(
       system_, marginalised_, options_, equations_, likeliest, kernels, collector_);
@@ -150,52 +148,40 @@ RegressorSet SetSearch::columns() const {
   const Eigen::VectorXd square = marginalised_.g.squared_norms();
   for (int k = 0; k < count; ++k) {
     const Regressor& d = system_.regressor(k);
-    if (options_.given_cause && !(d.cause == *options_.given_cause)) continue;
+    if (options_.given_cause && d.cause != *options_.given_cause) continue;
     if (!(square(k) > kLeastSquare)) continue;
     (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
   }
   const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
-  stable_sort(shifts, descending(explained));
-  shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
+  keep_best(shifts, kKeptShifts, explained);
   RegressorSet likeliest = kept;
   append_all(kept, shifts);
   if (fixed.size() <= kKeptFixed) {
     append_all(kept, fixed);
     return kept;
   }
-  stable_sort(likeliest, descending(explained));
-  likeliest.resize(count_with_ties(likeliest, 8, explained));
+  keep_best(likeliest, 8, explained);
   const RegressorColumns& g = marginalised_.g;
   const Eigen::MatrixXd cross =
       linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
   std::vector<std::pair<double, int>> gains;
-  for (std::size_t f = 0; f < fixed.size(); ++f) {
-    const int k = fixed[f];
+  for (const int k : fixed) {
     double best = 2.0 * c(k) - square(k);
     for (std::size_t l = 0; l < likeliest.size(); ++l) {
       const double ll = square(likeliest[l]);
       const double x = g.factor(k) * cross(g.index(k), as_index(l));
       best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
     }
-    gains.emplace_back(-best, k);
+    gains.emplace_back(best, k);
   }
-  sort(gains);
-  gains.resize(count_with_ties(gains, kKeptFixed, [](const auto& gain) { return gain.first; }));
+  keep_best(gains, kKeptFixed);
   for (const auto& [gain, k] : gains) kept.push_back(k);
   return kept;
 }
 
-void SetSearch::singles() {
-  for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
-    const auto at = as_index(k);
-    const double weight = consider({at});
-    scored_.push_back({weight, {at}});
-  }
-}
-
 double SetSearch::quick_weight(Eigen::Index i, Eigen::Index j) const {
-  const Regressor& a = regressor(i);
-  const Regressor& b = regressor(j);
+  const Regressor& a = sets_.regressor(i);
+  const Regressor& b = sets_.regressor(j);
   const double aa = equations_.gg(i, i);
   const double bb = equations_.gg(j, j);
   double q = equations_.ee;
@@ -238,40 +224,25 @@ double SetSearch::quick_weight(Eigen::Index i, Eigen::Index j) const {
 
 void SetSearch::pairs() {
   const auto count = std::ssize(equations_.columns);
-  std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
+  std::vector<std::pair<double, ColumnSet>> quick;
   double best = kMinusInfinity;
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      if (!compatible(regressor(i), regressor(j), options_.search)) continue;
+      if (!compatible(sets_.regressor(i), sets_.regressor(j), options_.search)) continue;
       const double weight = quick_weight(i, j);
       if (weight < best - kPairsWithin) continue;
       best = std::max(best, weight);
       quick.push_back({weight, {j, i}});
     }
   }
-  stable_sort(quick, [](const auto& a, const auto& b) { return a.first > b.first; });
-  quick.resize(count_with_ties(quick, kMostPairs + 1, [](const auto& pair) { return pair.first; }));
-  for (std::size_t k = 0; k < quick.size(); ++k) {
-    if (quick[k].first < best - kPairsWithin) break;
-    const ColumnSet set = {quick[k].second.first, quick[k].second.second};
-    scored_.push_back({consider(set), set});
+  keep_best(quick, kMostPairs + 1);
+  for (const auto& [weight, set] : quick) {
+    if (weight < best - kPairsWithin) break;
+    sets_.weigh(set);
   }
 }
 
-void SetSearch::grow() {
-  for (std::size_t size = 3; size <= kMostCauses; ++size) {
-    std::vector<WeighedSet> parents;
-    for (const WeighedSet& s : scored_) {
-      if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
-    }
-    narrow(parents, collector_.best(), kBeam);
-    if (parents.empty()) return;
-    std::set<ColumnSet> found;
-    for (const WeighedSet& parent : parents) extend(parent.set, found);
-  }
-}
-
-void SetSearch::extend(const ColumnSet& parent, std::set<ColumnSet>& found) {
+ColumnSet SetSearch::extensions(const ColumnSet& parent) const {
   // The parent's residual and that of each regressor give a score for the cost of one inner
   // product.
   const linear::PivotedCholesky own(equations_.gg(parent, parent));
@@ -281,18 +252,16 @@ void SetSearch::extend(const ColumnSet& parent, std::set<ColumnSet>& found) {
   const Eigen::MatrixXd shares = own.solve(across.transpose());
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < left.size(); ++i) {
-    if (!with_column(system_, equations_, options_.search, parent, i)) continue;
+    if (!sets_.fits(parent, i)) continue;
     const double square = equations_.gg(i, i) - across.row(i).dot(shares.col(i));
     if (!(square > 1e-6 * equations_.gg(i, i))) continue;
-    const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
-    order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
+    const Regressor& regressor = sets_.regressor(i);
+    order.emplace_back(score_alone(regressor, left(i), square) + 2.0 * regressor.log_prior, i);
   }
-  sort(order);
-  order.resize(count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
-  for (const auto& [score, index] : order) {
-    const ColumnSet set = *with_column(system_, equations_, options_.search, parent, index);
-    if (found.insert(set).second) scored_.push_back({consider(set), set});
-  }
+  keep_best(order, kChildren);
+  ColumnSet result;
+  for (const auto& [score, column] : order) result.push_back(column);
+  return result;
 }
 
 }  // namespace chaintrue::grid::diagnosis

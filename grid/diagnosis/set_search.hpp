@@ -5,7 +5,6 @@
 /// discrepancy.
 #pragma once
 
-#include <set>
 #include <vector>
 
 #include "grid/diagnosis/model_collector.hpp"
@@ -21,6 +20,8 @@ class SetSearch {
             std::size_t number,
             const ComparisonOptions& options);
 
+  SetSearch(const SetSearch&) = delete;
+
   [[nodiscard]] std::vector<CandidateModel> run();
   /// Call after run(). For these kernels; sets their weights.
   [[nodiscard]] std::vector<CandidateModel> run_given_discrepancies(
@@ -33,23 +34,18 @@ class SetSearch {
   /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
   /// visits; of the others the best, alone or after projection on a leading regressor.
   [[nodiscard]] RegressorSet columns() const;
-  void singles();
   /// Upper bound of a pair's weight, ignoring bounds and larger noise.
   [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const;
   void pairs();
-  void grow();
-  void extend(const ColumnSet& parent, std::set<ColumnSet>& found);
-  double consider(const ColumnSet& set) { return collector_.consider(set, -1, equations_); }
-  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
-    return system_.regressor(equations_.columns[as_size(i)]);
-  }
+  /// The columns that explain most of what a set leaves.
+  [[nodiscard]] ColumnSet extensions(const ColumnSet& parent) const;
 
   const RegressorSystem& system_;
   MarginalisedSystem& marginalised_;
   const ComparisonOptions& options_;
   ModelCollector collector_;
   NormalEquations equations_;
-  std::vector<WeighedSet> scored_;
+  GrowingSets sets_;
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -110,9 +110,7 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
     changes += of_kind(stability, kind.what, true).size();
     tried.push_back(fmt::format("{} {}", all.size(), all.size() == 1 ? kind.one : kind.many));
   }
-  const auto weakest = min_element(stability.removals, [](const auto& a, const auto& b) {
-        return a.probability < b.probability;
-      });
+  const auto weakest = min_element(stability.removals, ascending(&Removal::probability));
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
   const std::string which = joined(tried, "and", ", ");
   const std::string text =

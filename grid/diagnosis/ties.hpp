@@ -5,9 +5,11 @@
 /// last bit of a sine.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -17,16 +19,20 @@ inline constexpr double kTied = 1e-6;
 
 [[nodiscard]] inline bool tied(double a, double b) { return std::abs(a - b) < kTied; }
 
-/// The first `most` of a list sorted by score, and those that tie with the last.
+/// The `most` best of a list by a score, best first, and those that tie with the last.
 template <typename List, typename Score>
-[[nodiscard]] std::size_t count_with_ties(const List& sorted,
-                                          std::size_t most,
-                                          const Score& score) {
-  std::size_t count = std::min(most, sorted.size());
-  if (count == 0) return 0;
-  const double last = score(sorted[count - 1]);
-  while (count < sorted.size() && tied(score(sorted[count]), last)) ++count;
-  return count;
+void keep_best(List& list, std::size_t most, const Score& score) {
+  stable_sort(list, descending(score));
+  std::size_t count = std::min(most, list.size());
+  while (count > 0 && count < list.size() &&
+         tied(std::invoke(score, list[count]), std::invoke(score, list[most - 1])))
+    ++count;
+  list.resize(count);
+}
+/// By the first of each pair.
+template <typename Other>
+void keep_best(std::vector<std::pair<double, Other>>& scored, std::size_t most) {
+  keep_best(scored, most, &std::pair<double, Other>::first);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -39,7 +39,7 @@ Eigen::VectorXd left_of(const Analysis& a,
     const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
-    if (d.cause.effect->station == model::effects::Station::reading) continue;
+    if (d.cause.effect->station == Station::reading) continue;
     if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
     const auto g = signature(to, state, system, d.cause, d.values);
     if (g) left -= *g * model.coefficient(as_index(k));
@@ -69,9 +69,8 @@ HeldOut summary(const ObservationSet& to,
                 const RegressorSystem& system,
                 const Eigen::VectorXd& left,
                 std::uint64_t seed) {
-  return summarise(errors_of_units(system, left, numbers_below(system.units.size())),
-                   block_numbers(to),
-                   seed);
+  return summarise(
+      errors_of_units(system, left, numbers_below(system.units.size())), block_numbers(to), seed);
 }
 
 }  // namespace
@@ -119,8 +118,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   result.calibrated = predicted_by({}, -1);
   result.extended = predicted_by(a.decision.regressors, -1);
   result.extended_and_surface = predicted_by(a.decision.regressors, a.decision.best_discrepancy);
-  result.noise_floor_mm =
-      noise_of_units_mm(*system, numbers_below(system->units.size()));
+  result.noise_floor_mm = noise_of_units_mm(*system, numbers_below(system->units.size()));
   return result;
 }
 

@@ -210,7 +210,7 @@ TEST(NullDistribution, HoldsItsSize) {
   const RegressorSystem system = small_system(0.0);
   const MarginalisedSystem marginalised = marginalise(system, {false, false, false});
   const SingleScore score(system, marginalised, kDof);
-  const NullDistribution null = draw_null(score, 6, 4000, 1);
+  const NullDistribution null = draw_null(score, marginalised, NoiseSize::stated, 4000, 1);
   Random random(20261121);
   SCOPED_TRACE("seed 20261121");
   int below = 0;

@@ -129,14 +129,14 @@ TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
   Eigen::VectorXd amplitude;
   double at = 0.0;
   const LawCurve curve = curve_of(law, amplitude, at);
-  Eigen::VectorXd as_columns = LawColumns(a.system).of(curve, at) * amplitude;
+  Eigen::VectorXd as_columns = law_columns(a.system, curve, {at}) * amplitude;
   if (law.shape == LawShape::square) {
     // The columns leave a constant out.
     const double off = (law.parameters[1].value - curve.middle()) / (0.5 * curve.span());
     LawCurve constant = curve;
     constant.shape = LawShape::step;
-    as_columns += LawColumns(a.system).of(constant, -1e9) * Eigen::VectorXd::Constant(
-        1, law.parameters[0].value * off * off);
+    as_columns += law_columns(a.system, constant, {-1e9}) *
+                  Eigen::VectorXd::Constant(1, law.parameters[0].value * off * off);
   }
   // A movement of the tool is written by the chain's angle, which is its direction except for the
   // ring.
