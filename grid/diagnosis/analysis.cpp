@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/analysis.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/evidence.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/statistics.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/averaged_anchors.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <memory>
-#include <string_view>
-#include <utility>
-
-#include "grid/containers.hpp"
-#include "grid/diagnosis/estimate.hpp"
-#include "grid/diagnosis/regressors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

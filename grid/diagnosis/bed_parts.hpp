@@ -26,9 +26,7 @@
 #pragma once
 
 #include <utility>
-#include <vector>
 
-#include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_analysis.hpp"
 
-#include <cmath>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/discrepancy.hpp"
-#include "grid/diagnosis/regressors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -4,11 +4,7 @@
 /// the noise is not stated, and yielding under the pull is expected. Private to grid/diagnosis.
 #pragma once
 
-#include <tl/expected.hpp>
-
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/averaged_anchors.hpp"
-#include "grid/diagnosis/belts_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/belts_findings.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 
 #include "grid/belts/fit_report.hpp"
-#include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
-#include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_given_causes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
-#include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

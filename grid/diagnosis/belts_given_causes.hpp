@@ -15,13 +15,8 @@
 /// projected out.
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-#include <vector>
-
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
-#include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 #include "model/belts/belt_readings.hpp"
 

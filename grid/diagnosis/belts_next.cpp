@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/raster.hpp"
 #include "model/belts/belt_kinematics.hpp"

@@ -3,10 +3,8 @@
 /// Turns an analysis of four belts into the answer. Private to grid/diagnosis.
 #pragma once
 
-#include "grid/belts/belts_fit.hpp"
 #include "grid/belts/point_indices.hpp"
 #include "grid/diagnosis/belts_analysis.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

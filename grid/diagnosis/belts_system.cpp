@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_system.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
-#include "grid/diagnosis/regressors.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/belts_report.hpp"
-#include "grid/diagnosis/belts_system.hpp"
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/verdict_words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/best_model.hpp"
 
-#include <cmath>
-
-#include "grid/containers.hpp"
-
 namespace chaintrue::grid::diagnosis {
 
 const Regressor& regressor(const Analysis& a, int k) { return a.system.regressor(k); }

@@ -3,8 +3,6 @@
 /// The leading explanation of an analysis: its columns, and estimates with them.
 #pragma once
 
-#include <vector>
-
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/decision.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
-#include "grid/containers.hpp"
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/estimate.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 

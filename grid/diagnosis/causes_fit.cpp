@@ -4,19 +4,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <map>
-#include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
-#include "grid/diagnosis/regressors.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/map/largest_error.hpp"
 #include "grid/parallel.hpp"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/decision.hpp"
 
-#include <algorithm>
 #include <map>
 
-#include "grid/containers.hpp"
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/estimate.hpp"
 
 namespace chaintrue::grid::diagnosis {

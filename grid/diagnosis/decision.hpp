@@ -4,9 +4,6 @@
 /// and when to abstain.
 #pragma once
 
-#include <vector>
-
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 

@@ -3,29 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <vector>
-
-#include "grid/containers.hpp"
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/diagnosis/regressors.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/parallel.hpp"
 #include "model/effects/catalogue.hpp"
-#include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -5,7 +5,6 @@
 #include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/laws.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

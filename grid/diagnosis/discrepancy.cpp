@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "grid/containers.hpp"
-
 namespace chaintrue::grid::diagnosis {
 namespace {
 

@@ -20,13 +20,8 @@
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
 #include <span>
-#include <vector>
 
-#include "grid/containers.hpp"
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
 #include "grid/diagnosis/regressor_system.hpp"

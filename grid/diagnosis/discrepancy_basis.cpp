@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/discrepancy_basis.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 
-#include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/downdating.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/ties.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 

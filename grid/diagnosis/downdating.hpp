@@ -19,8 +19,6 @@
 /// never tried, and discrepancies below a least probability are ignored.
 #pragma once
 
-#include <vector>
-
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 

@@ -2,11 +2,6 @@
 #include "grid/diagnosis/estimate.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-
-#include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

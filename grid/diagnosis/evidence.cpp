@@ -4,15 +4,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "grid/containers.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -23,19 +23,11 @@
 /// with a process.
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <tuple>
-#include <vector>
 
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
-#include "grid/diagnosis/kept_rows.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/expected_discrimination.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"

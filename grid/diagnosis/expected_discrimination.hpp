@@ -27,11 +27,6 @@
 /// grid/diagnosis.
 #pragma once
 
-#include <Eigen/Core>
-#include <functional>
-#include <optional>
-#include <vector>
-
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,19 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <vector>
 
-#include "grid/containers.hpp"
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -2,19 +2,14 @@
 
 #include "grid/diagnosis/held_out_fold.hpp"
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 
 #include <map>
-#include <memory>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/raster.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

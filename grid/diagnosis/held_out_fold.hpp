@@ -9,13 +9,8 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
-#include <cstddef>
-#include <vector>
-
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/downdating.hpp"
-#include "grid/diagnosis/observations.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

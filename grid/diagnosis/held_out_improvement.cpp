@@ -3,17 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
-#include "grid/diagnosis/observations.hpp"
 #include "grid/parallel.hpp"
 #include "grid/random.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

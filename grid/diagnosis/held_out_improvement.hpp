@@ -7,11 +7,7 @@
 /// at the length and size that the fold's points prefer.
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

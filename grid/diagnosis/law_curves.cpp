@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_curves.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <utility>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_evidence.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/law_system.hpp"
-#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

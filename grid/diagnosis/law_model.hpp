@@ -12,16 +12,8 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
-#include <optional>
-#include <vector>
-
-#include "grid/containers.hpp"
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_residuals.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "grid/containers.hpp"
-#include "grid/diagnosis/bed_parts.hpp"
-#include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
 

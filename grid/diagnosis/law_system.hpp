@@ -8,19 +8,14 @@
 ///   const double w = system.log_weight(equations, {set, discrepancy}, {0});
 #pragma once
 
-#include <algorithm>
 #include <compare>
 #include <map>
-#include <optional>
 #include <set>
-#include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

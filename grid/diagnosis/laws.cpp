@@ -3,19 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
-#include <tuple>
-#include <utility>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

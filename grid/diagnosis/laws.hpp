@@ -8,9 +8,6 @@
 /// those of the posterior over its curve.
 #pragma once
 
-#include <vector>
-
-#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

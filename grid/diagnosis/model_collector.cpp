@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/model_collector.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <set>
-#include <utility>
 
-#include "grid/containers.hpp"
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 

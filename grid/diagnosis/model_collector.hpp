@@ -3,10 +3,7 @@
 /// Computes the weights of sets of causes in one marginalised system and keeps the relevant ones.
 #pragma once
 
-#include <array>
-#include <functional>
 #include <set>
-#include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
 

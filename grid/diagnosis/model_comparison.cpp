@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/model_comparison.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <deque>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
-#include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,12 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <optional>
-#include <utility>
-
 #include "grid/diagnosis/causes_given_law.hpp"
-#include "grid/diagnosis/observations.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/input_checks/point_checks.hpp"

@@ -4,15 +4,8 @@
 /// or a claimed law. Private to grid/diagnosis.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/map/joint_fit.hpp"
-#include "grid/observation/measured.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "grid/containers.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {

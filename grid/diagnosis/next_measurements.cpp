@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/next_measurements.hpp"
 
-#include <algorithm>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/law_model.hpp"
-#include "grid/diagnosis/regressors.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -4,8 +4,6 @@
 /// remaining confusion (expected_discrimination.hpp).
 #pragma once
 
-#include <vector>
-
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/next_candidates.hpp"

@@ -6,15 +6,7 @@
 /// 12 (2020) 860, on the largest statistic of many alternatives.
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/evidence.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

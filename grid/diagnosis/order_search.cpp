@@ -3,16 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <tuple>
-#include <utility>
 
-#include "grid/containers.hpp"
-#include "grid/diagnosis/regressors.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/statistics.hpp"
 

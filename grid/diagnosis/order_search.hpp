@@ -20,11 +20,7 @@
 /// \endcode
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

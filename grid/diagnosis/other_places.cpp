@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/other_places.hpp"
 
-#include <algorithm>
-
-#include "grid/containers.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {

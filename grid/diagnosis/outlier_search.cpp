@@ -2,13 +2,8 @@
 #include "grid/diagnosis/outlier_search.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <array>
-#include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

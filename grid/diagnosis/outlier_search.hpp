@@ -15,8 +15,6 @@
 /// for the mean-shift model.
 #pragma once
 
-#include <vector>
-
 #include "grid/diagnosis/evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/effects/catalogue.hpp"

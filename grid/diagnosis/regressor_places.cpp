@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
-#include "model/effects/declared_effect.hpp"
-
 namespace chaintrue::grid::diagnosis {
 
 using model::effects::ParameterRole;

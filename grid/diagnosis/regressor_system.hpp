@@ -14,13 +14,8 @@
 /// continues through zero as a straight line.
 #pragma once
 
-#include <Eigen/Core>
 #include <limits>
-#include <optional>
-#include <tl/expected.hpp>
-#include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/observations.hpp"
 #include "grid/diagnosis/regressor_columns.hpp"

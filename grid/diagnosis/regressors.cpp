@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/regressors.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "grid/chain_rows.hpp"
-#include "grid/containers.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
 #include "model/effects/catalogue.hpp"
-#include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

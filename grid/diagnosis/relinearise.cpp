@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <cmath>
-#include <functional>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

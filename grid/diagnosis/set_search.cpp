@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/set_search.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-
-#include "grid/containers.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -5,8 +5,6 @@
 /// discrepancy.
 #pragma once
 
-#include <vector>
-
 #include "grid/diagnosis/model_collector.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 

@@ -9,10 +9,6 @@
 /// holds if its first cause is still in it.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

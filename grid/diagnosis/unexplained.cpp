@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {

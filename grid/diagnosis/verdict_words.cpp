@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/workshop_units.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/stability.hpp"
