@@ -18,11 +18,8 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
-#include "grid/estimation/joint_problem.hpp"
-#include "grid/estimation/left_out.hpp"
-#include "grid/estimation/unknowns.hpp"
+#include "grid/estimation/finished_fit.hpp"
 #include "interp/linear_algebra.hpp"
-#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -59,27 +56,6 @@ class Estimator {
   /// Passes with soft weights only, so that several bad units cannot hide each other.
   static constexpr int kSoftRounds = 4;
 
-  /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
-  /// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
-  static double chi(Eigen::Index n, double z) {
-    const double part = 2.0 / (9.0 * as_double(n));
-    return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
-  }
-
-  /// The treatment of a unit by its distance.
-  struct UnitRule {
-    double full_weight_within;  ///< 95 % of good units
-    double rejected_beyond;
-    bool worst_first;  ///< one at a time, against the others' prediction and noise
-  };
-
-  static UnitRule rule_of(Eigen::Index rows) {
-    if (rows == 1) return {1.96, kBadDistanceSigmas, true};
-    if (rows == 2) return {2.4477, kBadPointDistance, false};
-    // The same probabilities as for two rows: 5 % and 4e-5.
-    return {chi(rows, 1.6449), chi(rows, 3.9444), false};
-  }
-
   /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
   /// from what is estimated, holes lie where the last step put them; distances converge more slowly, one
   /// of them being rejected at a time.
@@ -101,7 +77,7 @@ class Estimator {
   [[nodiscard]] Fit solve(const Eigen::VectorXd& weights,
                           Smoothing smoothing,
                           bool correct_covariance) const {
-    const interp::PenalisedProblem problem = problem_->weighted(weights);
+    const interp::PenalisedProblem problem = weighted(*problem_, weights);
     interp::FitOptions options;
     options.correct_covariance = correct_covariance;
     options.prior = input_.noise_prior;
@@ -119,12 +95,10 @@ class Estimator {
     // is for noise-free readings.
     constexpr double kNear = 1e-6;
     constexpr double kNearNothing = 1e-12;
-    const Unknowns& layout = problem_->layout();
-    bool is_known = true;
-    for (Eigen::Index i = 0; i < layout.settings(); ++i)
-      is_known = is_known && std::isfinite(layout.sigma(i));
-    const bool has_settings_alone =
-        input_.surface == SurfaceUse::none && layout.total() == layout.settings();
+    const bool is_known =
+        problem_->set().stated_sigma.head(problem_->settings()).allFinite();
+    const bool has_settings_alone = input_.surface == SurfaceUse::none &&
+                                    problem_->unknowns().total() == problem_->settings();
     if (is_known || !has_settings_alone) return {};
     if (auto done = problem_->linearise(state_); !done) return done;
     begin_weights();
@@ -133,7 +107,7 @@ class Estimator {
       return (problem.response - linear::product(problem.design, x)).squaredNorm() +
              off.dot(linear::product(problem.prior_precision, off));
     };
-    interp::PenalisedProblem now = problem_->weighted(weights_);
+    interp::PenalisedProblem now = weighted(*problem_, weights_);
     double square = square_at(now, state_.settings);
     double damping = 1e-4;
     is_linearised_ = true;
@@ -147,7 +121,7 @@ class Estimator {
       next.settings += linear::PivotedCholesky(normal).solve(downhill);
       is_linearised_ = next.settings.allFinite() && problem_->linearise(next).has_value();
       if (is_linearised_) {
-        interp::PenalisedProblem there = problem_->weighted(weights_);
+        interp::PenalisedProblem there = weighted(*problem_, weights_);
         const double left = square_at(there, next.settings);
         is_linearised_ = left <= square;
         if (is_linearised_) {
@@ -214,48 +188,32 @@ class Estimator {
     distances_ = Eigen::VectorXd::Zero(units);
   }
 
-  /// A reading and the number of its unit in the problem.
-  struct Shift : ReadingShift {
-    observation::UnitReading at;
-  };
-  /// Among the rejected readings, or among the others.
-  [[nodiscard]] std::vector<Shift> shifts(bool of_rejected) const {
-    std::vector<Shift> all;
-    const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
-    const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
-    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-      const SystemUnit& unit = problem_->units()[u];
-      const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
-      std::vector<Eigen::Index> readings = rejected;
-      if (!of_rejected) {
-        readings = numbers_below<Eigen::Index>(unit.by_reading.cols());
-        std::erase_if(readings, [&](Eigen::Index i) { return contains(rejected, i); });
-      }
-      for (const Eigen::Index i : readings)
-        all.push_back({shift_of(rows, unit, rejected, i), {u, i}});
-    }
-    return all;
-  }
-
+  /// The counted reading that the others contradict most, if they do.
   [[nodiscard]] std::optional<Shift> worst_reading() const {
     std::optional<Shift> worst;
     // Readings that share one check deviate equally; the first of them is taken.
     constexpr double kSame = 1e-6;
-    for (const Shift& one : shifts(false)) {
+    for (const Shift& one : shifts(*problem_, fit_, false)) {
       if (!worst || one.sigmas > (1.0 + kSame) * worst->sigmas) worst = one;
     }
+    if (worst && worst->sigmas < input_.reading_limits->rejected_beyond) worst.reset();
     return worst;
   }
 
+  /// The rejected reading that fits best, if it does.
   [[nodiscard]] std::optional<Shift> best_rejected() const {
     std::optional<Shift> best;
-    for (const Shift& one : shifts(true)) {
-      if (one.sigmas > 0.0 && (!best || one.sigmas < best->sigmas)) best = one;
+    double least = input_.reading_limits->rejected_beyond;
+    for (const Shift& one : shifts(*problem_, fit_, true)) {
+      if (!(one.sigmas > 0.0 && one.sigmas < least)) continue;
+      least = one.sigmas;
+      best = one;
     }
     return best;
   }
 
-  [[nodiscard]] bool converge_without(RejectedReadings rejected) {
+  /// False, with nothing changed, if the fit without them fails.
+  bool converge_without(RejectedReadings rejected) {
     std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
     for (std::size_t u = 0; u < rejected.size(); ++u) {
       const SystemUnit& unit = problem_->units()[u];
@@ -293,7 +251,7 @@ class Estimator {
     };
     for (std::size_t out = 0; out < most && problem_->dof(fit_) > 1.0; ++out) {
       const auto worst = worst_reading();
-      if (!worst || worst->sigmas < limits.rejected_beyond) break;
+      if (!worst) break;
       RejectedReadings more = of_now();
       more[worst->at.unit].push_back(worst->at.reading);
       if (!converge_without(std::move(more))) break;
@@ -301,33 +259,32 @@ class Estimator {
     // A reading rejected while a worse one was still included may fit after all.
     for (std::size_t back = 0; back < most; ++back) {
       const auto best = best_rejected();
-      if (!best || best->sigmas >= limits.rejected_beyond) break;
+      if (!best) break;
       const RejectedReadings now = of_now();
       RejectedReadings fewer = now;
       std::erase(fewer[best->at.unit], best->at.reading);
       if (!converge_without(std::move(fewer))) break;
-      const auto worst = worst_reading();
-      if (!worst || worst->sigmas < limits.rejected_beyond) continue;
-      if (!converge_without(now)) break;
+      if (!worst_reading()) continue;
+      converge_without(now);
       break;
     }
   }
 
   [[nodiscard]] double step_to(const State& next, const ConvergenceRule& rule) const {
     double step = 0.0;
-    const Unknowns& unknowns = problem_->unknowns();
-    for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
-      if (unknowns.sigma(i) <= kKnownSigma) continue;
+    for (Eigen::Index i = 0; i < problem_->settings(); ++i) {
+      const double stated = problem_->set().stated_sigma[i];
+      if (stated <= kKnownSigma) continue;
       // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
       // micrometre.
       constexpr double kLeastSigma = 1e-3;
-      const double sigma = std::isfinite(unknowns.sigma(i))
-                               ? unknowns.sigma(i)
+      const double sigma = std::isfinite(stated)
+                               ? stated
                                : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
       step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
     }
     for (const model::Side side : model::kSides) {
-      if (!rule.scales_count || unknowns.scales() == 0) break;
+      if (!rule.scales_count || problem_->unknowns().scales == 0) break;
       step = std::max(
           step, std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
     }
@@ -395,10 +352,10 @@ class Estimator {
     state.settings = state_.settings;
     state.surface.scale = state_.surface.scale;
     if (auto done = bent->linearise(state); !done) return done;
-    const auto with = interp::fit_penalised(bent->weighted(weights_), plain);
+    const auto with = interp::fit_penalised(weighted(*bent, weights_), plain);
     if (!with) return {};  // readings that do not determine a surface do not support one
     // The polynomials' prior, added to V as a constant.
-    const double prior = 2.0 * as_double(bent->unknowns().surface().polynomials) *
+    const double prior = 2.0 * as_double(bent->unknowns().polynomials) *
                          std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
     surface_log_evidence_ = 0.5 * (without - (with->minus_two_log_reml - prior));
     if (surface_log_evidence_ < kSurfaceEvidence) return {};
@@ -409,112 +366,13 @@ class Estimator {
   }
 
   [[nodiscard]] tl::expected<Estimate, EstimationFailure> result() const {
-    auto found = problem_->unknowns().mechanism_at(problem_->coefficients(fit_));
-    const auto* chains = dynamic_cast<const model::ReadingModel*>(found.get());
-    const observation::Columns columns = observation::columns_of(*input_.observations.front());
-    Estimate estimate{
-        chains != nullptr ? chains->machine() : input_.machine,
-        chains != nullptr ? observation::settings_in(columns) : std::vector<model::Setting>{},
-        {},
-        {},
-        state_.surface,
-        problem_->has_surface(),
-        surface_log_evidence_,
-        {},
-        {},
-        std::sqrt(fit_.sigma2),
-        fit_.edf,
-        {},
-        {},
-        {},
-        converged_,
-        std::move(found)};
-    fill_covariances(estimate);
-    fill_units(estimate);
-    if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
+    auto estimate =
+        FinishedFit{*problem_, fit_, state_, weights_, distances_, as_stated_}.estimate();
+    if (estimate) {
+      estimate->surface_log_evidence = surface_log_evidence_;
+      estimate->converged = converged_;
+    }
     return estimate;
-  }
-
-  void fill_units(Estimate& estimate) const {
-    LeftOut left_out(*problem_, fit_, weights_);
-    left_out.prepare_units();
-    if (!input_.held_out_together.empty()) left_out.prepare_all();
-    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-      const SystemUnit& unit = problem_->units()[u];
-      const auto at = as_index(u);
-      const auto back = unit.whitening.inverse();
-      const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
-      const double distance = input_.fixed_weights ? left_out.distance(u) : distances_[at];
-      UnitEstimate own{unit.observation, unit.unit, weights_[at], distance, {}, {}, {}, {}};
-      own.residual = back * (problem_->response().segment(unit.first_row, unit.rows) -
-                             rows * fit_.coefficients);
-      const LeftOut::Conditioned conditioned = left_out.conditioned(u);
-      own.left_out = back * conditioned.residual;
-      own.left_out_covariance = back * conditioned.covariance * back.transpose();
-      estimate.units.push_back(std::move(own));
-    }
-    for (const Shift& one : shifts(true)) {
-      const SystemUnit& unit = problem_->units()[one.at.unit];
-      estimate.rejected_readings.push_back(
-          {unit.observation, {unit.unit, one.at.reading}, one.residual_mm, one.sigmas});
-    }
-    for (const UnitGroup& group : input_.held_out_together) {
-      const auto residuals = left_out.residuals(group);
-      for (std::size_t k = 0; k < group.size(); ++k) {
-        estimate.units[group[k]].left_out_with_group =
-            problem_->units()[group[k]].whitening.inverse() * residuals[k];
-      }
-    }
-  }
-
-  tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const {
-    const Unknowns& unknowns = problem_->unknowns();
-    const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
-    const Eigen::VectorXd variance = problem_->covariance(fit_).diagonal();
-    const auto corrections = problem_->corrections_of(state_);
-    for (std::size_t k = 0; k < input_.observations.size(); ++k) {
-      const observation::Observation& observation = *input_.observations[k];
-      ObservationEstimate own;
-      own.sheet = unknowns.sheet_at(coefficients, k);
-      const auto line = observation.linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
-      if (!line) {
-        return tl::unexpected(
-            problem_->unreachable(line.error().at(PlaceOfObservation{k, line.error().place})));
-      }
-      own.predicted = line->predicted;
-      if (const Eigen::Index first = unknowns.zeros(k); first >= 0) {
-        const Eigen::Vector2d zeros = coefficients.segment<2>(first);
-        const Eigen::Vector2d sigma = variance.segment<2>(first).cwiseMax(0.0).cwiseSqrt();
-        own.zeros = {{{zeros[0], sigma[0]}, {zeros[1], sigma[1]}}};
-        for (std::size_t u = 0; u < line->units.size(); ++u) {
-          const observation::Unit& rows = observation.units()[u];
-          for (const observation::PlaceColumns& place : line->units[u].places)
-            own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
-        }
-      }
-      for (std::size_t i = 0; i < line->places.size(); ++i) {
-        const observation::ChainPlaceState& place = line->places[i];
-        own.places.push_back({as_stated_[k][i], place.mark, place.by_mark, place.reading.lengths});
-      }
-      const Eigen::Index count = observation.nuisance_sigma().size();
-      own.nuisance = coefficients.segment(unknowns.nuisance(k), count);
-      own.nuisance_sigma = variance.segment(unknowns.nuisance(k), count).cwiseMax(0.0).cwiseSqrt();
-      estimate.observations.push_back(std::move(own));
-    }
-    return {};
-  }
-
-  void fill_covariances(Estimate& estimate) const {
-    const Unknowns& unknowns = problem_->unknowns();
-    estimate.columns = {unknowns.settings(), estimate.surface.basis.size()};
-    estimate.covariance = problem_->map_covariance(fit_, estimate.columns);
-    std::vector<Eigen::Index> own;
-    for (Eigen::Index i = 0; i < unknowns.parameters(); ++i) own.push_back(i);
-    for (Eigen::Index i = 0; i < unknowns.scales(); ++i) own.push_back(unknowns.settings() + i);
-    const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
-    estimate.map_unknowns = coefficients.head(unknowns.settings() + unknowns.scales());
-    estimate.knowledge.mean = coefficients(own);
-    estimate.knowledge.covariance = problem_->covariance(fit_)(own, own);
   }
 
   EstimationInput input_;

@@ -19,16 +19,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "grid/containers.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid::estimation {
-
-/// Free directions of all sheets.
-struct FreeDirections {
-  std::vector<Eigen::Index> columns;  ///< x_f
-  Eigen::VectorXd constant;           ///< a
-  Eigen::MatrixXd following;          ///< F by all unknowns, nothing by x_f
-};
 
 /// The places of one observation.
 struct PlacesOnSheet {
@@ -38,12 +33,72 @@ struct PlacesOnSheet {
   Eigen::VectorXd moved;       ///< g
   std::vector<Eigen::Index> free_columns;
   std::vector<Eigen::Index> free_rows;  ///< of M, in the same order
+
+  /// M
+  [[nodiscard]] Eigen::MatrixXd whole_motion() const {
+    const auto count = std::ssize(commanded);
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const model::MarkPoint& c : commanded)
+      middle += Eigen::Vector2d(c.x_mm, c.y_mm) / as_double(count);
+    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
+    double squares = 0.0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double x = commanded[as_size(i)].x_mm - middle.x();
+      const double y = commanded[as_size(i)].y_mm - middle.y();
+      motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / as_double(count);
+      motion(2, 2 * i) = -y;
+      motion(2, 2 * i + 1) = x;
+      squares += x * x + y * y;
+    }
+    motion.row(2) /= squares;
+    return motion;
+  }
+
+  /// m - c
+  [[nodiscard]] Eigen::VectorXd alongside() const {
+    Eigen::VectorXd all(2 * std::ssize(marks));
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      all.segment<2>(2 * as_index(i)) << marks[i].x_mm - commanded[i].x_mm,
+          marks[i].y_mm - commanded[i].y_mm;
+    }
+    return all;
+  }
 };
 
-/// Adds (1) of one observation.
-void add_free_directions(const PlacesOnSheet& places, FreeDirections& free);
+/// Free directions of all sheets.
+struct FreeDirections {
+  std::vector<Eigen::Index> columns;  ///< x_f
+  Eigen::VectorXd constant;           ///< a
+  Eigen::MatrixXd following;          ///< F by all unknowns, nothing by x_f
 
-/// The marks with the free directions corrected and all else unchanged.
-[[nodiscard]] std::vector<model::MarkPoint> placed_rigidly(const PlacesOnSheet& places);
+  /// Adds (1) of one observation. \returns its marks with the free directions corrected and all else
+  /// unchanged.
+  std::vector<model::MarkPoint> add(const PlacesOnSheet& places) {
+    std::vector<model::MarkPoint> marks = places.marks;
+    if (places.free_columns.empty()) return marks;
+    const Eigen::MatrixXd motion = places.whole_motion()(places.free_rows, Eigen::all);
+    const Eigen::MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
+    const Eigen::MatrixXd inverse = linear::inverse(linear::product(motion, by_free));
+    const Eigen::VectorXd alongside = places.alongside();
+    const auto needed = [&](const Eigen::VectorXd& off) -> Eigen::VectorXd {
+      return -linear::product(inverse, linear::product(motion, off));
+    };
+    const Eigen::Index before = constant.size();
+    const Eigen::Index more = std::ssize(places.free_columns);
+    append_all(columns, places.free_columns);
+    constant.conservativeResize(before + more);
+    constant.tail(more) = needed(alongside - places.moved);
+    following.conservativeResize(before + more, places.by_unknown.cols());
+    following.bottomRows(more) =
+        -linear::product(inverse, linear::product(motion, places.by_unknown));
+    following.bottomRows(more)(Eigen::all, places.free_columns).setZero();
+    const Eigen::VectorXd shift = linear::product(by_free, needed(alongside));
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      marks[i].x_mm += shift[2 * as_index(i)];
+      marks[i].y_mm += shift[2 * as_index(i) + 1];
+    }
+    return marks;
+  }
+};
 
 }  // namespace chaintrue::grid::estimation

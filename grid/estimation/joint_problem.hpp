@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Readings and priors as one penalised problem at one linearisation, and the conversion of its
-/// unknowns to settings and splines. Private to grid/estimation.
+/// All readings at one linearisation as rows by the unknowns, and the conversion of the unknowns to
+/// settings and splines. Private to grid/estimation.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
@@ -16,97 +22,366 @@
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "grid/precondition.hpp"
+#include "interp/measured_region.hpp"
 
 namespace chaintrue::grid::estimation {
 
 /// The iteration's state.
 struct State {
-  Eigen::VectorXd settings;  ///< unknowns of machine and sheets; all others are 0
+  Eigen::VectorXd settings;  ///< deviations of the machine's and the sheets'
   ResidualSurface surface;   ///< with the scales
 };
 
 class JointProblem {
  public:
   /// `input` must outlive the problem. `rejected` has an entry for each unit, or none.
-  JointProblem(const EstimationInput& input, bool has_surface, RejectedReadings rejected = {});
+  JointProblem(const EstimationInput& input, bool has_surface, RejectedReadings rejected = {})
+      : input_(input),
+        rejected_(std::move(rejected)),
+        set_(observation_set(input.machine, input.observations, input.mechanism)),
+        has_surface_(has_surface),
+        basis_(basis_for(input, has_surface)) {
+    const std::size_t lengths = set_.mechanism->lengths().size();
+    if (has_surface && lengths != 2) {
+      throw precondition(
+          "a surface corrects two lengths, not the {} of {}", lengths, set_.mechanism->kind());
+    }
+    unknowns_.of_set = set_.stated_value.size();
+    unknowns_.scales = lengths == 2 ? 2 : 0;
+    places_move_ = !all_of(input.observations, [](const auto& observation) {
+      return is_linear_in_correction(*observation);
+    });
+  }
 
-  [[nodiscard]] State stated() const;
-  [[nodiscard]] EstimationFailure unreachable(const UnreachablePlace& failure) const;
+  [[nodiscard]] State stated() const {
+    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(basis_.size());
+    return {Eigen::VectorXd::Zero(set_.setting_columns()),
+            {basis_, {0.0, 0.0}, {nothing, nothing}}};
+  }
+
+  [[nodiscard]] EstimationFailure unreachable(const UnreachablePlace& failure) const {
+    const observation::Observation& readings = *input_.observations[failure.place.observation];
+    const observation::Place& there = readings.places()[failure.place.place];
+    return {EstimationFailure::Reason::place_unreachable,
+            fmt::format("{} {} at ({:.1f}, {:.1f}): {}",
+                        readings.kind().place,
+                        there.name,
+                        there.mark.x_mm,
+                        there.mark.y_mm,
+                        failure.sentence())};
+  }
+
   /// Fails if the machine has no pose at a place.
-  tl::expected<void, EstimationFailure> linearise(const State& state);
-  /// With a weight for each unit; 0 rejects it.
-  [[nodiscard]] interp::PenalisedProblem weighted(const Eigen::VectorXd& weights) const;
-  /// For each observation, with the state's surface. The state must outlive them.
-  [[nodiscard]] std::vector<SurfaceCorrection> corrections_of(const State& state) const;
-  /// The state that a fit of the problem leads to.
-  [[nodiscard]] State state_of(const interp::PenalisedFit& fit) const;
+  tl::expected<void, EstimationFailure> linearise(const State& state) {
+    const std::vector<SurfaceCorrection> corrections = corrections_of(state);
+    const auto mechanism = mechanism_at(state.settings);
+    std::vector<ObservedFrom> from;
+    for (std::size_t k = 0; k < set_.parts.size(); ++k) {
+      const bool about_none =
+          is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
+      from.push_back(
+          {{mechanism, sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
+           state.settings(set_.columns_of(set_.parts[k]))});
+    }
+    const auto system = estimation::linearise(set_, from);
+    if (!system) return tl::unexpected(unreachable(system.error()));
+    std::vector<model::MarkPoint> marks;
+    for (const SystemPlace& place : system->places)
+      marks.push_back(corrections[place.observation].to_surface(place.state.mark));
+    observe(std::move(marks));
+    fill_design(*system, state);
+    eliminate_free_directions(*system, from, state);
+    local_.reset();
+    const bool many = design_.rows() > LocalDesign::kRowsForEachUnknown * unknowns_.total();
+    if (has_surface_ && many && free_.columns.empty())
+      local_.emplace(design_, units_, unknowns_, *observed_, basis_, surface_marks_);
+    return {};
+  }
 
-  [[nodiscard]] const Unknowns& unknowns() const { return *unknowns_; }
-  /// As above before linearisation, without a surface's.
-  [[nodiscard]] const Unknowns& layout() const { return layout_; }
+  /// For each observation, with the state's surface. The state must outlive them.
+  [[nodiscard]] std::vector<SurfaceCorrection> corrections_of(const State& state) const {
+    const model::SheetPlacement first = sheet_at(state.settings, 0);
+    std::vector<SurfaceCorrection> corrections{SurfaceCorrection(state.surface)};
+    for (std::size_t k = 1; k < set_.parts.size(); ++k)
+      corrections.emplace_back(state.surface, first, sheet_at(state.settings, k));
+    return corrections;
+  }
+
+  [[nodiscard]] const EstimationInput& input() const { return input_; }
+  [[nodiscard]] const ObservationSet& set() const { return set_; }
+  [[nodiscard]] const Unknowns& unknowns() const { return unknowns_; }
+  /// Number of a map's settings, the first unknowns: parameters, and those of the first sheet.
+  [[nodiscard]] Eigen::Index settings() const {
+    return set_.parts.front().sheet ? ObservationSet::sheet_column(1) : set_.parameters();
+  }
+  /// The mechanism and a sheet for deviations from what was stated.
+  [[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(
+      const Eigen::VectorXd& deviations) const {
+    return set_.mechanism->with_values(set_.mechanism->values() +
+                                       deviations.head(set_.parameters()));
+  }
+  [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& deviations,
+                                               std::size_t observation) const {
+    const auto& sheet = set_.parts[observation].sheet;
+    if (!sheet) return {};
+    const Eigen::Vector3d at = deviations.segment<3>(ObservationSet::sheet_column(*sheet));
+    return {at.x(), at.y(), at.z()};
+  }
+
   [[nodiscard]] bool has_surface() const { return has_surface_; }
+  /// Null without a surface.
+  [[nodiscard]] const ObservedSubspace* observed() const {
+    return observed_ ? &*observed_ : nullptr;
+  }
   /// Some places follow from the machine: they move with what is estimated.
   [[nodiscard]] bool places_move() const { return places_move_; }
   /// Units that may be rejected, and their whitened rows by all unknowns.
   [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
   [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
   [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
+  /// Rows of readings that cannot be outliers.
+  [[nodiscard]] const Eigen::MatrixXd& sure_design() const { return sure_design_; }
+  [[nodiscard]] const Eigen::VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
-  [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const;
+  [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const {
+    static const std::vector<Eigen::Index> kNone;
+    return rejected_.empty() ? kNone : rejected_.at(unit);
+  }
   [[nodiscard]] const RejectedReadings& rejected() const { return rejected_; }
   /// Counted rows minus the fit's effective parameters.
-  [[nodiscard]] double dof(const interp::PenalisedFit& fit) const;
+  [[nodiscard]] double dof(const interp::PenalisedFit& fit) const {
+    Eigen::Index rows = 0;
+    for (std::size_t u = 0; u < units_.size(); ++u) {
+      rows +=
+          rejected(u).empty() ? units_[u].rows : without_readings(units_[u], rejected(u)).cols();
+    }
+    return as_double(rows) - fit.edf;
+  }
+
   /// The local design for many readings under a surface; null if the dense one is as fast.
   [[nodiscard]] const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, with a free sheet placed as its frame is defined.
   [[nodiscard]] const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
   }
-  /// The part of a map's unknowns that the places observe, and the part that keeps its prior.
-  [[nodiscard]] Eigen::MatrixXd map_covariance(const interp::PenalisedFit& fit,
-                                               const FitColumns& columns) const;
-  /// Covariance of all unknowns, including the free directions.
-  [[nodiscard]] Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const;
-  [[nodiscard]] Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const;
+
+  /// All unknowns of a fit, including the free directions, and their covariance.
+  [[nodiscard]] Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const {
+    Eigen::VectorXd all = fit.coefficients;
+    if (!free_.columns.empty()) {
+      const Eigen::VectorXd free = free_.constant + free_.following * all;
+      all(free_.columns) = free;
+    }
+    return all;
+  }
+  [[nodiscard]] Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const {
+    if (free_.columns.empty()) return fit.corrected_covariance;
+    Eigen::MatrixXd follows = Eigen::MatrixXd::Identity(unknowns_.total(), unknowns_.total());
+    follows(free_.columns, Eigen::all) = free_.following;
+    return follows * fit.corrected_covariance * follows.transpose();
+  }
+
+  /// The state that a fit of the problem leads to.
+  [[nodiscard]] State state_of(const interp::PenalisedFit& fit) const {
+    const Eigen::VectorXd all = coefficients(fit);
+    State state = stated();
+    state.settings = all.head(set_.setting_columns());
+    for (const model::Side side : model::kSides) {
+      if (unknowns_.scales == 0) break;
+      state.surface.scale[side] = all[unknowns_.scale(side)];
+      if (!has_surface_) continue;
+      state.surface.coefficients[side] =
+          observed_->polynomial_coefficients() *
+              all.segment(unknowns_.polynomial(side), unknowns_.polynomials) +
+          observed_->penalised_basis() *
+              all.segment(unknowns_.first_penalised_of(side), unknowns_.penalised);
+    }
+    return state;
+  }
 
  private:
-  void observe(std::vector<model::MarkPoint> places);
-  void fill_design(const LinearisedSystem& system, const State& state);
+  /// Intervals slightly wider than the square that each place has to itself: with three more
+  /// coefficients than intervals on each axis noise-free points can still be interpolated; the
+  /// penalty makes excess ones harmless, and more than some 200 per surface would only cost time.
+  /// The smoother surface is for accurate points, which resolve more.
+  static interp::BsplineBasis basis_for(const EstimationInput& input, bool has_surface) {
+    if (!has_surface) return {input.domain, 1, 1};
+    if (input.intervals_x > 0 && input.intervals_y > 0)
+      return {input.domain, input.intervals_x, input.intervals_y};
+    std::vector<interp::PlanePoint> places;
+    for (const auto& observation : input.observations) {
+      for (const observation::Place& place : observation->places())
+        places.push_back({place.mark.x_mm, place.mark.y_mm});
+    }
+    const double widening = input.bending_order == 2 ? 1.2 : 0.8;
+    const double spacing_mm =
+        widening * std::sqrt(interp::ConvexHull(places).area() / as_double(places.size()));
+    const auto intervals = [spacing_mm](double length_mm, int most) {
+      return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
+    };
+    return {
+        input.domain, intervals(input.domain.width(), 12), intervals(input.domain.height(), 8)};
+  }
+
+  /// Chain lengths at given marks are linear in the correction, so it can be omitted from the point
+  /// of linearisation; the tool's position depends on the correction.
+  static bool is_linear_in_correction(const observation::Observation& observation) {
+    return observation.places().empty() || observation.kind().reads_chains;
+  }
+
+  /// The part of the surface that the places observe; computed once if they are fixed.
+  void observe(std::vector<model::MarkPoint> places) {
+    surface_marks_ = std::move(places);
+    if (!has_surface_ || (observed_ && !places_move_)) return;
+    observed_.emplace(basis_, input_.bending_order, surface_marks_);
+    unknowns_.polynomials = observed_->polynomials();
+    unknowns_.penalised = observed_->penalised();
+  }
+
+  /// e f + s at the state.
+  [[nodiscard]] Eigen::Vector2d correction_at(std::size_t place,
+                                              const SystemPlace& at,
+                                              const State& state) const {
+    const model::ChainLengths own = at.state.reading.lengths;
+    const model::ChainLengths corrected =
+        state.surface.apply(surface_marks_[place], own, Eigen::Matrix2d::Zero()).lengths;
+    return {corrected.left_mm - own.left_mm, corrected.right_mm - own.right_mm};
+  }
+
+  void fill_design(const LinearisedSystem& system, const State& state) {
+    Eigen::MatrixXd design = Eigen::MatrixXd::Zero(system.response.size(), unknowns_.total());
+    Eigen::VectorXd response = system.response;
+    design.leftCols(unknowns_.of_set) = system.by_setting;
+    std::vector<Eigen::Index> rows;
+    std::vector<Eigen::Index> certain_rows;
+    const auto take = [&](const SystemUnit& unit, std::vector<Eigen::Index>& list) {
+      add_chain_columns(system, unit, state, design, response);
+      for (Eigen::Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
+    };
+    units_ = system.units;
+    for (SystemUnit& unit : units_) {
+      const auto first = std::ssize(rows);
+      take(unit, rows);
+      unit.first_row = first;
+    }
+    for (const SystemUnit& unit : system.certain) take(unit, certain_rows);
+    design_ = design(rows, Eigen::all);
+    response_ = response(rows);
+    sure_design_ = design(certain_rows, Eigen::all);
+    sure_response_ = response(certain_rows);
+  }
+
+  /// Adds a chain's length and its surface at a place to rows, `by_chain` being their derivatives by
+  /// the chain.
+  template <class ByChain, class Rows>
+  void add_chain(std::size_t place,
+                 const SystemPlace& at,
+                 model::Side side,
+                 const ByChain& by_chain,
+                 Rows rows) const {
+    rows.col(unknowns_.scale(side)) += by_chain * at.state.reading.lengths[side];
+    if (!has_surface_) return;
+    const auto row = as_index(place);
+    rows.middleCols(unknowns_.polynomial(side), unknowns_.polynomials) +=
+        by_chain * observed_->polynomial_rows().row(row);
+    rows.middleCols(unknowns_.first_penalised_of(side), unknowns_.penalised) +=
+        by_chain * observed_->bend_rows().row(row);
+  }
+
+  /// The scales' and the surface's columns of a unit.
   void add_chain_columns(const LinearisedSystem& system,
                          const SystemUnit& unit,
                          const State& state,
                          Eigen::MatrixXd& design,
-                         Eigen::VectorXd& response) const;
-  void eliminate_free_directions(const LinearisedSystem& system,
-                                 const std::vector<ObservedFrom>& from,
-                                 const State& state);
+                         Eigen::VectorXd& response) const {
+    for (const observation::PlaceColumns& place : unit.places) {
+      const SystemPlace& at = system.places[place.place];
+      for (const model::Side side : model::kSides) {
+        const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
+        add_chain(
+            place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
+      }
+      if (!is_linear_in_correction(*input_.observations[unit.observation]) ||
+          input_.fixed_weights)
+        response.segment(unit.first_row, unit.rows) +=
+            place.by_chain * correction_at(place.place, at, state);
+    }
+  }
+
+  /// d(corrected lengths at a mark)/d(unknowns), 2 x total.
   [[nodiscard]] Eigen::MatrixXd lengths_by_unknown(std::size_t place,
                                                    const SystemPlace& at,
-                                                   const observation::View& view) const;
-  [[nodiscard]] Eigen::Vector2d correction_at(std::size_t place,
-                                              const SystemPlace& at,
-                                              const State& state) const;
-  void add_rows(interp::PenalisedProblem& problem, const Eigen::VectorXd& weights) const;
-  void add_settings_prior(interp::PenalisedProblem& problem) const;
-  void add_nuisance_prior(interp::PenalisedProblem& problem) const;
-  void add_surface_prior(interp::PenalisedProblem& problem, const Eigen::VectorXd& weights) const;
+                                                   const ObservedFrom& from) const {
+    const ObservationPart& part = set_.parts[at.observation];
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_.total());
+    rows(Eigen::all, set_.columns_of(part)) =
+        at.state.by_length.asDiagonal() *
+        observation::lengths_by_setting(
+            from.view,
+            at.state.reading,
+            at.state.mark,
+            observation::settings_in(observation::columns_of(*part.observation)));
+    for (const model::Side side : model::kSides) {
+      const Eigen::Matrix<double, 1, 1> one(1.0);
+      add_chain(place, at, side, one, rows.middleRows<1>(row_of(side)));
+    }
+    return rows;
+  }
+
+  void eliminate_free_directions(const LinearisedSystem& system,
+                                 const std::vector<ObservedFrom>& from,
+                                 const State& state) {
+    free_ = {};
+    laid_marks_.clear();
+    for (std::size_t k = 0; k < set_.parts.size(); ++k) {
+      const ObservationPart& part = set_.parts[k];
+      PlacesOnSheet places;
+      for (std::size_t i = 0; part.sheet && i < model::kSheetSettings.size(); ++i) {
+        if (part.observation->sheet()->knows(model::kSheetSettings[i])) continue;
+        places.free_rows.push_back(as_index(i));
+        places.free_columns.push_back(ObservationSet::sheet_column(*part.sheet) + as_index(i));
+      }
+      const Eigen::Index rows = 2 * std::ssize(part.observation->places());
+      places.by_unknown = Eigen::MatrixXd::Zero(rows, unknowns_.total());
+      places.moved = Eigen::VectorXd::Zero(rows);
+      for (std::size_t p = 0; p < system.places.size(); ++p) {
+        const SystemPlace& at = system.places[p];
+        if (at.observation != k) continue;
+        places.commanded.push_back(part.observation->places()[at.place].mark);
+        places.marks.push_back(at.state.mark);
+        if (places.free_columns.empty()) continue;
+        const Eigen::Matrix2d to_mark = -at.state.by_mark.inverse();
+        const auto row = 2 * as_index(at.place);
+        const Eigen::MatrixXd lengths = lengths_by_unknown(p, at, from[k]);
+        places.by_unknown.middleRows<2>(row) = to_mark * lengths;
+        places.moved.segment<2>(row) =
+            to_mark * (lengths(Eigen::all, set_.columns_of(part)) * from[k].settings +
+                       correction_at(p, at, state));
+      }
+      laid_marks_.push_back(free_.add(places));
+    }
+    if (free_.columns.empty()) return;
+    const Eigen::MatrixXd by_free = design_(Eigen::all, free_.columns);
+    response_ -= by_free * free_.constant;
+    design_ += by_free * free_.following;
+    design_(Eigen::all, free_.columns).setZero();
+  }
 
   const EstimationInput& input_;
   RejectedReadings rejected_;
   ObservationSet set_;
-  Unknowns layout_;  ///< without a surface's columns, which the places decide
+  Unknowns unknowns_;
   bool has_surface_;
   bool places_move_ = false;
   interp::BsplineBasis basis_;
   std::optional<ObservedSubspace> observed_;
-  std::optional<Unknowns> unknowns_;
   std::vector<model::MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
   std::vector<std::vector<model::MarkPoint>> laid_marks_;
   std::vector<SystemUnit> units_;
   Eigen::MatrixXd design_;
   Eigen::VectorXd response_;
   std::optional<LocalDesign> local_;
-  /// Rows of readings that cannot be outliers.
   Eigen::MatrixXd sure_design_;
   Eigen::VectorXd sure_response_;
   FreeDirections free_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Units compared with a fit without them, and the resulting weights. Private to grid/estimation.
+/// Units and single readings compared with a fit without them. Private to grid/estimation.
 ///
 /// With weights w, whitened rows X and residuals r of a unit, C the covariance of the unknowns and
 /// s^2 the noise of a fit with the unit; without it
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/estimation/joint_problem.hpp"
+#include "grid/estimation/joint_priors.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -161,7 +161,7 @@ class LeftOut {
   [[nodiscard]] std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const {
     Eigen::VectorXd without = weights_;
     for (const std::size_t unit : group) without[as_index(unit)] = 0.0;
-    auto rest = interp::fit_with_smoothing(problem_.weighted(without), fit_.lambda, fit_.sigma2);
+    auto rest = interp::fit_with_smoothing(weighted(problem_, without), fit_.lambda, fit_.sigma2);
     return rest ? std::optional(*std::move(rest)) : std::nullopt;
   }
 
@@ -178,16 +178,12 @@ class LeftOut {
   }
 
   [[nodiscard]] Eigen::VectorXd residual_of(std::size_t unit) const {
-    if (residuals_.size() > 0) {
-      const SystemUnit& own = problem_.units()[unit];
-      return residuals_.segment(own.first_row, own.rows);
-    }
+    if (residuals_.size() > 0) return problem_.units()[unit].segment(residuals_);
     return response_of(unit) - rows_of(unit) * fit_.coefficients;
   }
 
   [[nodiscard]] Eigen::VectorXd response_of(std::size_t unit) const {
-    const SystemUnit& own = problem_.units()[unit];
-    return problem_.response().segment(own.first_row, own.rows);
+    return problem_.units()[unit].segment(problem_.response());
   }
 
   const JointProblem& problem_;
@@ -197,5 +193,51 @@ class LeftOut {
   Eigen::VectorXd residuals_;             ///< there, of all rows
   Eigen::MatrixXd by_root_;  ///< X R of all units, C = R R'; empty before prepare_all()
 };
+
+/// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
+/// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
+[[nodiscard]] inline double chi(Eigen::Index n, double z) {
+  const double part = 2.0 / (9.0 * as_double(n));
+  return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
+}
+
+/// The treatment of a unit by its distance.
+struct UnitRule {
+  double full_weight_within;  ///< 95 % of good units
+  double rejected_beyond;
+  bool worst_first;  ///< one at a time, against the others' prediction and noise
+};
+
+[[nodiscard]] inline UnitRule rule_of(Eigen::Index rows) {
+  if (rows == 1) return {1.96, kBadDistanceSigmas, true};
+  if (rows == 2) return {2.4477, kBadPointDistance, false};
+  // The same probabilities as for two rows: 5 % and 4e-5.
+  return {chi(rows, 1.6449), chi(rows, 3.9444), false};
+}
+
+/// A reading and the number of its unit in the problem.
+struct Shift : ReadingShift {
+  observation::UnitReading at;
+};
+/// Among the rejected readings, or among the others.
+[[nodiscard]] inline std::vector<Shift> shifts(const JointProblem& problem,
+                                               const interp::PenalisedFit& fit,
+                                               bool of_rejected) {
+  std::vector<Shift> all;
+  const Eigen::VectorXd residual = problem.response() - problem.design() * fit.coefficients;
+  const FittedRows rows{problem.design(), residual, fit, problem.dof(fit)};
+  for (std::size_t u = 0; u < problem.units().size(); ++u) {
+    const SystemUnit& unit = problem.units()[u];
+    const std::vector<Eigen::Index>& rejected = problem.rejected(u);
+    std::vector<Eigen::Index> readings = rejected;
+    if (!of_rejected) {
+      readings = numbers_below<Eigen::Index>(unit.by_reading.cols());
+      std::erase_if(readings, [&](Eigen::Index i) { return contains(rejected, i); });
+    }
+    for (const Eigen::Index i : readings)
+      all.push_back({shift_of(rows, unit, rejected, i), {u, i}});
+  }
+  return all;
+}
 
 }  // namespace chaintrue::grid::estimation

@@ -9,86 +9,67 @@ namespace {
 using observation::Linearisation;
 using observation::Observation;
 
-class Assembly {
- public:
-  explicit Assembly(const ObservationSet& set) : set_(set) {
-    const Eigen::Index columns = set.stated_value.size();
-    system_.e.resize(set.rows);
-    system_.response.resize(set.rows);
-    system_.by_setting = Eigen::MatrixXd::Zero(set.rows, columns);
-    system_.nuisances = set.nuisances();
-    system_.unit_of_row.assign(as_size(set.rows), -1);
+void add_places(const ObservationSet& set,
+                std::size_t number,
+                const Linearisation& line,
+                LinearisedSystem& system) {
+  const ObservationPart& part = set.parts[number];
+  for (std::size_t i = 0; i < line.places.size(); ++i) {
+    const NumberedPlace& place = set.places[part.first_place + i];
+    system.places.push_back({number,
+                             i,
+                             line.places[i],
+                             place.mark,
+                             place.order,
+                             part.reads_chains() && part.observation->ordered(),
+                             set.stated.bed});
   }
+}
 
-  /// `predicted` is f.
-  void add(std::size_t number,
-           const Linearisation& line,
-           const Eigen::VectorXd& predicted,
-           const Eigen::VectorXd& settings) {
-    const ObservationPart& part = set_.parts[number];
-    const Observation& observation = *part.observation;
-    add_places(number, line);
-    const auto columns = set_.columns_of(part);
-    for (std::size_t u = 0; u < line.units.size(); ++u) {
-      const observation::Unit& rows = observation.units()[u];
-      const Eigen::VectorXd residual = observation.measured().segment(rows.first_row, rows.rows) -
-                                       predicted.segment(rows.first_row, rows.rows);
-      const Eigen::MatrixXd by_setting = line.by_setting.middleRows(rows.first_row, rows.rows);
-      SystemUnit unit;
-      unit.observation = number;
-      unit.unit = u;
-      unit.first_row = part.first_row + rows.first_row;
-      unit.rows = rows.rows;
-      unit.whitening = UnitWhitening(line.units[u].covariance);
-      unit.reads_chains = part.reads_chains();
-      const UnitWhitening& w = unit.whitening;
-      const auto own = Eigen::seqN(unit.first_row, unit.rows);
-      system_.e(own) = w * residual;
-      system_.response(own) = w * (residual + by_setting * settings).eval();
-      system_.by_setting(own, columns) = w * by_setting;
-      system_.by_setting(own, part.nuisance_columns) =
-          w * line.by_nuisance.middleRows(rows.first_row, rows.rows);
-      for (const observation::PlaceColumns& place : line.units[u].places) {
-        unit.places.push_back({part.first_place + place.place, w * place.by_chain});
-        if (!part.zero_columns.empty())
-          system_.by_setting(own, part.zero_columns) += unit.places.back().by_chain;
-      }
-      if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
-      take(std::move(unit), observation.may_be_outlier());
+/// `predicted` is f.
+void add_units(const ObservationSet& set,
+               std::size_t number,
+               const Linearisation& line,
+               const Eigen::VectorXd& predicted,
+               const Eigen::VectorXd& settings,
+               LinearisedSystem& system) {
+  const ObservationPart& part = set.parts[number];
+  const Observation& observation = *part.observation;
+  const auto columns = set.columns_of(part);
+  for (std::size_t u = 0; u < line.units.size(); ++u) {
+    const observation::Unit& rows = observation.units()[u];
+    const auto there = Eigen::seqN(rows.first_row, rows.rows);
+    const Eigen::VectorXd residual = observation.measured()(there) - predicted(there);
+    const Eigen::MatrixXd by_setting = line.by_setting(there, Eigen::all);
+    SystemUnit unit;
+    unit.observation = number;
+    unit.unit = u;
+    unit.first_row = part.first_row + rows.first_row;
+    unit.rows = rows.rows;
+    unit.whitening = UnitWhitening(line.units[u].covariance);
+    unit.reads_chains = part.reads_chains();
+    const UnitWhitening& w = unit.whitening;
+    const auto own = Eigen::seqN(unit.first_row, unit.rows);
+    system.e(own) = w * residual;
+    system.response(own) = w * (residual + by_setting * settings).eval();
+    system.by_setting(own, columns) = w * by_setting;
+    system.by_setting(own, part.nuisance_columns) =
+        w * line.by_nuisance.middleRows(rows.first_row, rows.rows);
+    for (const observation::PlaceColumns& place : line.units[u].places) {
+      unit.places.push_back({part.first_place + place.place, w * place.by_chain});
+      if (!part.zero_columns.empty())
+        system.by_setting(own, part.zero_columns) += unit.places.back().by_chain;
     }
-  }
-
-  LinearisedSystem finish() { return std::move(system_); }
-
- private:
-  void add_places(std::size_t number, const Linearisation& line) {
-    const ObservationPart& part = set_.parts[number];
-    for (std::size_t i = 0; i < line.places.size(); ++i) {
-      const NumberedPlace& place = set_.places[part.first_place + i];
-      system_.places.push_back({number,
-                                i,
-                                line.places[i],
-                                place.mark,
-                                place.order,
-                                part.reads_chains() && part.observation->ordered(),
-                                set_.stated.bed});
-    }
-  }
-
-  void take(SystemUnit unit, bool may_be_outlier) {
-    if (!may_be_outlier) {
-      system_.certain.push_back(std::move(unit));
-      return;
-    }
+    if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
+    const bool may_be_outlier = observation.may_be_outlier();
+    auto& units = may_be_outlier ? system.units : system.certain;
     for (Eigen::Index k = 0; k < unit.rows; ++k) {
-      system_.unit_of_row[as_size(unit.first_row + k)] = static_cast<int>(system_.units.size());
+      system.unit_of_row[as_size(unit.first_row + k)] =
+          may_be_outlier ? static_cast<int>(units.size()) : -1;
     }
-    system_.units.push_back(std::move(unit));
+    units.push_back(std::move(unit));
   }
-
-  const ObservationSet& set_;
-  LinearisedSystem system_;
-};
+}
 
 }  // namespace
 
@@ -107,22 +88,27 @@ Eigen::Vector2d SystemUnit::unwhitened(const Eigen::VectorXd& all) const {
 tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet& set,
                                                            const std::vector<ObservedFrom>& from,
                                                            Prediction prediction) {
-  Assembly assembly(set);
+  LinearisedSystem system;
+  system.e.resize(set.rows);
+  system.response.resize(set.rows);
+  system.by_setting = Eigen::MatrixXd::Zero(set.rows, set.stated_value.size());
+  system.nuisances = set.nuisances();
+  system.unit_of_row.resize(as_size(set.rows));
   for (std::size_t k = 0; k < set.parts.size(); ++k) {
     const Observation& observation = *set.parts[k].observation;
+    const auto fail = [k](const observation::Unreachable& why) {
+      return tl::unexpected(why.at(PlaceOfObservation{k, why.place}));
+    };
     const auto line = observation.linearise(from[k].view, observation::columns_of(observation));
-    if (!line) return tl::unexpected(line.error().at(PlaceOfObservation{k, line.error().place}));
-    if (prediction == Prediction::place_by_place) {
-      assembly.add(k, *line, line->predicted, from[k].settings);
-      continue;
-    }
-    const auto predicted = observation.predicted(from[k].view);
-    if (!predicted) {
-      return tl::unexpected(predicted.error().at(PlaceOfObservation{k, predicted.error().place}));
-    }
-    assembly.add(k, *line, *predicted, from[k].settings);
+    if (!line) return fail(line.error());
+    const auto predicted = prediction == Prediction::place_by_place
+                               ? line->predicted
+                               : observation.predicted(from[k].view);
+    if (!predicted) return fail(predicted.error());
+    add_places(set, k, *line, system);
+    add_units(set, k, *line, *predicted, from[k].settings, system);
   }
-  return assembly.finish();
+  return system;
 }
 
 Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all) {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "grid/estimation/joint_problem.hpp"
+#include "grid/estimation/joint_priors.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/synthetic/generator.hpp"
 
@@ -40,7 +40,7 @@ TEST(LocalDesign, EqualsTheDenseDesign) {
   // Some rejected, some at half their weight.
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(units);
   for (Eigen::Index u = 0; u < units; u += 7) weights[u] = u % 2 == 0 ? 0.0 : 0.5;
-  const interp::PenalisedProblem weighted = problem.weighted(weights);
+  const interp::PenalisedProblem weighted = estimation::weighted(problem, weights);
   Eigen::VectorXd by_row(problem.design().rows());
   for (Eigen::Index u = 0; u < units; ++u) {
     const SystemUnit& unit = problem.units()[static_cast<std::size_t>(u)];

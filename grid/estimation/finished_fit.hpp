@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The estimate that the last fit of a problem leads to. Private to grid/estimation.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <tl/expected.hpp>
+#include <utility>
+#include <vector>
+
+#include "grid/containers.hpp"
+#include "grid/estimation/left_out.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// The part of a map's covariance that the places observe, and the part that keeps its prior.
+[[nodiscard]] inline Eigen::MatrixXd map_covariance(const JointProblem& problem,
+                                                    const interp::PenalisedFit& fit,
+                                                    const FitColumns& columns) {
+  const Unknowns& unknowns = problem.unknowns();
+  const ObservedSubspace* observed = problem.observed();
+  Eigen::MatrixXd to_splines = Eigen::MatrixXd::Zero(columns.total(), unknowns.total());
+  to_splines.topLeftCorner(columns.settings, columns.settings).setIdentity();
+  for (const model::Side side : model::kSides) {
+    if (unknowns.scales == 0) break;
+    to_splines(columns.scale(side), unknowns.scale(side)) = 1.0;
+    if (observed == nullptr) continue;
+    auto spline = to_splines.middleRows(columns.spline(side), columns.basis);
+    spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) =
+        observed->polynomial_coefficients();
+    spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) =
+        observed->penalised_basis();
+  }
+  Eigen::MatrixXd result = to_splines * problem.covariance(fit) * to_splines.transpose();
+  if (observed == nullptr) return result;
+  const Eigen::MatrixXd unobserved = fit.inverse_lambda * observed->null_space_coefficients() *
+                                     observed->null_space_coefficients().transpose();
+  for (const model::Side side : model::kSides) {
+    result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
+        unobserved;
+  }
+  return result;
+}
+
+struct FinishedFit {
+  const JointProblem& problem;
+  const interp::PenalisedFit& fit;
+  const State& state;
+  const Eigen::VectorXd& weights;
+  const Eigen::VectorXd& distances;  ///< of units; those with fixed weights are found here
+  const std::vector<std::vector<model::MarkPoint>>& as_stated;
+
+  [[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate() const {
+    const EstimationInput& input = problem.input();
+    Estimate estimate{.machine = input.machine, .surface = state.surface};
+    estimate.mechanism = problem.mechanism_at(problem.coefficients(fit));
+    if (const auto* chains =
+            dynamic_cast<const model::ReadingModel*>(estimate.mechanism.get())) {
+      estimate.machine = chains->machine();
+      estimate.settings =
+          observation::settings_in(observation::columns_of(*input.observations.front()));
+    }
+    estimate.has_surface = problem.has_surface();
+    estimate.noise_factor = std::sqrt(fit.sigma2);
+    estimate.effective_parameters = fit.edf;
+    fill_covariances(estimate);
+    fill_units(estimate);
+    if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
+    return estimate;
+  }
+
+ private:
+  void fill_covariances(Estimate& estimate) const {
+    const Unknowns& unknowns = problem.unknowns();
+    estimate.columns = {problem.settings(), estimate.surface.basis.size()};
+    estimate.covariance = map_covariance(problem, fit, estimate.columns);
+    const Eigen::VectorXd coefficients = problem.coefficients(fit);
+    const auto with_scales = [&](Eigen::Index settings) {
+      auto columns = numbers_below<Eigen::Index>(settings);
+      for (Eigen::Index i = 0; i < unknowns.scales; ++i) columns.push_back(unknowns.of_set + i);
+      return columns;
+    };
+    estimate.map_unknowns = coefficients(with_scales(problem.settings()));
+    const auto own = with_scales(problem.set().parameters());
+    estimate.knowledge = {coefficients(own), problem.covariance(fit)(own, own)};
+  }
+
+  void fill_units(Estimate& estimate) const {
+    const EstimationInput& input = problem.input();
+    LeftOut left_out(problem, fit, weights);
+    left_out.prepare_units();
+    if (!input.held_out_together.empty()) left_out.prepare_all();
+    for (std::size_t u = 0; u < problem.units().size(); ++u) {
+      const SystemUnit& unit = problem.units()[u];
+      const auto at = as_index(u);
+      const auto back = unit.whitening.inverse();
+      const Eigen::MatrixXd rows = problem.design().middleRows(unit.first_row, unit.rows);
+      const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
+      UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};
+      own.residual = back * (unit.segment(problem.response()) - rows * fit.coefficients);
+      const LeftOut::Conditioned conditioned = left_out.conditioned(u);
+      own.left_out = back * conditioned.residual;
+      own.left_out_covariance = back * conditioned.covariance * back.transpose();
+      estimate.units.push_back(std::move(own));
+    }
+    for (const Shift& one : shifts(problem, fit, true)) {
+      const SystemUnit& unit = problem.units()[one.at.unit];
+      estimate.rejected_readings.push_back(
+          {unit.observation, {unit.unit, one.at.reading}, one.residual_mm, one.sigmas});
+    }
+    for (const UnitGroup& group : input.held_out_together) {
+      const auto residuals = left_out.residuals(group);
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        estimate.units[group[k]].left_out_with_group =
+            problem.units()[group[k]].whitening.inverse() * residuals[k];
+      }
+    }
+  }
+
+  tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const {
+    const Eigen::VectorXd coefficients = problem.coefficients(fit);
+    const Eigen::VectorXd sigma =
+        problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const auto corrections = problem.corrections_of(state);
+    for (std::size_t k = 0; k < problem.set().parts.size(); ++k) {
+      const ObservationPart& part = problem.set().parts[k];
+      ObservationEstimate own;
+      own.sheet = problem.sheet_at(coefficients, k);
+      const auto line =
+          part.observation->linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
+      if (!line) {
+        return tl::unexpected(
+            problem.unreachable(line.error().at(PlaceOfObservation{k, line.error().place})));
+      }
+      own.predicted = line->predicted;
+      if (!part.zero_columns.empty()) {
+        const Eigen::Vector2d zeros = coefficients(part.zero_columns);
+        const Eigen::Vector2d zero_sigma = sigma(part.zero_columns);
+        own.zeros = {{{zeros[0], zero_sigma[0]}, {zeros[1], zero_sigma[1]}}};
+        for (std::size_t u = 0; u < line->units.size(); ++u) {
+          const observation::Unit& rows = part.observation->units()[u];
+          for (const observation::PlaceColumns& place : line->units[u].places)
+            own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
+        }
+      }
+      for (std::size_t i = 0; i < line->places.size(); ++i) {
+        const observation::ChainPlaceState& place = line->places[i];
+        own.places.push_back({as_stated[k][i], place.mark, place.by_mark, place.reading.lengths});
+      }
+      own.nuisance = coefficients(part.nuisance_columns);
+      own.nuisance_sigma = sigma(part.nuisance_columns);
+      estimate.observations.push_back(std::move(own));
+    }
+    return {};
+  }
+};
+
+}  // namespace chaintrue::grid::estimation
