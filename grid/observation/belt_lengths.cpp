@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/belt_lengths.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/QR>
 #include <algorithm>
 
-#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -26,12 +21,6 @@ std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) 
         a.lengths_mm.begin(), a.lengths_mm.end(), b.lengths_mm.begin(), b.lengths_mm.end());
   });
   return places;
-}
-
-Eigen::Index counting_lengths(const LengthsAtPlace& place) {
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i) count += place.counts(i) ? 1 : 0;
-  return count;
 }
 
 }  // namespace
@@ -72,7 +61,7 @@ void BeltLengthReadings::join_places() {
     return place;
   };
   const auto is_found = [this](std::size_t place) {
-    return readings_[place].known || counting_lengths(readings_[place]) >= 2;
+    return readings_[place].known || readings_[place].counted() >= 2;
   };
   constexpr auto none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> number_of(readings_.size(), none);
@@ -128,7 +117,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
   Eigen::Index most = kBlockUnitRows;
   for (const std::size_t place : block.places) {
     const LengthsAtPlace& own = readings_[place];
-    rows += counting_lengths(own) - (own.known ? 0 : 2);
+    rows += own.counted() - (own.known ? 0 : 2);
   }
   if (block.places.size() == 1 && block.distances.empty()) most = std::max<Eigen::Index>(rows, 1);
   rows += std::ssize(block.distances);
@@ -148,138 +137,6 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
       measured.insert(measured.end(), as_size(units_.back().rows), 0.0);
     }
   }
-}
-
-/// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
-BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
-  const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
-  const Eigen::Matrix4d q =
-      Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
-  const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
-  const double variance = noise_.length_mm * noise_.length_mm;
-  return {-checks * line.residual_mm,
-          checks * line.by_parameter,
-          variance * Eigen::Matrix2d::Identity(),
-          checks};
-}
-
-tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::rows_of(
-    const View& view, const Block& block, bool with_parameters) const {
-  const auto line = block_line(view, block, with_parameters);
-  if (!line) return tl::unexpected(line.error());
-  const bool is_alone = block.places.size() == 1 && block.distances.empty();
-  if (is_alone && !readings_[block.places.front()].known && line->weight.size() == 4 &&
-      line->weight.minCoeff() == 1.0)
-    return rows_of_four(*line);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < line->weight.size(); ++i) {
-    if (line->weight[i] > 0.0) rows.push_back(i);
-  }
-  const auto count = std::ssize(rows);
-  const double variance = noise_.length_mm * noise_.length_mm;
-  const Eigen::VectorXd root = line->weight(rows).cwiseSqrt();
-  const Eigen::MatrixXd by_position = root.asDiagonal() * line->by_position(rows, Eigen::all);
-  const Eigen::MatrixXd by_parameter = root.asDiagonal() * line->by_parameter(rows, Eigen::all);
-  if (!block.places.empty() && readings_[block.places.front()].known) {
-    const LengthsAtPlace& own = readings_[block.places.front()];
-    return BlockRows{own.lengths_mm(rows) - line->residual_mm(rows),
-                     by_parameter,
-                     variance * Eigen::MatrixXd::Identity(count, count) +
-                         noise_.position_mm * noise_.position_mm * linear::outer(by_position),
-                     {}};
-  }
-  const Eigen::VectorXd residual = root.cwiseProduct(line->residual_mm(rows));
-  const Eigen::Index left = count - by_position.cols();
-  BlockRows result;
-  if (is_alone) {
-    const Eigen::MatrixXd checks = linear::qr(by_position).q.rightCols(left).transpose();  // Q'
-    result = {-linear::product(checks, residual), linear::product(checks, by_parameter), {}, {}};
-    result.by_reading = Eigen::MatrixXd::Zero(left, line->weight.size());
-    result.by_reading(Eigen::all, rows) = checks;
-  } else if (block.places.empty()) {
-    result = {-residual, by_parameter, {}, {}};
-  } else {
-    const Eigen::MatrixXd checks = linear::qr(by_position).q.rightCols(left);  // Q
-    result = {-linear::product(linear::transposed(checks), residual),
-              linear::product(linear::transposed(checks), by_parameter),
-              {},
-              {}};
-  }
-  result.covariance = variance * Eigen::MatrixXd::Identity(left, left);
-  return result;
-}
-
-tl::expected<BeltLengthReadings::UnitLine, Unreachable> BeltLengthReadings::line_of(
-    const View& view, std::size_t unit) const {
-  const std::size_t place = place_of_unit_.at(unit);
-  if (place >= readings_.size() || !blocks_[block_of_[place]].distances.empty())
-    throw precondition("unit {} is of places that a tape joins", unit);
-  const Block& block = blocks_[block_of_[place]];
-  auto rows = rows_of(view, block, true);
-  if (!rows) return tl::unexpected(rows.error());
-  const auto line = block_line(view, block, false);
-  if (!line) return tl::unexpected(line.error());
-  const LengthsAtPlace& own = readings_[place];
-  Eigen::MatrixXd by_length = std::move(rows->by_reading);
-  if (own.known) {
-    by_length = Eigen::MatrixXd::Zero(rows->predicted.size(), own.lengths_mm.size());
-    Eigen::Index row = 0;
-    for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i)
-      if (own.counts(i)) by_length(row++, i) = 1.0;
-  }
-  return UnitLine{std::move(rows->predicted),
-                  std::move(rows->by_parameter),
-                  std::move(rows->covariance),
-                  std::move(by_length),
-                  own.lengths_mm - line->residual_mm};
-}
-
-tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
-    const View& view, const Columns& columns) const {
-  const Eigen::Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
-  Linearisation result;
-  result.predicted.resize(rows());
-  result.by_setting = Eigen::MatrixXd::Zero(rows(), parameters + (columns.sheet ? 3 : 0));
-  result.by_nuisance.resize(rows(), 0);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const std::size_t end = end_unit(b);
-    if (first_unit_[b] == end) continue;
-    auto own = rows_of(view, blocks_[b], columns.parameters);
-    if (!own) return tl::unexpected(own.error());
-    const Eigen::Index first = units_[first_unit_[b]].first_row;
-    result.predicted.segment(first, own->predicted.size()) = own->predicted;
-    result.by_setting.block(first, 0, own->predicted.size(), parameters) = own->by_parameter;
-    for (std::size_t u = first_unit_[b]; u < end; ++u) {
-      const Eigen::Index at = units_[u].first_row - first;
-      result.units.push_back(
-          {own->covariance.block(at, at, units_[u].rows, units_[u].rows), {}, own->by_reading});
-    }
-  }
-  return result;
-}
-
-std::shared_ptr<const Observation> BeltLengthReadings::about_others(
-    const std::vector<UnitReading>& rejected) const {
-  auto other = std::make_shared<BeltLengthReadings>(*this);
-  for (LengthsAtPlace& place : other->readings_) place.rejected.clear();
-  for (const UnitReading& one : rejected) {
-    LengthsAtPlace& place = other->readings_.at(place_of_unit_.at(one.unit));
-    if (place.rejected.empty()) place.rejected.assign(as_size(place.lengths_mm.size()), false);
-    place.rejected.at(static_cast<std::size_t>(one.reading)) = true;
-  }
-  return other;
-}
-
-std::string BeltLengthReadings::untestable(const model::effects::Effect& effect,
-                                           model::effects::EffectSide /*side*/) const {
-  const bool needs_order = effect.needs == model::effects::DataNeed::order;
-  return needs_order && !ordered_ ? "the order in which the points were visited is not known" : "";
-}
-
-std::string BeltLengthReadings::name_of(std::size_t unit) const {
-  const std::size_t place = place_of_unit_.at(unit);
-  if (place < places_.size()) return "point " + places_[place].name;
-  return fmt::format("distance {}", units_.at(unit).index + 1);
 }
 
 }  // namespace chaintrue::grid::observation

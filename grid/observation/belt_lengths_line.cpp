@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include "grid/containers.hpp"
 #include "grid/observation/belt_lengths.hpp"
@@ -18,23 +19,6 @@ std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
 }
 
 }  // namespace
-
-double BeltLengthReadings::distance_weight(std::size_t distance) const {
-  const double ratio = noise_.length_mm / distances_[distance].sigma_mm;
-  return ratio * ratio;
-}
-
-/// Indices of a distance's ends among a block's places.
-std::array<std::optional<std::size_t>, 2> BeltLengthReadings::slots_of(const Block& block,
-                                                                       std::size_t distance) const {
-  const auto slot_of = [&](const TapeEnd& end) -> std::optional<std::size_t> {
-    const auto* place = std::get_if<AtPlace>(&end);
-    if (place == nullptr) return std::nullopt;
-    const auto at = std::lower_bound(block.places.begin(), block.places.end(), place->index);
-    return as_size(at - block.places.begin());
-  };
-  return {slot_of(distances_[distance].from), slot_of(distances_[distance].to)};
-}
 
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     const View& view,
@@ -66,21 +50,26 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
   }
   Eigen::Index row = lengths * places;
   for (const std::size_t k : block.distances) {
-    const auto slots = slots_of(block, k);
+    const TapedDistance& distance = distances_[k];
+    std::array<std::optional<std::size_t>, 2> slots;  // of its ends, among the block's places
     std::array<model::ToolPosition, 2> ends;
     for (std::size_t e = 0; e < 2; ++e) {
-      if (slots[e]) ends[e] = line.positions[*slots[e]];
+      const auto* place = std::get_if<AtPlace>(e == 0 ? &distance.from : &distance.to);
+      if (place == nullptr) continue;
+      const auto at = std::lower_bound(block.places.begin(), block.places.end(), place->index);
+      slots[e] = as_size(at - block.places.begin());
+      ends[e] = line.positions[*slots[e]];
     }
-    const auto own = distance_line(*view.mechanism, distances_[k], ends);
+    const auto own = distance_line(*view.mechanism, distance, ends);
     if (!own) {
       return tl::unexpected(own.error().at(block.places.empty() ? 0 : block.places.front()));
     }
-    line.residual_mm[row] = distances_[k].distance_mm - own->predicted_mm;
+    line.residual_mm[row] = distance.distance_mm - own->predicted_mm;
     for (std::size_t e = 0; e < 2; ++e) {
       if (slots[e]) line.by_position.block<1, 2>(row, 2 * as_index(*slots[e])) += own->by_end[e];
     }
     if (with_parameters) line.by_parameter.row(row) = own->by_parameter;
-    line.weight[row++] = distance_weight(k);
+    line.weight[row++] = std::pow(noise_.length_mm / distance.sigma_mm, 2);
   }
   return line;
 }

@@ -12,10 +12,4 @@ Eigen::Matrix2d covariance_of(const PointNoise& noise, const Eigen::Matrix2d& by
          std::pow(noise.position_mm, 2) * by_mark * by_mark.transpose();
 }
 
-std::string ChainLengthReadings::untestable(const model::effects::Effect& effect,
-                                            model::effects::EffectSide /*side*/) const {
-  const bool needs_order = effect.needs == model::effects::DataNeed::order;
-  return needs_order && !ordered_ ? "the order in which the points were visited is not known" : "";
-}
-
 }  // namespace chaintrue::grid::observation

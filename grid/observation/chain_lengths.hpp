@@ -108,8 +108,6 @@ class ChainLengthReadings final : public Observation {
     return line;
   }
 
-  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
-                                       model::effects::EffectSide side) const override;
   [[nodiscard]] std::string name_of(std::size_t unit) const override {
     const Place& place = places_.at(unit);
     return fmt::format(

@@ -19,11 +19,4 @@ MeasureRow measure_row(DrawnMeasure::Kind kind,
   return {across.dot(middle - from), (share - 1.0) * across, -share * across, across};
 }
 
-double measured_between(DrawnMeasure::Kind kind,
-                        const Eigen::Vector2d& from,
-                        const Eigen::Vector2d& to,
-                        const Eigen::Vector2d& middle) {
-  return measure_row(kind, from, to, middle).value_mm;
-}
-
 }  // namespace chaintrue::grid::observation

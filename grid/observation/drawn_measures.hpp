@@ -50,7 +50,8 @@ struct DrawnMeasure {
   double sigma_mm = 0.5;
 };
 
-/// (1) as a row: the measure and its derivatives by the three points.
+/// (1) as a row: the measure and its derivatives by the three points; for a length `middle` is
+/// ignored.
 struct MeasureRow {
   double value_mm = 0.0;
   Eigen::RowVector2d by_from, by_to, by_middle;
@@ -60,12 +61,6 @@ struct MeasureRow {
                                      const Eigen::Vector2d& to,
                                      const Eigen::Vector2d& middle);
 
-/// (1) for three points; for a length the last is ignored.
-[[nodiscard]] double measured_between(DrawnMeasure::Kind kind,
-                                      const Eigen::Vector2d& from,
-                                      const Eigen::Vector2d& to,
-                                      const Eigen::Vector2d& middle);
-
 class DrawnMeasures final : public Observation {
  public:
   /// Sorts the measures by their points. `noise_dof` are the degrees of freedom of their sigmas.
@@ -74,20 +69,18 @@ class DrawnMeasures final : public Observation {
                 std::vector<DrawnMeasure> measures,
                 double noise_dof)
       : Observation(false, noise_dof), points_(std::move(points)) {
-    std::vector<std::size_t> order(measures.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const DrawnMeasure& own = measures[i];
+    for (const DrawnMeasure& own : measures) {
       if (!(own.sigma_mm > 0.0))
         throw precondition("a measure with sigma {} mm; it must be positive", own.sigma_mm);
       if (std::max({own.from, own.to, own.middle}) >= points_.size())
         throw precondition(
             "a measure from point {} to {} of {} points", own.from, own.to, points_.size());
-      order[i] = i;
     }
     const auto key = [&](std::size_t i) {
       const DrawnMeasure& m = measures[i];
       return std::tie(m.kind, points_[m.from].name, points_[m.to].name, m.value_mm, m.sigma_mm);
     };
+    auto order = numbers_below(measures.size());
     sort(order, ascending(key));
     for (std::size_t i = 0; i < points_.size(); ++i)
       places_.push_back({i, points_[i].name, points_[i].commanded, points_[i].paid_out});

@@ -1,28 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/observation.hpp"
 
-#include <stdexcept>
-
 #include "grid/containers.hpp"
-#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {
-
-View::View(model::ReadingModel chains,
-           model::SheetPlacement placement,
-           const LengthCorrection* length_correction)
-    : mechanism(std::make_shared<const model::ReadingModel>(std::move(chains))),
-      sheet(placement),
-      correction(length_correction) {}
-
-const model::ReadingModel& View::chains() const {
-  const auto* own = dynamic_cast<const model::ReadingModel*>(mechanism.get());
-  if (own == nullptr) {
-    throw std::logic_error("readings of two chains for a mechanism with " +
-                           std::string(mechanism->kind()));
-  }
-  return *own;
-}
 
 Columns columns_of(const Observation& observation) {
   return {true, observation.sheet().has_value()};
@@ -35,23 +16,6 @@ std::vector<model::Setting> settings_in(const Columns& columns) {
   if (columns.sheet)
     settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
   return settings;
-}
-
-bool SheetPrior::knows(model::Setting setting) const {
-  switch (setting) {
-    case model::Setting::sheet_x_mm:
-      return knows_x;
-    case model::Setting::sheet_y_mm:
-      return knows_y;
-    case model::Setting::sheet_rotation_rad:
-      return knows_rotation;
-    default:
-      return true;
-  }
-}
-
-tl::expected<Eigen::VectorXd, Unreachable> Observation::predicted(const View& view) const {
-  return linearise(view, {}).map([](Linearisation line) { return std::move(line.predicted); });
 }
 
 const std::vector<const Kind*>& kinds() {

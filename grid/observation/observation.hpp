@@ -29,9 +29,11 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 #include "model/calibration/setting.hpp"
@@ -77,7 +79,12 @@ struct SheetPrior {
   bool knows_x = true;
   bool knows_y = true;
   bool knows_rotation = true;
-  [[nodiscard]] bool knows(model::Setting setting) const;
+  /// True for a setting that is not the sheet's.
+  [[nodiscard]] bool knows(model::Setting setting) const {
+    if (setting == model::Setting::sheet_x_mm) return knows_x;
+    if (setting == model::Setting::sheet_y_mm) return knows_y;
+    return setting != model::Setting::sheet_rotation_rad || knows_rotation;
+  }
 };
 
 /// A fit's correction of the machine's lengths over the sheet.
@@ -108,11 +115,21 @@ struct View {
   /// For two chains.
   View(model::ReadingModel chains,
        model::SheetPlacement placement,
-       const LengthCorrection* length_correction = nullptr);
+       const LengthCorrection* length_correction = nullptr)
+      : View(std::make_shared<const model::ReadingModel>(std::move(chains)),
+             placement,
+             length_correction) {}
 
   /// The two-chain model, for kinds that read only chains. \throws std::logic_error for another
   /// mechanism.
-  [[nodiscard]] const model::ReadingModel& chains() const;
+  [[nodiscard]] const model::ReadingModel& chains() const {
+    const auto* own = dynamic_cast<const model::ReadingModel*>(mechanism.get());
+    if (own == nullptr) {
+      throw std::logic_error("readings of two chains for a mechanism with " +
+                             std::string(mechanism->kind()));
+    }
+    return *own;
+  }
 
   std::shared_ptr<const model::Mechanism> mechanism;
   model::SheetPlacement sheet;
@@ -206,14 +223,21 @@ class Observation {
 
   /// f, visit by visit where the order is known; by default that of linearise().
   [[nodiscard]] virtual tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const;
+      const View& view) const {
+    return linearise(view, {}).map([](Linearisation line) { return std::move(line.predicted); });
+  }
   /// The sheet is this observation's own.
   [[nodiscard]] virtual tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const = 0;
 
-  /// Why this kind cannot show the effect; empty if it can.
+  /// Why this kind cannot show the effect; empty if it can. By default it shows all but those that
+  /// need an unknown order.
   [[nodiscard]] virtual std::string untestable(const model::effects::Effect& effect,
-                                               model::effects::EffectSide side) const = 0;
+                                               model::effects::EffectSide /*side*/) const {
+    const bool needs_order = effect.needs == model::effects::DataNeed::order;
+    return needs_order && !ordered_ ? "the order in which the points were visited is not known"
+                                    : "";
+  }
   /// Words for a unit: "point 3 at (-900, 400) mm", "the distance A-B".
   [[nodiscard]] virtual std::string name_of(std::size_t unit) const = 0;
 

@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -62,9 +61,7 @@ struct Sorted {
 
 /// Holes by place and distances by their holes.
 Sorted sorted_set(const MeasuredHoles& set) {
-  Sorted result{set, {}, {}};
-  result.hole.resize(set.holes.size());
-  std::iota(result.hole.begin(), result.hole.end(), std::size_t{0});
+  Sorted result{set, numbers_below(set.holes.size()), numbers_below(set.distances.size())};
   sort(result.hole, [&](std::size_t a, std::size_t b) {
     const Hole& x = set.holes[a];
     const Hole& y = set.holes[b];
@@ -82,8 +79,6 @@ Sorted sorted_set(const MeasuredHoles& set) {
     const std::size_t b = d.edge ? a : place[d.to];
     return std::tuple(std::min(a, b), std::max(a, b), d.edge, d.distance_mm, sigma_of(set, d));
   };
-  result.distance.resize(set.distances.size());
-  std::iota(result.distance.begin(), result.distance.end(), std::size_t{0});
   stable_sort(result.distance, ascending(key));
   for (std::size_t k = 0; k < result.distance.size(); ++k) {
     HoleDistance own = set.distances[result.distance[k]];
@@ -92,22 +87,6 @@ Sorted sorted_set(const MeasuredHoles& set) {
     result.set.distances[k] = own;
   }
   return result;
-}
-
-std::vector<MarkPoint> marks_of(const std::vector<ChainPlaceState>& states) {
-  std::vector<MarkPoint> marks;
-  for (const ChainPlaceState& state : states) marks.push_back(state.mark);
-  return marks;
-}
-
-/// The machine's lengths that equal the paid-out ones after correction at the mark.
-model::ChainLengths own_lengths(const LengthCorrection& correction,
-                                MarkPoint mark,
-                                model::ChainLengths paid_out,
-                                model::ChainLengths own) {
-  const auto corrected = correction.at(mark, own, Eigen::Matrix2d::Zero());
-  return {paid_out.left_mm - (corrected.lengths.left_mm - own.left_mm),
-          paid_out.right_mm - (corrected.lengths.right_mm - own.right_mm)};
 }
 
 }  // namespace
@@ -247,108 +226,6 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const Measur
   for (Place& place : result->places_) place.index = first.hole + sorted.hole[place.index];
   for (Unit& unit : result->units_) unit.index = first.distance + sorted.distance[unit.index];
   return result;
-}
-
-void TapeDistances::state_nuisances() {
-  const Eigen::Index of_holes = 2 * std::ssize(set_.holes);
-  nuisance_sigma_.resize(3 + of_holes);
-  nuisance_sigma_.head(2).setConstant(std::max(set_.sheet.size_sigma_mm, kKnownNuisanceMm));
-  nuisance_sigma_[2] = std::max(tape_zero_sigma_mm(set_.tape), kKnownNuisanceMm);
-  nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
-}
-
-tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
-    const View& view) const {
-  // A correction changes by a thousandth of a hole's shift and the chains' scale is below 0.2 %:
-  // each iteration gains at least two digits, starting within some mm.
-  constexpr int kTurns = 6;
-  constexpr double kConvergedMm = 1e-9;
-  std::vector<ChainPlaceState> states;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    model::BedPoint start = model::identity_placement(places_[i].mark);
-    model::ChainLengths own = places_[i].lengths;
-    if (view.correction != nullptr)
-      own = own_lengths(*view.correction, places_[i].mark, places_[i].lengths, own);
-    auto reading = view.chains().find(own, start);
-    for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
-      start = reading->pose.position;
-      const model::ChainLengths before = own;
-      own = own_lengths(*view.correction, view.sheet.to_mark(start), places_[i].lengths, own);
-      if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
-          kConvergedMm)
-        break;
-      reading = view.chains().find(own, start);
-    }
-    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
-    ChainPlaceState state{*reading,
-                          view.sheet.to_mark(reading->pose.position),
-                          reading->position_jacobian * view.sheet.rotation()};
-    if (view.correction != nullptr) {
-      const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);
-      state.by_mark = corrected.by_mark;
-      state.by_length = corrected.by_length;
-    }
-    states.push_back(std::move(state));
-  }
-  return states;
-}
-
-Eigen::Matrix2Xd TapeDistances::mark_by_setting(const View& view,
-                                                const ChainPlaceState& place,
-                                                const std::vector<model::Setting>& settings) {
-  // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
-  const Eigen::Matrix2Xd lengths =
-      place.by_length.asDiagonal() * lengths_by_setting(view, place.reading, place.mark, settings);
-  return -place.by_mark.inverse() * lengths;
-}
-
-tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& view,
-                                                                  const Columns& columns) const {
-  const std::vector<model::Setting> settings = settings_in(columns);
-  auto states = placed(view);
-  if (!states) return tl::unexpected(states.error());
-  const double factor = tape_factor(view.chains().machine());
-  const DistanceGeometry geometry = distance_geometry(set_, marks_of(*states));
-  const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
-  const Eigen::VectorXd by_tape_zero = Eigen::VectorXd::Ones(rows());
-  Linearisation line;
-  line.predicted = factor * geometry.predicted_mm;
-  line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
-  for (std::size_t i = 0; i < states->size(); ++i) {
-    const Eigen::Matrix2Xd marks = mark_by_setting(view, (*states)[i], settings);
-    for (Eigen::Index s = 0; s < marks.cols(); ++s) {
-      line.by_setting.col(s) += by_mark.middleCols<2>(2 * as_index(i)) * marks.col(s);
-    }
-  }
-  line.by_nuisance.resize(rows(), nuisance_sigma_.size());
-  line.by_nuisance << factor * geometry.by_size, by_tape_zero, by_mark;
-  for (Eigen::Index k = 0; k < rows(); ++k) {
-    const double sigma = sigma_of(set_, set_.distances[as_size(k)]);
-    UnitState unit{Eigen::MatrixXd::Constant(1, 1, sigma * sigma), {}};
-    for (std::size_t i = 0; i < states->size(); ++i) {
-      const Eigen::RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
-      if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
-    }
-    line.units.push_back(std::move(unit));
-  }
-  line.places = std::move(*states);
-  return line;
-}
-
-std::string TapeDistances::untestable(const model::effects::Effect& effect,
-                                      model::effects::EffectSide side) const {
-  if (effect.needs == model::effects::DataNeed::order) {
-    return "the order in which the holes were cut is not in the file, and no chain was read";
-  }
-  if (effect.station == model::effects::Station::paper && !is_of_tape(effect, side)) {
-    return "a tape has one scale in every direction, and no axes: print or place marks and read "
-           "the chains there";
-  }
-  return "";
-}
-
-std::string TapeDistances::name_of(std::size_t unit) const {
-  return "the distance " + words_of(set_, set_.distances.at(unit));
 }
 
 }  // namespace chaintrue::grid::observation

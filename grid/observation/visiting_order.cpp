@@ -55,16 +55,12 @@ Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& 
 
 /// Side of the square that one mark has to itself.
 double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
-  const auto [low_a, high_a] =
-      minmax_element(marks, [](const MarkInLine& a, const MarkInLine& b) {
-        return a.across_mm < b.across_mm;
-      });
-  const auto [low_b, high_b] =
-      minmax_element(marks, [](const MarkInLine& a, const MarkInLine& b) {
-        return a.along_mm < b.along_mm;
-      });
-  const double area_mm2 = (high_a->across_mm - low_a->across_mm) * (high_b->along_mm - low_b->along_mm);
-  return std::sqrt(area_mm2 / as_double(marks.size()));
+  const auto extent_mm = [&marks](double MarkInLine::*number) {
+    const auto [low, high] = minmax_element(marks, ascending(number));
+    return *high.*number - *low.*number;
+  };
+  return std::sqrt(extent_mm(&MarkInLine::across_mm) * extent_mm(&MarkInLine::along_mm) /
+                   as_double(marks.size()));
 }
 
 /// Sorted across; empty if the marks are not in lines.
@@ -113,9 +109,7 @@ tl::expected<std::vector<int>, std::string> visit_numbers(const std::vector<Meas
   std::vector<int> numbers(points.size());
   int visit = 0;
   for (std::size_t line = 0; line < lines.size(); ++line) {
-    std::stable_sort(lines[line].begin(), lines[line].end(), [](const MarkInLine& a, const MarkInLine& b) {
-      return a.along_mm < b.along_mm;
-    });
+    stable_sort(lines[line], ascending(&MarkInLine::along_mm));
     if (order.serpentine && line % 2 == 1) std::reverse(lines[line].begin(), lines[line].end());
     for (const MarkInLine& mark : lines[line]) numbers[mark.index] = visit++;
   }

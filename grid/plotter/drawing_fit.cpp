@@ -31,7 +31,7 @@ Eigen::VectorXd in_file_order(const observation::DrawnMeasures& readings,
                               const Eigen::VectorXd& rows) {
   Eigen::VectorXd ordered(rows.size());
   for (const observation::Unit& unit : readings.units())
-    ordered[static_cast<Eigen::Index>(unit.index)] = rows[unit.first_row];
+    ordered[as_index(unit.index)] = rows[unit.first_row];
   return ordered;
 }
 
@@ -80,7 +80,7 @@ std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
   const auto parameters = estimate.mechanism->parameters();
   std::vector<PlotterSetting> settings;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
+    const auto at = as_index(k);
     PlotterSetting own{parameters[k].name,
                        *parameters[k].stated,
                        estimate.mechanism->values()[at],
@@ -102,8 +102,8 @@ std::optional<Eigen::VectorXd> next_drawing(const TestDrawing& drawing, const Dr
   Eigen::VectorXd values(std::ssize(drawing.measures));
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const DrawnMeasure& m = drawing.measures[i];
-    values[static_cast<Eigen::Index>(i)] =
-        observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]);
+    values[as_index(i)] =
+        observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm;
   }
   return values;
 }
@@ -189,7 +189,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   DrawingFit fit;
   fit.mechanism = std::dynamic_pointer_cast<const model::PlotterMechanism>(estimate->mechanism);
   fit.settings = settings_of(*estimate);
-  const auto count = static_cast<Eigen::Index>(fit.settings.size());
+  const auto count = as_index(fit.settings.size());
   fit.covariance = estimate->covariance.topLeftCorner(count, count);
   fit.noise_factor = estimate->noise_factor;
   fit.to_set = typed_in(drawing.firmware, fit.mechanism->machine());
@@ -199,7 +199,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
                   "the page cannot be drawn with the fitted settings");
   }
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = as_index(i);
     fit.measures.push_back(
         {drawing.measures[i].value_mm, found[row], (*after)[row], rejected[i]});
   }

@@ -33,7 +33,7 @@ TestDrawing drawn_with(const model::PlotterMachine& set,
   }
   Random random(seed, 43);
   for (auto& m : drawing.measures) {
-    m.value_mm = observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]) +
+    m.value_mm = observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
                  kRulerSigmaMm * random.normal();
   }
   return drawing;

@@ -35,7 +35,7 @@ TestDrawing measured(const PlotterMachine& stated,
   }
   Random random(seed, 41);
   for (DrawnMeasure& m : drawing.measures) {
-    m.value_mm = observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]) +
+    m.value_mm = observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
                  noise_mm * random.normal();
   }
   return drawing;
@@ -68,7 +68,7 @@ double bow_of_next_page(const TestDrawing& drawing,
       pens.emplace_back(pen->x_mm, pen->y_mm);
     }
     most =
-        std::max(most, std::abs(observation::measured_between(m.kind, pens[0], pens[1], pens[2])));
+        std::max(most, std::abs(observation::measure_row(m.kind, pens[0], pens[1], pens[2]).value_mm));
   }
   return most;
 }
