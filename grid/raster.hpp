@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Rectangles of a bed, and points spread evenly over them.
+/// Rectangles and hulls of a bed, and points spread evenly over them.
 ///
 /// \code
 ///   for (const model::MarkPoint& mark : raster(area_of(machine.bed), 25, 13, RasterOf::cells)) ...
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "interp/surface.hpp"
+#include "interp/measured_region.hpp"
 #include "model/coordinates.hpp"
 #include "model/machine.hpp"
 
@@ -22,6 +22,14 @@ namespace chaintrue::grid {
 [[nodiscard]] inline interp::Rectangle area_of(const model::Bed& bed, double beyond_mm = 0.0) {
   const double x = 0.5 * bed.width_mm + beyond_mm, y = 0.5 * bed.height_mm + beyond_mm;
   return {-x, x, -y, y};
+}
+
+/// The hull of marks, or of places on the bed.
+template <class Points>
+[[nodiscard]] interp::ConvexHull hull_of(const Points& points) {
+  std::vector<interp::PlanePoint> in_plane;
+  for (const auto& point : points) in_plane.push_back({point.x_mm, point.y_mm});
+  return interp::ConvexHull(in_plane);
 }
 
 /// Widens `area` to hold `mark`.

@@ -298,8 +298,10 @@ class Gathered {
   [[nodiscard]] Eigen::Index row() const { return std::ssize(residual_mm_); }
 
   void add_points(const CheckedPart& part, std::size_t first) {
+    const Eigen::Index before = row();
     const Eigen::Vector3d laid(
         part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
+    Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const ChainLengths& read = part.points[i].point.lengths;
       const ChainLengths& mapped = at_.lengths[first + i];
@@ -315,98 +317,76 @@ class Gathered {
         by_length_.emplace_back(row() + side, chain + side, 1.0);
       Eigen::Vector2d residual(read.left_mm - mapped.left_mm, read.right_mm - mapped.right_mm);
       if (part.sheet) {
-        const Eigen::Matrix<double, 2, 3> by_sheet =
-            by_mark * part.placement.sensitivity(part.points[i].point.mark);
-        residual += by_sheet * laid;
-        add_sheet(*part.sheet, by_sheet, row());
+        auto by_own_sheet = by_sheet.middleRows<2>(2 * as_index(i));
+        by_own_sheet = by_mark * part.placement.sensitivity(part.points[i].point.mark);
+        residual += by_own_sheet * laid;
       }
-      residual_mm_.push_back(residual[0]);
-      residual_mm_.push_back(residual[1]);
+      append_all(residual_mm_, residual);
     }
-    if (part.sheet) shared_columns_ += 3;
+    if (part.sheet) add_sheet(*part.sheet, by_sheet, before);
   }
 
-  /// Displacement of a sheet from its intended place: an error that its readings share.
+  /// Errors that the rows from one on share, one sigma a column.
+  void add_shared(const Eigen::MatrixXd& by_error, Eigen::Index first_row) {
+    for (Eigen::Index column = 0; column < by_error.cols(); ++column, ++shared_columns_) {
+      for (Eigen::Index i = 0; i < by_error.rows(); ++i) {
+        if (by_error(i, column) != 0.0)
+          shared_.emplace_back(first_row + i, shared_columns_, by_error(i, column));
+      }
+    }
+  }
+
+  /// Displacement of a sheet from its intended place.
   void add_sheet(const observation::SheetPrior& sheet,
-                 const Eigen::Matrix<double, Eigen::Dynamic, 3>& by_sheet,
+                 const Eigen::MatrixX3d& by_sheet,
                  Eigen::Index first_row) {
     const Eigen::Vector3d sigma(
         sheet.shift_sigma_mm, sheet.shift_sigma_mm, sheet.rotation_sigma_rad);
-    for (Eigen::Index i = 0; i < by_sheet.rows(); ++i) {
-      for (Eigen::Index k = 0; k < 3; ++k) {
-        if (by_sheet(i, k) != 0.0)
-          shared_.emplace_back(first_row + i, shared_columns_ + k, by_sheet(i, k) * sigma[k]);
-      }
-    }
+    add_shared(by_sheet * sigma.asDiagonal(), first_row);
   }
 
   void add_distances(const CheckedPart& part, std::size_t first) {
     const MeasuredHoles& set = part.distances->set();
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
     const Eigen::VectorXd residual = part.distances->measured() - geometry.predicted_mm;
-    const Eigen::Index before = row();
-    for (Eigen::Index k = 0; k < residual.size(); ++k) {
+    const Eigen::Index before = row(), count = residual.size();
+    // The map's uncertainty at a hole, which all of its distances share.
+    Eigen::MatrixXd by_map =
+        Eigen::MatrixXd::Zero(count, at_.covariance.empty() ? 0 : geometry.by_mark.cols());
+    Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
+    for (Eigen::Index k = 0; k < count; ++k) {
       const HoleDistance& distance = set.distances[as_size(k)];
       residual_mm_.push_back(residual[k]);
       own_.push_back(Eigen::MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
-      add_hole(geometry, set, before + k, k, first, distance.from);
-      if (!distance.edge) add_hole(geometry, set, before + k, k, first, distance.to);
-    }
-    shared_columns_ += (at_.covariance.empty() ? 2 : 4) * std::ssize(set.holes);
-    add_size_and_tape_zero(set, geometry, before);
-    if (!part.sheet) return;
-    // If a sheet moves, a hole's mark on it moves the other way; distances to edges depend on it,
-    // with the rotation to first order.
-    Eigen::Matrix<double, Eigen::Dynamic, 3> by_sheet =
-        Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(residual.size(), 3);
-    for (Eigen::Index k = 0; k < residual.size(); ++k) {
-      const HoleDistance& distance = set.distances[as_size(k)];
-      if (!distance.edge) continue;
-      by_sheet.row(k) = -geometry.by_mark.block<1, 2>(k, 2 * as_index(distance.from)) *
-                        model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
-    }
-    add_sheet(*part.sheet, by_sheet, before);
-    shared_columns_ += 3;
-  }
-
-  /// The effect of the chains at a hole, and of the hole's error, on one end of a distance.
-  void add_hole(const observation::DistanceGeometry& geometry,
-                const MeasuredHoles& set,
-                Eigen::Index at_row,
-                Eigen::Index distance,
-                std::size_t first,
-                std::size_t hole) {
-    const auto column = 2 * as_index(hole);
-    const Eigen::RowVector2d by_mark = geometry.by_mark.block<1, 2>(distance, column);
-    // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
-    const Eigen::RowVector2d by_length = -by_mark * at_.by_mark[first + hole].inverse();
-    for (Eigen::Index axis = 0; axis < 2; ++axis) {
-      by_length_.emplace_back(at_row, 2 * as_index(first) + column + axis, by_length[axis]);
-      shared_.emplace_back(
-          at_row, shared_columns_ + column + axis, set.hole_sigma_mm * by_mark[axis]);
-    }
-    if (at_.covariance.empty()) return;
-    // The map's uncertainty at the hole, which all of its distances share.
-    const Eigen::Matrix2d root = Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
-    const Eigen::RowVector2d found = by_length * root;
-    const auto holes = 2 * std::ssize(set.holes);
-    for (Eigen::Index axis = 0; axis < 2; ++axis)
-      shared_.emplace_back(at_row, shared_columns_ + holes + column + axis, found[axis]);
-  }
-
-  void add_size_and_tape_zero(const MeasuredHoles& set,
-                         const observation::DistanceGeometry& geometry,
-                         Eigen::Index before) {
-    const double tape_zero_offset_sigma_mm = tape_zero_sigma_mm(set.tape);
-    for (Eigen::Index k = 0; k < geometry.by_size.rows(); ++k) {
-      for (Eigen::Index axis = 0; axis < 2; ++axis) {
-        const double by_size = set.sheet.size_sigma_mm * geometry.by_size(k, axis);
-        if (by_size != 0.0) shared_.emplace_back(before + k, shared_columns_ + axis, by_size);
+      std::vector<std::size_t> ends = {distance.from};
+      if (!distance.edge) ends.push_back(distance.to);
+      for (const std::size_t hole : ends) {
+        const auto column = 2 * as_index(hole);
+        // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
+        const Eigen::RowVector2d by_length =
+            -geometry.by_mark.block<1, 2>(k, column) * at_.by_mark[first + hole].inverse();
+        for (const Eigen::Index axis : {0, 1})
+          by_length_.emplace_back(
+              before + k, 2 * as_index(first) + column + axis, by_length[axis]);
+        if (at_.covariance.empty()) continue;
+        const Eigen::Matrix2d root =
+            Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
+        by_map.block<1, 2>(k, column) = by_length * root;
       }
-      if (tape_zero_offset_sigma_mm != 0.0)
-        shared_.emplace_back(before + k, shared_columns_ + 2, tape_zero_offset_sigma_mm);
+      // If a sheet moves, a hole's mark on it moves the other way; distances to edges depend on it,
+      // with the rotation to first order.
+      if (distance.edge) {
+        by_sheet.row(k) = -geometry.by_mark.block<1, 2>(k, 2 * as_index(distance.from)) *
+                          model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
+      }
     }
-    shared_columns_ += tape_zero_offset_sigma_mm != 0.0 ? 3 : 2;
+    add_shared(set.hole_sigma_mm * geometry.by_mark, before);
+    add_shared(by_map, before);
+    add_shared(set.sheet.size_sigma_mm * geometry.by_size, before);
+    const double tape_zero_mm = tape_zero_sigma_mm(set.tape);
+    if (tape_zero_mm != 0.0)
+      add_shared(Eigen::VectorXd::Constant(count, tape_zero_mm), before);
+    if (part.sheet) add_sheet(*part.sheet, by_sheet, before);
   }
 
   const MapAt& at_;
@@ -441,15 +421,16 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
                                                          const Measured& measured,
                                                          const Progress& progress) {
   const std::vector<MeasuredFile>& files = measured.files();
+  const auto head_of = [&files](const MeasuredFile& file) {
+    return files.size() > 1 ? file.name + ": " : std::string{};
+  };
   std::vector<CheckedPart> parts;
   std::vector<model::MarkPoint> marks;
   for (const MeasuredFile& file : files) {
     auto part =
         std::visit([&map](const auto& one) { return checked_part(map, one); }, file.measured);
     if (!part) {
-      return failed(
-          part.error().reason,
-          (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence());
+      return failed(part.error().reason, head_of(file) + part.error().sentence());
     }
     append_all(marks, part->marks);
     parts.push_back(*std::move(part));
@@ -470,11 +451,9 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   const model::ChainLengths zero =
       map.machine() != nullptr ? map.machine()->chain_zero : model::ChainLengths{};
   readings.zero_mm = {zero.left_mm, zero.right_mm};
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    name_rows(parts[k], files.size() > 1 ? " of " + files[k].name : std::string{}, readings);
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    for (const std::string& note : parts[k].notes)
-      readings.notes.push_back((files.size() > 1 ? files[k].name + ": " : std::string{}) + note);
+    name_rows(parts[k], files.size() > 1 ? " of " + files[k].name : std::string{}, readings);
+    for (const std::string& note : parts[k].notes) readings.notes.push_back(head_of(files[k]) + note);
   }
   return readings;
 }

@@ -73,15 +73,6 @@ std::string not_separable_of(const Check& check, const CheckWords& words) {
   return text;
 }
 
-}  // namespace
-
-std::string_view name(CheckVerdict verdict) {
-  constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
-  return kNames[static_cast<std::size_t>(verdict)];
-}
-
-namespace {
-
 QuantityFound found_of(const CheckHypothesis& h, Quantity::Kind kind, std::size_t length) {
   for (const QuantityFound& one : h.found) {
     if (one.of.kind == kind && contains(one.of.lengths, length)) return one;
@@ -100,6 +91,11 @@ double rms_over(const CheckUnit& unit,
 }
 
 }  // namespace
+
+std::string_view name(CheckVerdict verdict) {
+  constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
 
 QuantityFound CheckHypothesis::added(std::size_t length) const {
   return found_of(*this, Quantity::Kind::added, length);

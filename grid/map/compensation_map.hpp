@@ -14,242 +14,152 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <tl/expected.hpp>
-#include <variant>
 #include <vector>
 
-#include "grid/estimation/residual_surface.hpp"
-#include "grid/map/error_summary.hpp"
-#include "grid/map/lattice_residual.hpp"
-#include "grid/map/length_map.hpp"
-#include "grid/map/measured_area.hpp"
-#include "grid/observation/measured_grid.hpp"
-#include "interp/tensor_spline.hpp"
-#include "model/calibration/sheet_placement.hpp"
+#include "grid/map/map_field.hpp"
 
 namespace chaintrue::grid {
-
-/// One setting, before and after.
-struct SettingResult {
-  model::Setting setting;
-  double stated = 0.0;
-  double calibrated = 0.0;
-  double sigma = 0.0;
-  /// Changed by more than three of its stated sigmas: the stated value is wrong, or something else
-  /// imitates it.
-  bool off = false;
-};
-
-/// Errors for one way of leaving points out. Chain: both chains equally. Tool: distance from where
-/// the tool was.
-struct HeldOutError {
-  ErrorSummary chain;
-  ErrorSummary tool;
-  double tool_x_rms_mm = 0.0;
-  double tool_y_rms_mm = 0.0;
-};
-
-/// The map's own error. Held-out errors are relative to the readings, whose noise they contain;
-/// expected errors are relative to the true machine, one sigma.
-struct MapAccuracy {
-  HeldOutError leave_one_out;
-  HeldOutError blocked;
-  /// For the tool over the measured part of the bed (controller_error.hpp).
-  ErrorSummary expected_tool;
-  model::MarkPoint expected_worst_at;  ///< where it is largest
-};
-
-enum class NoiseSource {
-  stated,
-  repeats,
-  fit,
-  assumed,  ///< for a direct map if none is stated
-};
-/// As in files.
-[[nodiscard]] std::string_view name(NoiseSource source);
-
-/// The noise that the fit assumed.
-struct MapNoise {
-  double length_mm = 0.0;
-  double position_mm = 0.0;
-  NoiseSource source = NoiseSource::stated;
-  /// The noise found in the residuals, as a multiple of the one above.
-  double factor_found = 1.0;
-};
-
-/// A measured point in millimetres at the tool: where it landed minus where each model puts it. For
-/// a point with a command, "as stated" is the commanded place.
-struct MapPoint {
-  model::MarkPoint mark;
-  model::ChainLengths lengths;
-  bool bad = false;
-  /// Left-out residual in sigmas, both chains together.
-  double distance_sigmas = 0.0;
-  Eigen::Vector2d as_stated_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d sheet_placed_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d mapped_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d left_out_mm = Eigen::Vector2d::Zero();
-};
-
-/// Test of the claim that R is L mirrored (seeds/001) against the points: R measured at (x, y)
-/// minus the map's L at (-x, y), mirrored about the middle of the bed.
-struct MirrorTest {
-  std::size_t points = 0;  ///< whose mirror image lies on the map
-  ErrorSummary difference;
-  double mean_mm = 0.0;
-  model::MarkPoint worst_at;
-  double worst_signed_mm = 0.0;
-  /// No point differs by more than 4.5 sigmas of noise and map.
-  bool holds = true;
-  std::string sentence;
-};
-
-/// The data of a map made from holes and a tape: its points are the holes at the positions given by
-/// the distances, and its held-out errors are those of distances, along the tape.
-struct DistancesUsed {
-  int used = 0;
-  int rejected = 0;
-  double tape_sigma_mm = 0.0;
-  ErrorSummary left_out_all;
-  ErrorSummary left_out_good;
-};
-
-/// Surface on the calibrated model.
-struct ModelSurface {
-  model::Machine machine;  ///< calibrated
-  model::SheetPlacement sheet;
-  ResidualSurface residual;
-  FitColumns columns;
-  std::vector<model::Setting> settings;
-  /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
-  Eigen::MatrixXd covariance_factor;
-  /// Replaces the residual's splines (not its chain scales) if noise-free readings lie on a
-  /// lattice.
-  std::optional<LatticeResidual> lattice = std::nullopt;
-};
-
-/// Splines through the measured lengths themselves; no machine.
-struct DirectSurface {
-  std::vector<double> x_nodes_mm;
-  std::vector<double> y_nodes_mm;
-  model::PerSide<Eigen::MatrixXd> lengths_mm;  ///< (ix, iy)
-  interp::TensorEnds ends;
-  /// Estimated by leaving out inner lines.
-  double interpolation_sigma_mm = 0.0;
-};
-
-/// How the map's surfaces continue beyond the measured points. The calibrated machine and its
-/// chains' scales continue everywhere; sigmas show the accuracy of each way.
-enum class Outside {
-  continued,  ///< the surfaces' own smooth continuation, the best guess
-  refuse,     ///< no answer where the status would be extrapolated
-  fade,       ///< the linear continuation, falling to zero over the fade's width beyond the edge
-  linear,     ///< the tangent plane at the nearest measured place
-  clamp,      ///< the value at the nearest measured place
-};
-
-struct OutsideRule {
-  Outside way = Outside::continued;
-  double fade_width_mm = 200.0;  ///< > 0; for `fade`
-};
-
-/// The content of a map file.
-struct MapContents {
-  std::string name;
-  std::variant<DirectSurface, ModelSurface> surface;
-  std::vector<model::MarkPoint> hull;
-  double edge_mm = 0.0;
-  interp::Rectangle domain;
-  OutsideRule outside;
-  /// Factor on sigmas where the status is extrapolated, at least 1: another map of the same
-  /// readings may be as good there (diagnosis/causes_fit.hpp).
-  double sigma_factor_beyond = 1.0;
-  MapNoise noise;
-  MapAccuracy accuracy;
-  std::vector<SettingResult> settings;
-  std::vector<MapPoint> points;
-  std::optional<MirrorTest> mirror;
-  /// Only for a map made from holes.
-  std::optional<DistancesUsed> distances = std::nullopt;
-  /// Sentences for the user: what was assumed, rejected, or unusual.
-  std::vector<std::string> notes;
-};
-
-/// The slopes at the edges for `clamped` ends: those of the parabola through the outermost three
-/// nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
-[[nodiscard]] interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
-                                                 const std::vector<double>& y_nodes_mm,
-                                                 const Eigen::MatrixXd& values);
-
-struct MapAnswer {
-  model::ChainLengths lengths;
-  model::ChainLengths sigma;
-  /// For the two lengths, including their correlation.
-  Eigen::Matrix2d covariance;
-  /// d(left, right)/d(mark)
-  Eigen::Matrix2d mark_jacobian;
-  /// Root of the summed variances of the tool's x and y.
-  double tool_sigma_mm = 0.0;
-  MapStatus status = MapStatus::inside;
-};
-
-/// Lengths and their derivative by the mark.
-struct MapLengths {
-  model::ChainLengths lengths;
-  Eigen::Matrix2d mark_jacobian;
-};
-
-/// A row for each length, and a column for one sigma of each uncertain direction; the directions are
-/// the same at every mark within the points.
-struct MapSpread {
-  MapLengths here;
-  Eigen::Matrix2Xd spread_mm;
-};
-
-class MapField;
 
 /// Immutable, thread safe.
 class CompensationMap {
  public:
   /// \throws std::invalid_argument if `fade` is requested for a surface without a machine.
-  explicit CompensationMap(MapContents contents);
+  explicit CompensationMap(MapContents contents)
+      : contents_(std::move(contents)), area_(contents_.hull, contents_.edge_mm, contents_.domain) {
+    if (contents_.outside.way == Outside::fade && machine() == nullptr) {
+      throw std::invalid_argument(
+          "a map without a machine has no value where its surface fades out");
+    }
+    field_ = MapField::make(contents_);
+  }
   /// This map with another continuation.
-  [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const;
-  /// This map with these statements of its error and mirror symmetry.
-  [[nodiscard]] CompensationMap with_accuracy(MapAccuracy accuracy) const;
-  [[nodiscard]] CompensationMap with_mirror(std::optional<MirrorTest> mirror) const;
+  [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const {
+    MapContents contents = contents_;
+    contents.outside = rule;
+    return CompensationMap(std::move(contents));
+  }
   /// This map with these sentences before its own.
-  [[nodiscard]] CompensationMap with_notes_first(std::vector<std::string> notes) const;
+  [[nodiscard]] CompensationMap with_notes_first(const std::vector<std::string>& notes) const {
+    CompensationMap map = *this;
+    map.contents_.notes.insert(map.contents_.notes.begin(), notes.begin(), notes.end());
+    return map;
+  }
   /// This map with sigmas beyond the measured part multiplied by a factor.
-  [[nodiscard]] CompensationMap with_sigma_beyond(double factor) const;
+  [[nodiscard]] CompensationMap with_sigma_beyond(double factor) const {
+    CompensationMap map = *this;
+    map.contents_.sigma_factor_beyond = factor;
+    return map;
+  }
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
-  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const {
+    const auto found = with_spread(mark);
+    if (!found) return tl::unexpected(found.error());
+    MapAnswer answer;
+    answer.lengths = found->here.lengths;
+    answer.mark_jacobian = found->here.mark_jacobian;
+    answer.status = area_.status(mark);
+    answer.covariance = found->spread_mm * found->spread_mm.transpose();
+    answer.covariance *= std::pow(spread_factor(answer.status), 2);
+    answer.sigma = {std::sqrt(answer.covariance(0, 0)), std::sqrt(answer.covariance(1, 1))};
+    const Eigen::Matrix2d to_tool = found->here.mark_jacobian.inverse();
+    answer.tool_sigma_mm = std::sqrt((to_tool * answer.covariance * to_tool.transpose()).trace());
+    return answer;
+  }
   /// Without what a cause in the map adds to the sigmas beyond the measured part.
-  [[nodiscard]] tl::expected<MapSpread, MapFailure> with_spread(model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> with_spread(model::MarkPoint mark) const {
+    if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
+    return field_->at(mark, MapField::Asked::spread);
+  }
   /// Lengths and their derivative alone, some ten times faster: what a path needs between its
   /// corners.
-  using Lengths = MapLengths;
-  [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> lengths(model::MarkPoint mark) const {
+    if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
+    return field_->at(mark).map([](const MapSpread& found) { return found.here; });
+  }
   /// Where the tool is when these lengths are paid out: Newton to 1e-9 mm, at most 30 steps.
   [[nodiscard]] tl::expected<model::MarkPoint, MapFailure> inverse(
-      model::ChainLengths lengths) const;
-  [[nodiscard]] MapStatus status(model::MarkPoint mark) const;
+      model::ChainLengths wanted) const {
+    constexpr int kSteps = 30;
+    constexpr double kConvergedMm = 1e-9;
+    const interp::Rectangle& domain = contents_.domain;
+    const auto field = field_to_search();
+    model::MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
+    for (int step = 0; step < kSteps; ++step) {
+      const auto found = field->at(mark);
+      if (!found) return tl::unexpected(found.error());
+      const MapLengths& here = found->here;
+      const Eigen::Vector2d missing(wanted.left_mm - here.lengths.left_mm,
+                                    wanted.right_mm - here.lengths.right_mm);
+      const Eigen::Vector2d move = here.mark_jacobian.inverse() * missing;
+      if (!move.allFinite()) break;
+      // A step may leave the domain temporarily, but not to where the chains cannot hold the sled.
+      mark = within({mark.x_mm + move.x(), mark.y_mm + move.y()}, 50.0);
+      if (move.norm() >= kConvergedMm) continue;
+      // On the domain's edge the last step may end outside by the tolerance.
+      const model::MarkPoint inside = within(mark, 0.0);
+      if (std::hypot(inside.x_mm - mark.x_mm, inside.y_mm - mark.y_mm) < kConvergedMm)
+        mark = inside;
+      if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
+      return mark;
+    }
+    return tl::unexpected(MapReason::not_converged);
+  }
+
+  [[nodiscard]] MapStatus status(model::MarkPoint mark) const {
+    const MapStatus status = area_.status(mark);
+    const bool refused =
+        contents_.outside.way == Outside::refuse && status == MapStatus::extrapolated;
+    return refused ? MapStatus::outside : status;
+  }
   /// As in LengthMap; no columns where lengths() has no answer.
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const;
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const {
+    const auto found = with_spread(mark);
+    if (!found) return Eigen::Matrix2Xd(2, 0);
+    // A length that is truly longer leaves the tool short of the mark.
+    return -spread_factor(area_.status(mark)) * found->here.mark_jacobian.inverse() *
+           found->spread_mm;
+  }
   /// The same place in the other frame; a direct map knows only one.
-  [[nodiscard]] model::MarkPoint to_mark(model::BedPoint bed) const;
-  [[nodiscard]] model::BedPoint to_bed(model::MarkPoint mark) const;
+  [[nodiscard]] model::MarkPoint to_mark(model::BedPoint bed) const {
+    return field_->sheet().to_mark(bed);
+  }
+  [[nodiscard]] model::BedPoint to_bed(model::MarkPoint mark) const {
+    return field_->sheet().to_bed(mark);
+  }
   /// Null for a direct map.
-  [[nodiscard]] const model::Machine* machine() const;
+  [[nodiscard]] const model::Machine* machine() const {
+    const auto* surface = std::get_if<ModelSurface>(&contents_.surface);
+    return surface == nullptr ? nullptr : &surface->machine;
+  }
 
  private:
-  [[nodiscard]] bool answers_at(model::MarkPoint mark) const;
-  [[nodiscard]] double spread_factor(MapStatus status) const;
+  [[nodiscard]] bool answers_at(model::MarkPoint mark) const {
+    if (!contents_.domain.contains(mark.x_mm, mark.y_mm)) return false;
+    return contents_.outside.way != Outside::refuse || status(mark) != MapStatus::outside;
+  }
+  [[nodiscard]] double spread_factor(MapStatus status) const {
+    return status == MapStatus::extrapolated ? contents_.sigma_factor_beyond : 1.0;
+  }
+  /// The nearest place that is no farther than this off the domain.
+  [[nodiscard]] model::MarkPoint within(model::MarkPoint mark, double beyond_mm) const {
+    const interp::Rectangle& domain = contents_.domain;
+    return {std::clamp(mark.x_mm, domain.x_min - beyond_mm, domain.x_max + beyond_mm),
+            std::clamp(mark.y_mm, domain.y_min - beyond_mm, domain.y_max + beyond_mm)};
+  }
+  /// Constant lengths beyond the points stop a search, so it uses the surface's own continuation.
+  [[nodiscard]] std::shared_ptr<const MapField> field_to_search() const {
+    if (contents_.outside.way != Outside::clamp || machine() != nullptr) return field_;
+    return with_outside({Outside::linear}).field_;
+  }
 
   MapContents contents_;
   MeasuredArea area_;

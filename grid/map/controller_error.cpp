@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/controller_error.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -18,12 +17,6 @@ using model::BedPoint;
 
 constexpr int kColumns = 25;
 constexpr int kRows = 13;
-
-interp::ConvexHull hull_of(const std::vector<BedPoint>& corners) {
-  std::vector<interp::PlanePoint> points;
-  for (const BedPoint corner : corners) points.push_back({corner.x_mm, corner.y_mm});
-  return interp::ConvexHull(points);
-}
 
 /// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
 std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map,

@@ -21,36 +21,24 @@ namespace {
 
 using model::Side;
 
-/// The lines of a full grid, and its values; `filled` marks the empty nodes.
-struct Lattice {
-  std::vector<double> x_nodes_mm;
-  std::vector<double> y_nodes_mm;
+/// A full grid and its values.
+struct Lattice : LatticeNodes {
   model::PerSide<Eigen::MatrixXd> lengths_mm;
-  Eigen::MatrixXi visits;
 };
 
 /// Repeats are averaged.
 Lattice lattice_of(const std::vector<LengthPoint>& points) {
-  std::vector<double> x;
-  std::vector<double> y;
-  for (const LengthPoint& point : points) {
-    x.push_back(point.mark.x_mm);
-    y.push_back(point.mark.y_mm);
-  }
-  Lattice lattice{lines_of(std::move(x)), lines_of(std::move(y)), {}, {}};
-  const auto nx = std::ssize(lattice.x_nodes_mm);
-  const auto ny = std::ssize(lattice.y_nodes_mm);
-  lattice.visits = Eigen::MatrixXi::Zero(nx, ny);
-  for (Side side : model::kSides) lattice.lengths_mm[side] = Eigen::MatrixXd::Zero(nx, ny);
-  for (const LengthPoint& point : points) {
-    const Eigen::Index ix = line_of(lattice.x_nodes_mm, point.mark.x_mm);
-    const Eigen::Index iy = line_of(lattice.y_nodes_mm, point.mark.y_mm);
-    lattice.lengths_mm.left(ix, iy) += point.lengths.left_mm;
-    lattice.lengths_mm.right(ix, iy) += point.lengths.right_mm;
-    ++lattice.visits(ix, iy);
-  }
-  for (Side side : model::kSides) {
-    lattice.lengths_mm[side].array() /= lattice.visits.array().max(1).cast<double>();
+  std::vector<model::MarkPoint> marks;
+  for (const LengthPoint& point : points) marks.push_back(point.mark);
+  Lattice lattice{lattice_nodes(marks), {}};
+  for (const Side side : model::kSides) {
+    Eigen::MatrixXd& lengths_mm = lattice.lengths_mm[side];
+    lengths_mm = Eigen::MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [ix, iy] = lattice.of_mark[i];
+      lengths_mm(ix, iy) += points[i].lengths[side];
+    }
+    lengths_mm.array() /= lattice.visits.array().max(1).cast<double>();
   }
   return lattice;
 }
@@ -73,10 +61,9 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
   LineErrors errors;
   double squares = 0.0;
   for (std::size_t line = 1; line + 1 < lines.size(); ++line) {
-    const auto axes = std::make_shared<const interp::TensorAxes>(
-        columns ? without(lines, line) : lattice.x_nodes_mm,
-        columns ? lattice.y_nodes_mm : without(lines, line),
-        ends);
+    const std::vector<double> x_kept = columns ? without(lines, line) : lattice.x_nodes_mm;
+    const std::vector<double> y_kept = columns ? lattice.y_nodes_mm : without(lines, line);
+    const auto axes = std::make_shared<const interp::TensorAxes>(x_kept, y_kept, ends);
     const auto at = as_index(line);
     const auto kept = [&](const Eigen::MatrixXd& all) {
       Eigen::MatrixXd values(std::ssize(axes->x), std::ssize(axes->y));
@@ -87,8 +74,6 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
       }
       return values;
     };
-    const std::vector<double> x_kept = columns ? without(lines, line) : lattice.x_nodes_mm;
-    const std::vector<double> y_kept = columns ? lattice.y_nodes_mm : without(lines, line);
     const auto spline = [&](const Eigen::MatrixXd& all) {
       const Eigen::MatrixXd values = kept(all);
       return interp::TensorSpline(axes, values, parabola_slopes(x_kept, y_kept, values));
@@ -204,12 +189,8 @@ tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const Fi
   const auto corrected = corrected_data(grid);
   if (!corrected) return tl::unexpected(corrected.error());
   auto map = fit_direct(corrected->grid, options);
-  const bool as_it_is = corrected->notes.empty() && options.outside.way == Outside::continued;
-  if (!map || as_it_is) return map;
-  MapContents contents = map->contents();
-  contents.notes.insert(contents.notes.begin(), corrected->notes.begin(), corrected->notes.end());
-  contents.outside = options.outside;
-  return CompensationMap(std::move(contents));
+  if (!map) return map;
+  return map->with_notes_first(corrected->notes).with_outside(options.outside);
 }
 
 }  // namespace chaintrue::grid

@@ -75,13 +75,6 @@ tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
   return parts;
 }
 
-interp::Rectangle around(const interp::Rectangle& a, const interp::Rectangle& b) {
-  return {std::min(a.x_min, b.x_min),
-          std::max(a.x_max, b.x_max),
-          std::min(a.y_min, b.y_min),
-          std::max(a.y_max, b.y_max)};
-}
-
 estimation::EstimationInput estimation_input(const Parts& parts) {
   estimation::EstimationInput input;
   input.domain = parts.front()->domain;
@@ -91,7 +84,8 @@ estimation::EstimationInput estimation_input(const Parts& parts) {
   std::size_t units = 0;
   for (const auto& part : parts) {
     input.observations.push_back(part->observation);
-    input.domain = around(input.domain, part->domain);
+    take_in(input.domain, {part->domain.x_min, part->domain.y_min});
+    take_in(input.domain, {part->domain.x_max, part->domain.y_max});
     input.noise.degrees_of_freedom =
         std::min(input.noise.degrees_of_freedom, part->noise.degrees_of_freedom);
     reads_chains = reads_chains || part->observation->kind().reads_chains;
@@ -296,7 +290,10 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files,
   CompensationMap finished = with_expected_error(std::move(map));
   if (alone && !draft.points.empty())
     finished = with_held_out_error(std::move(finished), draft.points);
-  return draft.points.empty() ? finished : finished.with_mirror(test_mirror(finished));
+  if (draft.points.empty()) return finished;
+  MapContents with_mirror = finished.contents();
+  with_mirror.mirror = test_mirror(finished);
+  return CompensationMap(std::move(with_mirror));
 }
 
 }  // namespace

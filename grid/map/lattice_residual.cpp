@@ -9,13 +9,14 @@
 #include "grid/map/fitted_points.hpp"
 #include "grid/statistics.hpp"
 #include "interp/missing_nodes.hpp"
-#include "interp/quintic_spline.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
 using model::Side;
 
+/// Marks within this of a line lie on it.
+constexpr double kOnLineMm = 0.01;
 constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 /// Share of the readings that the effective parameters make up where restricted maximum likelihood
 /// finds no noise.
@@ -27,53 +28,50 @@ constexpr double kStillPredicts = 2.0;
 /// ends.
 constexpr double kHalvedSpacing = 8.0;
 
-/// The node of each point of the fit; rejected points and places without a point are empty nodes.
-struct Places {
-  std::vector<double> x_nodes_mm;
-  std::vector<double> y_nodes_mm;
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> of_point;
-};
+/// The distinct coordinates, rising; of those on one line the least.
+std::vector<double> lines_at(std::vector<double> coordinates_mm) {
+  sort(coordinates_mm);
+  const auto same = [](double a, double b) { return b - a <= kOnLineMm; };
+  coordinates_mm.erase(std::unique(coordinates_mm.begin(), coordinates_mm.end(), same),
+                       coordinates_mm.end());
+  return coordinates_mm;
+}
 
-std::optional<Places> places_of(const PointsFit& fit) {
-  std::vector<double> x;
-  std::vector<double> y;
+/// The line of one of the coordinates that formed the lines.
+Eigen::Index line_at(const std::vector<double>& lines_mm, double coordinate_mm) {
+  return std::lower_bound(lines_mm.begin(), lines_mm.end(), coordinate_mm - kOnLineMm) -
+         lines_mm.begin();
+}
+
+/// The node of each point of the fit; rejected points and places without a point are empty nodes.
+std::optional<LatticeNodes> places_of(const PointsFit& fit) {
+  std::vector<model::MarkPoint> marks;
+  Eigen::Index good = 0;
   for (const FittedPoint& point : fit.points) {
-    x.push_back(point.point.mark.x_mm);
-    y.push_back(point.point.mark.y_mm);
-  }
-  Places places{lines_of(std::move(x)), lines_of(std::move(y)), {}};
-  constexpr std::size_t kFewestLines = 4;
-  const std::size_t nodes = places.x_nodes_mm.size() * places.y_nodes_mm.size();
-  if (std::min(places.x_nodes_mm.size(), places.y_nodes_mm.size()) < kFewestLines)
-    return std::nullopt;
-  if (fit.points.size() > nodes) return std::nullopt;
-  Eigen::MatrixXi visits =
-      Eigen::MatrixXi::Zero(std::ssize(places.x_nodes_mm), std::ssize(places.y_nodes_mm));
-  std::size_t good = 0;
-  for (const FittedPoint& point : fit.points) {
-    const Eigen::Index ix = line_of(places.x_nodes_mm, point.point.mark.x_mm);
-    const Eigen::Index iy = line_of(places.y_nodes_mm, point.point.mark.y_mm);
-    places.of_point.emplace_back(ix, iy);
-    if (++visits(ix, iy) > 1) return std::nullopt;
+    marks.push_back(point.point.mark);
     good += point.bad ? 0 : 1;
   }
-  if (10 * (nodes - good) > nodes) return std::nullopt;
+  LatticeNodes places = lattice_nodes(marks);
+  constexpr Eigen::Index kFewestLines = 4;
+  const Eigen::Index nodes = places.visits.size();
+  if (std::min(places.visits.rows(), places.visits.cols()) < kFewestLines) return std::nullopt;
+  if (places.visits.maxCoeff() > 1 || 10 * (nodes - good) > nodes) return std::nullopt;
   return places;
 }
 
 /// Measured minus the calibrated machine with its chains' scales, at every node; empty ones NaN.
-model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Places& places) {
-  const auto nx = std::ssize(places.x_nodes_mm);
-  const auto ny = std::ssize(places.y_nodes_mm);
-  model::PerSide<Eigen::MatrixXd> values{Eigen::MatrixXd::Constant(nx, ny, kEmpty),
-                                         Eigen::MatrixXd::Constant(nx, ny, kEmpty)};
+model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit,
+                                                const LatticeNodes& places) {
+  const Eigen::MatrixXd none =
+      Eigen::MatrixXd::Constant(places.visits.rows(), places.visits.cols(), kEmpty);
+  model::PerSide<Eigen::MatrixXd> values{none, none};
   const model::ReadingModel model(fit.estimate.machine);
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
     if (fit.points[i].bad) continue;
     const LengthPoint& point = fit.points[i].point;
     // The fit reached every point with these settings.
     const model::ChainLengths lengths = model.at(fit.sheet().to_bed(point.mark)).value().lengths;
-    const auto [ix, iy] = places.of_point[i];
+    const auto [ix, iy] = places.of_mark[i];
     values.left(ix, iy) =
         point.lengths.left_mm - (1.0 + fit.estimate.surface.scale.left) * lengths.left_mm;
     values.right(ix, iy) =
@@ -84,7 +82,10 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Plac
 
 /// The longer line's prediction of a left-out node, NaN if it cannot be filled: the measure of the
 /// surface's error between the nodes.
-double predicted(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, Eigen::Index iy) {
+double predicted(const LatticeNodes& places,
+                 Eigen::MatrixXd values,
+                 Eigen::Index ix,
+                 Eigen::Index iy) {
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
   if (!filled) return kEmpty;
@@ -94,19 +95,6 @@ double predicted(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, 
 }
 
 }  // namespace
-
-LatticeSplines::LatticeSplines(const LatticeResidual& residual)
-    : left_(std::make_shared<const interp::QuinticSpline>(
-          residual.x_nodes_mm, residual.y_nodes_mm, residual.values_mm.left)),
-      right_(std::make_shared<const interp::QuinticSpline>(
-          residual.x_nodes_mm, residual.y_nodes_mm, residual.values_mm.right)),
-      weights_(residual.x_nodes_mm, residual.y_nodes_mm, residual.doubt_mm),
-      doubt_mm_(residual.doubt_mm),
-      interpolation_sigma_mm_(residual.interpolation_sigma_mm) {}
-
-model::PerSide<interp::ValueGradient> LatticeSplines::at(model::MarkPoint mark) const {
-  return {left_->at(mark.x_mm, mark.y_mm), right_->at(mark.x_mm, mark.y_mm)};
-}
 
 Eigen::Matrix2Xd spread_of_nodes(const Eigen::MatrixXd& weights,
                                  const Eigen::Matrix2d& node,
@@ -126,13 +114,6 @@ Eigen::Matrix2Xd spread_of_nodes(const Eigen::MatrixXd& weights,
   return spread;
 }
 
-Eigen::Matrix2Xd LatticeSplines::spread(model::MarkPoint mark, const Eigen::Matrix2d& node) const {
-  const Eigen::MatrixXd weights = weights_.cardinal_weights(mark.x_mm, mark.y_mm);
-  const double between = std::pow(interpolation_sigma_mm_, 2) *
-                         std::max(1.0, 1.0 / weights.squaredNorm());
-  return spread_of_nodes(weights, node, (doubt_mm_.array().square() + between).matrix());
-}
-
 std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
   const auto places = places_of(fit);
   if (!places) return std::nullopt;
@@ -141,7 +122,7 @@ std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
   std::vector<Eigen::Vector2d> errors_here;
   std::vector<Eigen::Vector2d> errors_there;
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
-    const auto [ix, iy] = places->of_point[i];
+    const auto [ix, iy] = places->of_mark[i];
     Eigen::Vector2d residual = fit.points[i].left_out_residual_mm;
     if (!fit.points[i].bad) {
       errors_there.push_back(residual);
@@ -172,17 +153,21 @@ std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
   return lattice;
 }
 
-std::vector<double> lines_of(std::vector<double> coordinates_mm) {
-  sort(coordinates_mm);
-  const auto same = [](double a, double b) { return b - a <= kOnLineMm; };
-  coordinates_mm.erase(std::unique(coordinates_mm.begin(), coordinates_mm.end(), same),
-                       coordinates_mm.end());
-  return coordinates_mm;
-}
-
-Eigen::Index line_of(const std::vector<double>& lines_mm, double coordinate_mm) {
-  return std::lower_bound(lines_mm.begin(), lines_mm.end(), coordinate_mm - kOnLineMm) -
-         lines_mm.begin();
+LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks) {
+  std::vector<double> x, y;
+  for (const model::MarkPoint& mark : marks) {
+    x.push_back(mark.x_mm);
+    y.push_back(mark.y_mm);
+  }
+  LatticeNodes nodes{lines_at(std::move(x)), lines_at(std::move(y)), {}, {}};
+  nodes.visits =
+      Eigen::MatrixXi::Zero(std::ssize(nodes.x_nodes_mm), std::ssize(nodes.y_nodes_mm));
+  for (const model::MarkPoint& mark : marks) {
+    const auto [ix, iy] = nodes.of_mark.emplace_back(std::array{
+        line_at(nodes.x_nodes_mm, mark.x_mm), line_at(nodes.y_nodes_mm, mark.y_mm)});
+    ++nodes.visits(ix, iy);
+  }
+  return nodes;
 }
 
 }  // namespace chaintrue::grid

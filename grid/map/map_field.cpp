@@ -2,11 +2,10 @@
 #include "grid/map/map_field.hpp"
 
 #include <Eigen/Dense>
-#include <array>
 
-#include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
+#include "grid/raster.hpp"
 #include "interp/spline_pair.hpp"
 #include "model/reading_model.hpp"
 
@@ -203,12 +202,11 @@ std::shared_ptr<MapField> field_of(const MapContents& contents) {
   return std::make_shared<ModelField>(surface);
 }
 
-/// In the order of Outside. The search for the inverse may step outside the domain.
-constexpr std::array<interp::OutsidePolicy, 5> kPolicies = {interp::OutsidePolicy::linear,
-                                                            interp::OutsidePolicy::linear,
-                                                            interp::OutsidePolicy::fade,
-                                                            interp::OutsidePolicy::linear,
-                                                            interp::OutsidePolicy::clamp};
+/// The search for the inverse may step outside the domain, so `refuse` has a policy too.
+interp::OutsidePolicy policy_of(Outside way) {
+  if (way == Outside::fade) return interp::OutsidePolicy::fade;
+  return way == Outside::clamp ? interp::OutsidePolicy::clamp : interp::OutsidePolicy::linear;
+}
 
 }  // namespace
 
@@ -216,39 +214,37 @@ std::shared_ptr<const MapField> MapField::make(const MapContents& contents) {
   std::shared_ptr<MapField> field = field_of(contents);
   const OutsideRule& rule = contents.outside;
   if (rule.way == Outside::continued) return field;
-  std::vector<interp::PlanePoint> corners;
-  for (const MarkPoint corner : contents.hull) corners.push_back({corner.x_mm, corner.y_mm});
   field->beyond_.emplace(Beyond{
-      interp::ConvexHull(corners),
-      {kPolicies[static_cast<std::size_t>(rule.way)], contents.edge_mm, rule.fade_width_mm}});
+      hull_of(contents.hull), {policy_of(rule.way), contents.edge_mm, rule.fade_width_mm}});
   return field;
 }
 
-std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
-  if (!beyond_ || beyond_->hull.contains(mark.x_mm, mark.y_mm)) return std::nullopt;
-  Change change;
-  const model::PerSide<const interp::Surface*> both = surfaces();
-  for (const Side side : model::kSides) {
-    const Eigen::Index row = row_of(side);
-    const interp::ValueGradient own = both[side]->at(mark.x_mm, mark.y_mm);
-    const interp::ValueGradient reply =
-        interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
-    change.lengths_mm[row] = reply.value - own.value;
-    change.jacobian.row(row) << reply.dx - own.dx, reply.dy - own.dy;
-  }
-  return change;
+namespace {
+
+/// For the lines that are the rows of `values`, at their first node or, reversed, at their last.
+Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
+                              const Eigen::MatrixXd& values,
+                              bool last) {
+  const auto at = [&](Eigen::Index i) { return last ? std::ssize(nodes) - 1 - i : i; };
+  const auto node = [&](Eigen::Index i) { return nodes[as_size(at(i))]; };
+  const auto slope_to = [&](Eigen::Index i) -> Eigen::VectorXd {
+    return (values.col(at(i)) - values.col(at(0))) / (node(i) - node(0));
+  };
+  const Eigen::VectorXd near = slope_to(1);
+  if (nodes.size() == 2) return near;
+  return near - (slope_to(2) - near) * (node(1) - node(0)) / (node(2) - node(1));
 }
 
-tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) const {
-  auto answer = continued(mark, asked);
-  if (!answer || !beyond_) return answer;
-  const auto by = change(mark);
-  if (by) by->add_to(answer->here);
-  if (asked == Asked::lengths) return answer;
-  answer->spread_mm.conservativeResize(Eigen::NoChange, answer->spread_mm.cols() + 1);
-  answer->spread_mm.rightCols<1>().setZero();
-  if (by) answer->spread_mm.rightCols<1>() = by->lengths_mm;
-  return answer;
+}  // namespace
+
+interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
+                                   const std::vector<double>& y_nodes_mm,
+                                   const Eigen::MatrixXd& values) {
+  const Eigen::MatrixXd along_x = values.transpose();
+  return {slopes_at_end(x_nodes_mm, along_x, false),
+          slopes_at_end(x_nodes_mm, along_x, true),
+          slopes_at_end(y_nodes_mm, values, false),
+          slopes_at_end(y_nodes_mm, values, true)};
 }
 
 }  // namespace chaintrue::grid

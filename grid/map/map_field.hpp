@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The implementation of CompensationMap at a mark: the machine's part and one surface for each
-/// chain, continued beyond the measured points as the map states. Internal to grid/map.
+/// chain, continued beyond the measured points as the map states.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <tl/expected.hpp>
+#include <vector>
 
-#include "grid/map/compensation_map.hpp"
+#include "grid/chain_rows.hpp"
+#include "grid/map/length_map.hpp"
+#include "grid/map/map_contents.hpp"
 #include "interp/measured_region.hpp"
-#include "model/calibration/sheet_placement.hpp"
+#include "interp/tensor_spline.hpp"
 
 namespace chaintrue::grid {
+
+/// The slopes at the edges for `clamped` ends: those of the parabola through the outermost three
+/// nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
+[[nodiscard]] interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
+                                                 const std::vector<double>& y_nodes_mm,
+                                                 const Eigen::MatrixXd& values);
 
 /// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 class MapField {
@@ -23,7 +33,15 @@ class MapField {
   /// The spread only if asked for. If the map's continuation beyond the points differs from the
   /// surfaces' own, the difference is a separate direction, one sigma.
   [[nodiscard]] tl::expected<MapSpread, MapFailure> at(model::MarkPoint mark,
-                                                       Asked asked = Asked::lengths) const;
+                                                       Asked asked = Asked::lengths) const {
+    auto answer = continued(mark, asked);
+    if (!answer || !beyond_) return answer;
+    const Eigen::Vector2d change = add_change(mark, answer->here);
+    if (asked == Asked::lengths) return answer;
+    answer->spread_mm.conservativeResize(Eigen::NoChange, answer->spread_mm.cols() + 1);
+    answer->spread_mm.rightCols<1>() = change;
+    return answer;
+  }
   /// The marks' sheet on the bed.
   [[nodiscard]] const model::SheetPlacement& sheet() const { return sheet_; }
 
@@ -35,17 +53,23 @@ class MapField {
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 
  private:
-  /// The map's continuation minus the surfaces' own; zero within the points.
-  struct Change {
-    Eigen::Vector2d lengths_mm = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
-    void add_to(MapLengths& here) const {
-      here.lengths.left_mm += lengths_mm[0];
-      here.lengths.right_mm += lengths_mm[1];
-      here.mark_jacobian += jacobian;
+  /// Adds the map's continuation minus the surfaces' own. \returns its lengths; zero within the
+  /// points.
+  Eigen::Vector2d add_change(model::MarkPoint mark, MapLengths& here) const {
+    Eigen::Vector2d change = Eigen::Vector2d::Zero();
+    if (beyond_->hull.contains(mark.x_mm, mark.y_mm)) return change;
+    const model::PerSide<const interp::Surface*> both = surfaces();
+    for (const model::Side side : model::kSides) {
+      const Eigen::Index row = row_of(side);
+      const interp::ValueGradient own = both[side]->at(mark.x_mm, mark.y_mm);
+      const interp::ValueGradient reply =
+          interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
+      change[row] = reply.value - own.value;
+      here.lengths[side] += change[row];
+      here.mark_jacobian.row(row) += Eigen::RowVector2d(reply.dx - own.dx, reply.dy - own.dy);
     }
-  };
-  [[nodiscard]] std::optional<Change> change(model::MarkPoint mark) const;
+    return change;
+  }
 
   struct Beyond {
     interp::ConvexHull hull;

@@ -71,10 +71,8 @@ void note_settings_off(const std::vector<SettingResult>& settings,
 }
 
 CompensationMap with_expected_error(MapContents contents) {
-  const CompensationMap map(std::move(contents));
-  MapAccuracy accuracy = map.contents().accuracy;
-  measure_expected_error(map, accuracy);
-  return map.with_accuracy(accuracy);
+  measure_expected_error(CompensationMap(contents), contents.accuracy);
+  return CompensationMap(std::move(contents));
 }
 
 }  // namespace chaintrue::grid

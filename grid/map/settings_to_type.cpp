@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "grid/containers.hpp"
@@ -149,12 +148,6 @@ void round_to_type(const std::vector<FreeSetting>& free,
   }
 }
 
-tl::unexpected<SettingsFailure> no_machine() {
-  return failed(SettingsFailure::Reason::no_machine,
-                "this map was made without a machine, so it has no settings to improve: fit the "
-                "points again with --machine, and without --surface direct");
-}
-
 /// Over the area, without its uncertainty.
 double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& errors) {
   double squares_mm2 = 0.0;
@@ -282,17 +275,16 @@ CompensationMap map_of(const CompensationMap& map, const Machine& machine) {
 
 }  // namespace
 
-tl::expected<SettingsToType, SettingsFailure> settings_to_type(const CompensationMap& map) {
-  if (map.machine() == nullptr) return no_machine();
-  return settings_to_type(map, map.machine()->controller);
-}
-
-tl::expected<SettingsToType, SettingsFailure> settings_to_type(const CompensationMap& map,
-                                                               const model::Controller& now) {
-  if (map.machine() == nullptr) return no_machine();
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(
+    const CompensationMap& map, const std::optional<model::Controller>& now) {
+  if (map.machine() == nullptr) {
+    return failed(SettingsFailure::Reason::no_machine,
+                  "this map was made without a machine, so it has no settings to improve: fit the "
+                  "points again with --machine, and without --surface direct");
+  }
   Truth truth;
   truth.machine = *map.machine();
-  truth.machine.controller = now;
+  if (now) truth.machine.controller = *now;
   truth.places = [&map](const Machine& machine) {
     return measured_places(map_of(map, machine), MapFrame::bed);
   };

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -55,9 +56,7 @@ using SettingsFailure = Failure<SettingsReason>;
 
 /// With the settings of the map's controller, or of `now`.
 [[nodiscard]] tl::expected<SettingsToType, SettingsFailure> settings_to_type(
-    const CompensationMap& map);
-[[nodiscard]] tl::expected<SettingsToType, SettingsFailure> settings_to_type(
-    const CompensationMap& map, const model::Controller& now);
+    const CompensationMap& map, const std::optional<model::Controller>& now = std::nullopt);
 /// Over a convex hull of places on the bed. The machine is taken as exact: neither error includes
 /// its uncertainty.
 [[nodiscard]] tl::expected<SettingsToType, SettingsFailure> settings_to_type(
