@@ -8,6 +8,7 @@
 #include <functional>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/transformation_search.hpp"
 
@@ -61,10 +62,10 @@ Eigen::VectorXd distance_sigmas(const MeasuredHoles& set) {
 }
 
 TrendRows distance_rows(const MeasuredHoles& set) {
-  const auto n = static_cast<Eigen::Index>(set.distances.size());
+  const auto n = as_index(set.distances.size());
   TrendRows rows{Eigen::MatrixXd(n, kDistanceBasis), Eigen::MatrixXd(n, 1)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const HoleDistance& distance = set.distances[static_cast<std::size_t>(i)];
+    const HoleDistance& distance = set.distances[as_size(i)];
     rows.basis.row(i) = basis_of(set, distance);
     rows.off_mm(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
   }
@@ -86,65 +87,56 @@ Transformation& add_of_holes(HoleTransformations& list,
   return own;
 }
 
-void scale_holes(MeasuredHoles& set, double factor) {
-  for (Hole& hole : set.holes) {
-    hole.commanded.x_mm *= factor;
-    hole.commanded.y_mm *= factor;
-  }
+/// Where a hole was commanded, by what its numbers mean.
+using MeantPlace = std::function<model::BedPoint(model::BedPoint)>;
+
+void add_of_commands(HoleTransformations& list,
+                     ProblemKind kind,
+                     std::string sentence,
+                     const MeantPlace& meant) {
+  add_of_holes(list, kind, std::move(sentence), [meant](MeasuredHoles& set) {
+    for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
+  });
 }
 
 void add_units(HoleTransformations& list, Written written) {
-  const auto unit = [&](const char* word, double factor) {
+  for (const WrittenUnit& unit : kWrittenUnits) {
+    const double factor = unit.mm;
     list.add(
         ProblemKind::other_unit,
         fmt::format("the distances look like {}, the holes' x_mm and y_mm like mm: multiply the "
                     "distances by {:g}{}",
-                    word,
+                    unit.word,
                     factor,
                     factor == kMmPerInch ? or_say_inches(written) : ""),
         [=](MeasuredHoles& meant, std::size_t row) { meant.distances[row].distance_mm *= factor; });
-    add_of_holes(
+    add_of_commands(
         list,
         ProblemKind::other_unit,
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
-                    word,
+                    unit.word,
                     factor),
-        [=](MeasuredHoles& set) { scale_holes(set, factor); });
-  };
-  unit("inches", kMmPerInch);
-  unit("centimetres", 10.0);
-  unit("metres", 1000.0);
+        [=](model::BedPoint p) { return model::BedPoint{p.x_mm * factor, p.y_mm * factor}; });
+  }
 }
 
 void add_axes(HoleTransformations& list) {
-  const auto holes = [&](const char* words, model::BedPoint (*meant)(model::BedPoint)) {
-    add_of_holes(list, ProblemKind::axes, words, [meant](MeasuredHoles& set) {
-      for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
-    });
+  const auto add = [&](const char* sentence, const MeantPlace& meant) {
+    add_of_commands(list, ProblemKind::axes, sentence, meant);
   };
-  holes(
-      "the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
+  using model::BedPoint;
+  add("the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
       "counts to the right",
-      [](model::BedPoint p) {
-        return model::BedPoint{-p.x_mm, p.y_mm};
-      });
-  holes(
-      "the sign of the holes' y_mm looks reversed, or the top and bottom edges exchanged: y_mm "
+      [](BedPoint p) { return BedPoint{-p.x_mm, p.y_mm}; });
+  add("the sign of the holes' y_mm looks reversed, or the top and bottom edges exchanged: y_mm "
       "counts up the sheet",
-      [](model::BedPoint p) {
-        return model::BedPoint{p.x_mm, -p.y_mm};
-      });
-  holes(
-      "the signs of the holes' x_mm and y_mm look reversed, or opposite edges exchanged: they "
+      [](BedPoint p) { return BedPoint{p.x_mm, -p.y_mm}; });
+  add("the signs of the holes' x_mm and y_mm look reversed, or opposite edges exchanged: they "
       "count to the right and up the sheet",
-      [](model::BedPoint p) {
-        return model::BedPoint{-p.x_mm, -p.y_mm};
-      });
-  holes("the holes' two columns look swapped: x_mm counts to the right, y_mm up the sheet",
-        [](model::BedPoint p) {
-          return model::BedPoint{p.y_mm, p.x_mm};
-        });
+      [](BedPoint p) { return BedPoint{-p.x_mm, -p.y_mm}; });
+  add("the holes' two columns look swapped: x_mm counts to the right, y_mm up the sheet",
+      [](BedPoint p) { return BedPoint{p.y_mm, p.x_mm}; });
 }
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
@@ -204,7 +196,7 @@ void add_slips(const MeasuredHoles& set, HoleTransformations& list) {
                if (of < 0 || of >= count) return;  // one row stays off
                HoleDistance& to = meant.distances[row];
                const double read_mm = to.distance_mm;
-               to = set.distances[static_cast<std::size_t>(of)];
+               to = set.distances[as_size(of)];
                to.distance_mm = read_mm;
              })
         .of = Transformation::Of::tail;
@@ -216,7 +208,7 @@ struct DistanceRows {
   const RobustTrend& trend;
 
   [[nodiscard]] double residual_mm(std::size_t row) const {
-    return trend.residual_mm[static_cast<Eigen::Index>(row)];
+    return trend.residual_mm[as_index(row)];
   }
   [[nodiscard]] bool is_gross(std::size_t row) const {
     return residual_mm(row) > std::max(kGrossMm, kGrossScales * trend.scale_mm);
@@ -255,7 +247,7 @@ struct DistanceRows {
 
   template <class Weigh>
   void others(const HoleDistance& written, const Weigh& weigh) const {
-    const double each = std::log(2.0 * static_cast<double>(set.holes.size()));
+    const double each = std::log(2.0 * as_double(set.holes.size()));
     if (written.edge) {
       for (const SheetEdge edge : kSheetEdges) {
         HoleDistance meant = written;
@@ -304,7 +296,7 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
   const double median_mm = trend.median_residual_mm();
   const bool is_odd = trend.prior_chi_square > kOddDistances || median_mm > kSoundMm ||
-                      std::find(is_gross.begin(), is_gross.end(), true) != is_gross.end();
+                      contains(is_gross, true);
   if (!is_odd) return {};
   HoleTransformations list(set, distance_rows);
   add_units(list, written);

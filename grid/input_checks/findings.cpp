@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::input_checks {
 
 std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
@@ -15,16 +17,15 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
                                           double odd_trend,
                                           std::string found) {
   const double needed = plain.log_likelihood + kHundredTimes +
-                        std::log(static_cast<double>(std::max<std::size_t>(tried, 1)));
+                        std::log(as_double(std::max<std::size_t>(tried, 1)));
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Account& account = candidate.account;
     return !(account.median_mm < kSoundMm) || !(account.prior_chi_square < odd_trend) ||
            account.log_likelihood < needed;
   });
   if (candidates.empty()) return std::nullopt;
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    return a.account.log_likelihood > b.account.log_likelihood;
-  });
+  stable_sort(candidates,
+              descending([](const Candidate& one) { return one.account.log_likelihood; }));
   const Candidate& best = candidates.front();
   WholeFinding finding{best.from_row,
                        best.sentence,

@@ -9,6 +9,13 @@
 namespace chaintrue::grid::input_checks {
 
 inline constexpr double kMmPerInch = 25.4;
+/// Units in which lengths are written by mistake.
+struct WrittenUnit {
+  const char* word;
+  double mm;
+};
+inline constexpr WrittenUnit kWrittenUnits[] = {
+    {"inches", kMmPerInch}, {"centimetres", 10.0}, {"metres", 1000.0}};
 inline constexpr double kMmPerFoot = 304.8;
 /// The mark at which a tape is held without its hook.
 inline constexpr double kTapeMarkMm = 100.0;

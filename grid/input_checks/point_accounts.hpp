@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "model/controllers/payout.hpp"
@@ -69,11 +70,11 @@ class PointAccounts {
   /// Marks relative to places, for a second-degree trend. A missing place is a missing row.
   [[nodiscard]] TrendRows rows(const PlacedPoints& placed) const {
     const auto& [points, places] = placed;
-    const auto n = static_cast<Eigen::Index>(points.size());
+    const auto n = as_index(points.size());
     TrendRows rows{Eigen::MatrixXd::Zero(n, kPointBasis),
                    Eigen::MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(i);
+      const auto k = as_size(i);
       if (!places[k]) continue;
       rows.basis.row(i) = basis_at(*places[k]);
       rows.off_mm(i, 0) = points[k].mark.x_mm - places[k]->x_mm;

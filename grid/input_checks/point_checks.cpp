@@ -34,27 +34,6 @@ constexpr double kOfRow = 2.3;
 /// Commands are printed on the sheet, lengths and marks are written by hand.
 constexpr double kPrinted = 2.0;
 
-template <class Number>
-void add_number(std::vector<RowError>& slips,
-                const MeasuredPoint& written,
-                const char* name,
-                bool is_signed,
-                bool is_reading,
-                double penalty,
-                Number number) {
-  MeasuredPoint copy = written;
-  const double value = number(copy);
-  for (NumberError& slip : number_errors(value, is_signed)) {
-    RowError row{written,
-                 fmt::format("{} {}", name, digits_of(value)),
-                 std::move(slip.question),
-                 slip.penalty + penalty,
-                 is_reading};
-    number(row.meant) = slip.value;
-    slips.push_back(std::move(row));
-  }
-}
-
 std::vector<RowError> row_errors(const MeasuredPoint& written) {
   std::vector<RowError> slips;
   const auto mark = [&](double x_mm, double y_mm, const char* question) {
@@ -70,28 +49,35 @@ std::vector<RowError> row_errors(const MeasuredPoint& written) {
     std::swap(slip.meant.lengths->left_mm, slip.meant.lengths->right_mm);
     slips.push_back(std::move(slip));
   }
-  add_number(slips, written, "x_mm", true, false, 0.0, [](MeasuredPoint& p) -> double& {
-    return p.mark.x_mm;
-  });
-  add_number(slips, written, "y_mm", true, false, 0.0, [](MeasuredPoint& p) -> double& {
-    return p.mark.y_mm;
-  });
+  const auto number = [&](const char* name,
+                          bool is_signed,
+                          bool is_reading,
+                          double penalty,
+                          double& (*of)(MeasuredPoint&)) {
+    MeasuredPoint copy = written;
+    const double value = of(copy);
+    for (NumberError& slip : number_errors(value, is_signed)) {
+      slips.push_back({written,
+                       fmt::format("{} {}", name, digits_of(value)),
+                       std::move(slip.question),
+                       slip.penalty + penalty,
+                       is_reading});
+      of(slips.back().meant) = slip.value;
+    }
+  };
+  using Point = MeasuredPoint;
+  number("x_mm", true, false, 0.0, [](Point& p) -> double& { return p.mark.x_mm; });
+  number("y_mm", true, false, 0.0, [](Point& p) -> double& { return p.mark.y_mm; });
   if (written.lengths) {
-    add_number(slips, written, "left_mm", false, true, 0.0, [](MeasuredPoint& p) -> double& {
-      return p.lengths->left_mm;
-    });
-    add_number(slips, written, "right_mm", false, true, 0.0, [](MeasuredPoint& p) -> double& {
-      return p.lengths->right_mm;
-    });
+    number("left_mm", false, true, 0.0, [](Point& p) -> double& { return p.lengths->left_mm; });
+    number("right_mm", false, true, 0.0, [](Point& p) -> double& { return p.lengths->right_mm; });
   } else if (written.commanded) {
-    add_number(
-        slips, written, "commanded_x_mm", true, true, kPrinted, [](MeasuredPoint& p) -> double& {
-          return p.commanded->x_mm;
-        });
-    add_number(
-        slips, written, "commanded_y_mm", true, true, kPrinted, [](MeasuredPoint& p) -> double& {
-          return p.commanded->y_mm;
-        });
+    number("commanded_x_mm", true, true, kPrinted, [](Point& p) -> double& {
+      return p.commanded->x_mm;
+    });
+    number("commanded_y_mm", true, true, kPrinted, [](Point& p) -> double& {
+      return p.commanded->y_mm;
+    });
   }
   mark(25.4 * x_mm, 25.4 * y_mm, "are x_mm and y_mm in inches?");
   mark(10.0 * x_mm, 10.0 * y_mm, "are x_mm and y_mm in centimetres?");
@@ -177,7 +163,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
                         length_in_words(plain.median_mm))
           : std::string("the machine cannot have these readings"));
   if (finding && finding->from_row.value_or(0) > 0) {
-    const auto from = static_cast<Eigen::Index>(*finding->from_row);
+    const auto from = as_index(*finding->from_row);
     std::vector<double> residual_mm;
     for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i)
       residual_mm.push_back(trend.residual_mm[i]);
@@ -245,7 +231,7 @@ struct PointRows {
     return accounts.off(trend, slip.meant.mark, *place).norm();
   }
   [[nodiscard]] double residual_mm(std::size_t row) const {
-    return trend.residual_mm[static_cast<Eigen::Index>(row)];
+    return trend.residual_mm[as_index(row)];
   }
   [[nodiscard]] bool is_gross(std::size_t row) const {
     // If the stated machine is off by decimetres the trend is only a first guess.
@@ -286,38 +272,26 @@ struct PointRows {
     const std::string number = number_of(grid, row);
     const model::MarkPoint mark = grid.points[row].mark;
     const auto& motors = grid.machine->motors;
-    if (mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm) && !accounts.can_hold(mark)) {
-      return {row, fmt::format("Mark {} is above the motors: {}", number, slip.question), true};
-    }
     if (!accounts.can_hold(mark)) {
+      const bool is_above = mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm);
       return {row,
-              fmt::format(
-                  "Mark {} is where the machine cannot hold the sled: {}", number, slip.question),
+              fmt::format("Mark {} is {}: {}",
+                          number,
+                          is_above ? "above the motors" : "where the machine cannot hold the sled",
+                          slip.question),
               true};
     }
     const auto apart = placed.places[row] ? apart_from_its_repeat(placed, row) : std::nullopt;
+    const std::string what =
+        apart && *apart > kGrossMm
+            ? fmt::format("was measured twice, {} apart", length_in_words(*apart))
+        : !std::isfinite(residual_mm(row))
+            ? "has lengths that the machine cannot have"
+            : fmt::format("is {} from where the others put it", length_in_words(residual_mm(row)));
     const std::string question = slip.number.empty()
                                      ? capitalised(slip.question)
                                      : fmt::format("{}: {}", slip.number, slip.question);
-    if (apart && *apart > kGrossMm) {
-      return {row,
-              fmt::format("Mark {} was measured twice, {} apart. {}",
-                          number,
-                          length_in_words(*apart),
-                          question),
-              false};
-    }
-    if (!std::isfinite(residual_mm(row))) {
-      return {row,
-              fmt::format("Mark {} has lengths that the machine cannot have. {}", number, question),
-              false};
-    }
-    return {row,
-            fmt::format("Mark {} is {} from where the others put it. {}",
-                        number,
-                        length_in_words(residual_mm(row)),
-                        question),
-            false};
+    return {row, fmt::format("Mark {} {}. {}", number, what, question), false};
   }
 
   [[nodiscard]] std::vector<RowFinding> findings() const {

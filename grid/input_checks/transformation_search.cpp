@@ -90,7 +90,7 @@ class Search {
   }
 
  private:
-  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(plain_.off_mm.rows()); }
+  [[nodiscard]] std::size_t count() const { return as_size(plain_.off_mm.rows()); }
   [[nodiscard]] RobustTrend trend_of(const TrendRows& rows) const {
     return robust_trend(rows, sigma_mm_);
   }
@@ -102,7 +102,7 @@ class Search {
     Candidate candidate{own.kind, part.words + own.sentence, account_of(trend)};
     candidate.account.log_likelihood -= part.penalty + own.penalty;
     // For the same rows another transformation may change the same numbers.
-    const bool is_told = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+    const bool is_told = any_of(candidates, [&](const Candidate& other) {
       return other.kind == candidate.kind && other.from_row == part.from_row &&
              other.account.log_likelihood == candidate.account.log_likelihood;
     });
@@ -166,7 +166,7 @@ class Search {
               std::vector<Candidate>& candidates) const {
     constexpr int kMostRounds = 3;
     for (int round = 0; round < kMostRounds; ++round) {
-      if (std::find(seen.begin(), seen.end(), part.rows) != seen.end()) return;
+      if (contains(seen, part.rows)) return;
       seen.push_back(part.rows);
       const RobustTrend trend = trend_of(own.mended(part.rows));
       add(own, trend, part, candidates);

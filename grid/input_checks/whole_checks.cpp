@@ -16,12 +16,7 @@ namespace {
 using model::BedPoint;
 using model::MarkPoint;
 
-constexpr double kMmPerCm = 10.0;
-constexpr double kMmPerM = 1000.0;
-
-void scale_mark(MeasuredPoint& point, double factor) {
-  point.mark = {factor * point.mark.x_mm, factor * point.mark.y_mm};
-}
+MarkPoint scaled(MarkPoint mark, double x, double y) { return {x * mark.x_mm, y * mark.y_mm}; }
 
 void scale_reading(MeasuredPoint& point, double factor) {
   if (point.lengths)
@@ -43,11 +38,6 @@ class List : public Transformations<PlacedPoints> {
     return add(kind, std::move(sentence), [meant](PlacedPoints& all, std::size_t row) {
       MarkPoint& mark = all.points[row].mark;
       mark = meant(mark, all.places[row].value_or(BedPoint{mark.x_mm, mark.y_mm}));
-    });
-  }
-  Transformation& shift(double x_mm, double y_mm, std::string sentence) {
-    return mark(ProblemKind::constant_offset, std::move(sentence), [=](MarkPoint m, BedPoint) {
-      return MarkPoint{m.x_mm + x_mm, m.y_mm + y_mm};
     });
   }
   Transformation& reading(ProblemKind kind,
@@ -102,9 +92,8 @@ void add_axes(List& list) {
 /// Adds a minus in every row that needs one, if a column has none.
 void add_signs(List& list, const PlacedPoints& written) {
   const auto has_minus = [&](double MarkPoint::*axis) {
-    return std::any_of(written.points.begin(), written.points.end(), [axis](const MeasuredPoint& point) {
-      return point.mark.*axis < 0.0;
-    });
+    return any_of(written.points,
+                  [axis](const MeasuredPoint& point) { return point.mark.*axis < 0.0; });
   };
   const auto add = [&](bool of_x, bool of_y, const char* which, const char* where) {
     list.mark(ProblemKind::minus_signs,
@@ -125,19 +114,7 @@ void add_units(List& list, bool reads_lengths, Written written) {
   const std::string_view readings = reads_lengths ? "lengths" : "commands";
   const std::string_view for_marks = reads_lengths ? "" : or_say_inches(written);
   const std::string_view for_all = reads_lengths ? or_say_inches(written) : "";
-  const auto marks_in = [&](std::string_view unit, double factor) {
-    list.mark(
-        ProblemKind::other_unit,
-        fmt::format("x_mm and y_mm look like {}, the {} like mm: multiply x_mm and y_mm by {:g}{}",
-                    unit,
-                    readings,
-                    factor,
-                    factor == kMmPerInch ? for_marks : ""),
-        [factor](MarkPoint m, BedPoint) {
-          return MarkPoint{factor * m.x_mm, factor * m.y_mm};
-        });
-  };
-  const auto column_in_inches = [&](const char* column, const char* other, bool is_x) {
+  const auto column_in_inches = [&](const char* column, const char* other, double x, double y) {
     list.mark(ProblemKind::other_unit,
               fmt::format("{} looks like inches, {} and the {} like mm: multiply {} by {:g}",
                           column,
@@ -145,61 +122,63 @@ void add_units(List& list, bool reads_lengths, Written written) {
                           readings,
                           column,
                           kMmPerInch),
-              [is_x](MarkPoint m, BedPoint) {
-                return MarkPoint{(is_x ? kMmPerInch : 1.0) * m.x_mm, (is_x ? 1.0 : kMmPerInch) * m.y_mm};
-              });
+              [x, y](MarkPoint m, BedPoint) { return scaled(m, x, y); });
   };
-  column_in_inches("x_mm", "y_mm", true);
-  column_in_inches("y_mm", "x_mm", false);
-  marks_in("inches", kMmPerInch);
-  marks_in("centimetres", kMmPerCm);
-  marks_in("metres", kMmPerM);
-  const auto readings_in = [&](std::string_view unit, double factor) {
+  column_in_inches("x_mm", "y_mm", kMmPerInch, 1.0);
+  column_in_inches("y_mm", "x_mm", 1.0, kMmPerInch);
+  for (const WrittenUnit& unit : kWrittenUnits) {
+    list.mark(
+        ProblemKind::other_unit,
+        fmt::format("x_mm and y_mm look like {}, the {} like mm: multiply x_mm and y_mm by {:g}{}",
+                    unit.word,
+                    readings,
+                    unit.mm,
+                    unit.mm == kMmPerInch ? for_marks : ""),
+        [unit](MarkPoint m, BedPoint) { return scaled(m, unit.mm, unit.mm); });
+  }
+  for (const WrittenUnit& unit : kWrittenUnits) {
     list.reading(
         ProblemKind::other_unit,
         fmt::format("the {0} look like {1}, x_mm and y_mm like mm: multiply the {0} by {2:g}",
                     readings,
-                    unit,
-                    factor),
-        [factor](MeasuredPoint& point) { scale_reading(point, factor); });
+                    unit.word,
+                    unit.mm),
+        [unit](MeasuredPoint& point) { scale_reading(point, unit.mm); });
     list.reading(ProblemKind::other_unit,
                  fmt::format("these look like {}: multiply all of them by {:g}{}",
-                             unit,
-                             factor,
-                             factor == kMmPerInch ? for_all : ""),
-                 [factor](MeasuredPoint& point) {
-                   scale_reading(point, factor);
-                   scale_mark(point, factor);
+                             unit.word,
+                             unit.mm,
+                             unit.mm == kMmPerInch ? for_all : ""),
+                 [unit](MeasuredPoint& point) {
+                   scale_reading(point, unit.mm);
+                   point.mark = scaled(point.mark, unit.mm, unit.mm);
                  });
-  };
-  readings_in("inches", kMmPerInch);
-  readings_in("centimetres", kMmPerCm);
-  readings_in("metres", kMmPerM);
+  }
 }
 
 /// All rows are slightly off by the same amount: only the machine's prior shows that this is an
 /// error. For a part of the rows the others show it.
 void add_shifts(List& list, bool reads_lengths) {
-  for (const auto& slip : {std::pair(kTapeMarkMm, "the tape held at its 100 mm mark"),
-                           std::pair(kMmPerFoot, "a foot miscounted"),
-                           std::pair(kMmPerInch, "the tape held at its first inch")}) {
-    const double by_mm = slip.first;
-    const char* why = slip.second;
-    const bool is_of_parts_alone = by_mm == kMmPerInch;
+  constexpr std::pair<double, const char*> kSlips[] = {
+      {kTapeMarkMm, "the tape held at its 100 mm mark"},
+      {kMmPerFoot, "a foot miscounted"},
+      {kMmPerInch, "the tape held at its first inch"}};
+  for (const auto& [by_mm, why] : kSlips) {
     for (const double sign : {1.0, -1.0}) {
-      const char* too = sign > 0.0 ? "small" : "large";
-      const auto shift = [&](double x, double y, const char* what) {
-        Transformation& own = list.shift(
-            sign * by_mm * x,
-            sign * by_mm * y,
+      const auto shift = [&, by_mm = by_mm, why = why](double x, double y, const char* what) {
+        Transformation& own = list.mark(
+            ProblemKind::constant_offset,
             fmt::format("all {} look {:g} mm too {}: was {}, or are the machine's measures off by "
                         "that amount?",
                         what,
                         by_mm,
-                        too,
-                        why));
+                        sign > 0.0 ? "small" : "large",
+                        why),
+            [=](MarkPoint m, BedPoint) {
+              return MarkPoint{m.x_mm + sign * by_mm * x, m.y_mm + sign * by_mm * y};
+            });
         own.is_doubtful = reads_lengths;
-        if (is_of_parts_alone) own.of = Transformation::Of::part;
+        if (by_mm == kMmPerInch) own.of = Transformation::Of::part;
       };
       shift(1.0, 0.0, "x_mm");
       shift(0.0, 1.0, "y_mm");
@@ -296,6 +275,11 @@ void add_lengths(List& list) {
   }
 }
 
+/// "lengths" or "commands".
+std::string_view readings_of(const PlacedPoints& written) {
+  return written.points.front().lengths ? "lengths" : "commands";
+}
+
 /// Assigns every mark to its nearest place, if this uses each place once.
 std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   std::vector<Place> nearest;
@@ -321,18 +305,12 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
 
 }  // namespace
 
-std::string_view readings_of(const PlacedPoints& written) {
-  return written.points.front().lengths ? "lengths" : "commands";
-}
-
 std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                   const MeasuredGrid& grid,
                                                   const PlacedPoints& written,
                                                   Written as) {
   const bool reads_lengths =
-      std::any_of(written.points.begin(), written.points.end(), [](const MeasuredPoint& point) {
-        return point.lengths.has_value();
-      });
+      any_of(written.points, [](const MeasuredPoint& point) { return point.lengths.has_value(); });
   List list(accounts, written);
   add_signs(list, written);
   add_axes(list);
@@ -347,7 +325,7 @@ std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                 "the {} belong to the marks of other lines: are the two lists sorted differently?",
                 readings_of(written)),
             *nearest)
-        .penalty = std::lgamma(static_cast<double>(written.points.size()) + 1.0);  // orders
+        .penalty = std::lgamma(as_double(written.points.size()) + 1.0);  // orders
   }
   return list.take();
 }
@@ -360,7 +338,7 @@ std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
     std::vector<Place> slipped;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
       const bool is_there = i + by >= 0 && i + by < n;
-      slipped.push_back(is_there ? written.places[static_cast<std::size_t>(i + by)] : std::nullopt);
+      slipped.push_back(is_there ? written.places[as_size(i + by)] : std::nullopt);
     }
     list.order(
         ProblemKind::row_slip,

@@ -21,7 +21,4 @@ namespace chaintrue::grid::input_checks {
 [[nodiscard]] std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
                                                                const PlacedPoints& written);
 
-/// "lengths" or "commands".
-[[nodiscard]] std::string_view readings_of(const PlacedPoints& written);
-
 }  // namespace chaintrue::grid::input_checks
