@@ -124,7 +124,7 @@ std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
       dynamic_cast<const observation::BeltLengthReadings&>(*input.observations.front());
   for (const estimation::ReadingEstimate& one : estimate->rejected_readings) {
     const std::size_t point = readings.readings()[readings.place_of(one.reading.unit)].index;
-    counting[point][kBelts.at(static_cast<std::size_t>(one.reading.reading))] = false;
+    counting[point][kBelts.at(as_size(one.reading.reading))] = false;
   }
   AnchorFit fit;
   fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();

@@ -51,7 +51,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
           ->with_effects(effects);
   const belts::Counting all(belts.points.size(), belts::kAllBelts);
   const auto check = check_lengths(
-      {mechanism, fit.covariance_mm2, fit.residual_sigma_mm, static_cast<double>(fit.checks)},
+      {mechanism, fit.covariance_mm2, fit.residual_sigma_mm, as_double(fit.checks)},
       belts::readings_of(belts, all).readings(),
       words_of_anchors());
   // More than three turns of an encoder: a different frame rather than a changed one.

@@ -257,10 +257,6 @@ std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
   return Eigen::Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
 }
 
-}  // namespace
-
-namespace {
-
 /// Each distance as the frame predicts it; empty if an end has no position.
 std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts,
                                                       const belts::AnchorFit& frame) {
@@ -363,15 +359,12 @@ std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts) {
     const auto& a = belts.machine.anchors;
     usual_mm = 0.5 * std::hypot(a.tr.x_mm - a.bl.x_mm, a.tr.y_mm - a.bl.y_mm);
   }
-  const OtherUnit units[] = {{"inches", input_checks::kMmPerInch, middle},
-                             {"centimetres", 10.0, middle},
-                             {"metres", 1000.0, middle}};
-  return *min_element(units, [&](const auto& a, const auto& b) {
-    const auto off = [&](const OtherUnit& unit) {
-      return std::abs(std::log(unit.factor * middle / usual_mm));
-    };
-    return off(a) < off(b);
-  });
+  const auto off = [&](const input_checks::WrittenUnit& unit) {
+    return std::abs(std::log(unit.mm * middle / usual_mm));
+  };
+  const input_checks::WrittenUnit& unit =
+      *min_element(input_checks::kWrittenUnits, ascending(off));
+  return OtherUnit{unit.word, unit.mm, middle};
 }
 
 }  // namespace chaintrue::grid

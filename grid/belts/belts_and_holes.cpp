@@ -84,9 +84,8 @@ TapedMarginal marginal(const KnownFrame& known, const TapedState& at) {
 
 /// The fewest degrees of freedom of any set's stated noise.
 double noise_dof(const std::vector<BeltHoles>& sets) {
-  double least = sets.front().set.noise_dof;
-  for (const BeltHoles& set : sets) least = std::min(least, set.set.noise_dof);
-  return least;
+  const auto dof = [](const BeltHoles& set) { return set.set.noise_dof; };
+  return dof(*min_element(sets, ascending(dof)));
 }
 
 /// Log density of a scaled inverse chi square about one.
@@ -206,15 +205,13 @@ std::optional<TapedState> converged_state(const KnownFrame& known,
   TapedState state{known.state, *std::move(rows), {}, {}};
   state.counting.assign(as_size(state.rows.residual_mm.size()), true);
   const double dof = noise_dof(sets);
-  if (!converge(known, sets, state)) return std::nullopt;
-  const auto most = static_cast<std::size_t>(as_double(state.counting.size()) / 3.0);
-  for (std::size_t rejected = 0; rejected <= most; ++rejected) {
+  for (std::size_t rejected = 0; rejected <= state.counting.size() / 3; ++rejected) {
+    if (!converge(known, sets, state)) return std::nullopt;
     state.noise = likeliest_noise(known, state, dof);
     if (!converge(known, sets, state)) return std::nullopt;
     const auto worst = worst_of(known, state);
     if (!worst) return state;
     state.counting[*worst] = false;
-    if (!converge(known, sets, state)) return std::nullopt;
   }
   return std::nullopt;
 }

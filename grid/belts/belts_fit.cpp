@@ -38,10 +38,9 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
 bool are_in_one_spot(const MeasuredBelts& belts) {
   constexpr double kSpotMm = 50.0;
   return all_of(kBelts, [&](Belt belt) {
-    const auto [least, most] = minmax_element(belts.points, [&](const BeltPoint& a, const BeltPoint& b) {
-          return a.lengths_mm[belt] < b.lengths_mm[belt];
-        });
-    return most->lengths_mm[belt] - least->lengths_mm[belt] < kSpotMm;
+    const auto length_mm = [&](const BeltPoint& point) { return point.lengths_mm[belt]; };
+    const auto [least, most] = minmax_element(belts.points, ascending(length_mm));
+    return length_mm(*most) - length_mm(*least) < kSpotMm;
   });
 }
 

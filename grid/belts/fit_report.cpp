@@ -69,9 +69,8 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
   for (const Belt belt : kBelts) {
     fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
   }
-  stable_sort(fit.bad, [](const auto& a, const auto& b) {
-    return std::abs(a.residual_mm) > std::abs(b.residual_mm);
-  });
+  stable_sort(fit.bad,
+              descending([](const BadBeltReading& one) { return std::abs(one.residual_mm); }));
 }
 
 void fill_scale(const MeasuredBelts& belts,
@@ -88,25 +87,6 @@ void fill_scale(const MeasuredBelts& belts,
   }
   fit.scale = std::move(scale);
 }
-
-}  // namespace
-
-BeltsFit fit_report(const MeasuredBelts& belts,
-                    const FitDiagnostics& view,
-                    const Eigen::MatrixXd& covariance) {
-  BeltsFit fit;
-  fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
-  fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
-  fit.residual_sigma_mm = view.frame().residual_sigma_mm;
-  fit.checks = static_cast<int>(view.frame().checks);
-  fill_coordinates(belts, view, fit);
-  fill_places(belts, view, fit);
-  fill_scale(belts, view, covariance, fit);
-  fit.one_left_out = predict_one_by_one(belts, view);
-  return fit;
-}
-
-namespace {
 
 /// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt
 /// that it takes does not count.
@@ -131,6 +111,17 @@ BeltPrediction summed(const std::vector<double>& residual_mm) {
   return {residual_mm.size(), errors.rms_mm, errors.maximum_mm};
 }
 
+/// Each place predicted by anchors fitted without it. Rejected readings are excluded.
+BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
+  std::vector<double> residual_mm;
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    // A taped place is not left out: the tape would still determine it.
+    if (!view.is_placed(k) || view.is_taped(k)) continue;
+    predict_point(belts, k, view.anchors_without(k), view.frame().counting[k], residual_mm);
+  }
+  return summed(residual_mm);
+}
+
 /// Points in the order of their visits, of the file where that is not known.
 std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
   auto order = numbers_below(belts.points.size());
@@ -143,14 +134,19 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
 
 }  // namespace
 
-BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
-  std::vector<double> residual_mm;
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    // A taped place is not left out: the tape would still determine it.
-    if (!view.is_placed(k) || view.is_taped(k)) continue;
-    predict_point(belts, k, view.anchors_without(k), view.frame().counting[k], residual_mm);
-  }
-  return summed(residual_mm);
+BeltsFit fit_report(const MeasuredBelts& belts,
+                    const FitDiagnostics& view,
+                    const Eigen::MatrixXd& covariance) {
+  BeltsFit fit;
+  fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
+  fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
+  fit.residual_sigma_mm = view.frame().residual_sigma_mm;
+  fit.checks = static_cast<int>(view.frame().checks);
+  fill_coordinates(belts, view, fit);
+  fill_places(belts, view, fit);
+  fill_scale(belts, view, covariance, fit);
+  fit.one_left_out = predict_one_by_one(belts, view);
+  return fit;
 }
 
 std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,

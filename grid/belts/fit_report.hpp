@@ -22,9 +22,6 @@ namespace chaintrue::grid::belts {
                                   const FitDiagnostics& view,
                                   const Eigen::MatrixXd& covariance);
 
-/// Each place predicted by anchors fitted without it. Rejected readings are excluded.
-[[nodiscard]] BeltPrediction predict_one_by_one(const MeasuredBelts& belts,
-                                                const FitDiagnostics& view);
 /// A fit with what counts given, and the readings as its anchors explain them.
 struct Refitted {
   AnchorFit frame;

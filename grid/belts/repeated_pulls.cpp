@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 
 using model::Belt;
@@ -53,7 +55,7 @@ std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts) {
     pull.share /= pulled;
     // A difference of two readings, as for the holding belts.
     const double one_mm = std::max(std::sqrt(held_square / held), std::sqrt(2.0) * kLeastSigmaMm);
-    pull.sigma = one_mm * std::sqrt(static_cast<double>(pulled)) / length_mm;
+    pull.sigma = one_mm * std::sqrt(as_double(pulled)) / length_mm;
     found.push_back(pull);
     ++k;
   }
@@ -67,13 +69,12 @@ std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
       "Places read at two pulls, with the holding belts unchanged, show how much the pulled belts "
       "stretch from one pull to the other:";
   for (const RepeatedPull& pull : found) {
-    fmt::format_to(std::back_inserter(text),
-                   "{} points {} and {} {:.3f} +- {:.3f} %",
-                   &pull == &found.front() ? "" : ",",
-                   pull.first + 1,
-                   pull.second + 1,
-                   100.0 * pull.share,
-                   100.0 * pull.sigma);
+    text += fmt::format("{} points {} and {} {:.3f} +- {:.3f} %",
+                        &pull == &found.front() ? "" : ",",
+                        pull.first + 1,
+                        pull.second + 1,
+                        100.0 * pull.share,
+                        100.0 * pull.sigma);
   }
   return text + ".";
 }

@@ -169,8 +169,7 @@ MeasuredHoles set_of(const model::Machine& machine,
                      const HolesPlanRequest& request,
                      const Holes& holes,
                      const std::vector<HoleDistance>& distances) {
-  std::vector<std::size_t> order(holes.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  auto order = numbers_below(holes.size());
   sort(order, [&](std::size_t a, std::size_t b) {
     const MarkPoint p = holes[a]->place;
     const MarkPoint q = holes[b]->place;
@@ -281,16 +280,9 @@ Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
 /// cos 5 degrees: signatures nearer than this need hundreds of readings to be distinguished.
 constexpr double kOneDirection = 0.9962;
 
-/// An effect's secant: the change of the distances at its nominal size.
-struct Secant {
-  const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side{};
-  Eigen::VectorXd change_mm;
-};
-
 struct Pattern {
   DetectableEffect found;
-  Eigen::VectorXd white;
+  Eigen::VectorXd white;  ///< change of the distances at the effect's nominal size
 };
 
 bool shows_in_distances(const model::effects::Effect& effect) {
@@ -298,30 +290,26 @@ bool shows_in_distances(const model::effects::Effect& effect) {
          !model::effects::depends_on_visit(effect);
 }
 
-/// The set linearised about the stated machine.
-struct Stated {
-  Eigen::MatrixXd covariance;  ///< K
-  std::vector<Secant> secants;
-};
-
-std::optional<Stated> stated_of(const MeasuredHoles& set) {
+/// Empty if the machine cannot cut the holes.
+std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
   if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
   const auto distances = observation::TapeDistances::in_given_order(set);
-  if (!distances) return std::nullopt;
+  if (!distances) return {};
   // Distances between holes do not depend on the sheet's placement; in those to its edges, a shift
   // of the whole must not be mistaken for an effect.
   const observation::Columns columns{.parameters = true, .sheet = true};
   const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
-  if (!line) return std::nullopt;
+  if (!line) return {};
   Eigen::VectorXd prior(line->by_setting.cols());
   prior << estimation::stated_knowledge(*set.machine)
                .covariance.diagonal()
                .head(model::kMachineSettings.size()),
       std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2),
       std::pow(observation::kSheetTurnRad, 2);
-  Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +
-                    line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),
-                {}};
+  const linear::Cholesky covariance(
+      observation::marginal_covariance(*line, distances->nuisance_sigma()) +
+      line->by_setting * prior.asDiagonal() * line->by_setting.transpose());
+  std::vector<Pattern> patterns;
   for (const model::effects::Effect* effect : model::effects::effects_of(*set.machine)) {
     if (!shows_in_distances(*effect)) continue;
     for (const model::effects::EffectSide side : effect->sides) {
@@ -330,10 +318,15 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
           model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
       if (!model::effects::problems_of_effects(machine).empty()) continue;
       const auto with = distances->predicted({model::ReadingModel(machine), {}});
-      if (with) stated.secants.push_back({effect, side, *with - line->predicted});
+      if (!with) continue;
+      Pattern& own = patterns.emplace_back();
+      own.white = covariance.half_solve(Eigen::VectorXd(*with - line->predicted));
+      own.found.effect = effect->id;
+      own.found.side = model::effects::name(side);
+      own.found.sigmas = own.white.norm();
     }
   }
-  return stated;
+  return patterns;
 }
 
 }  // namespace
@@ -386,20 +379,8 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
 }
 
 std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
-  const auto stated = stated_of(set);
-  if (!stated) return {};
-  const linear::Cholesky covariance(stated->covariance);
-  std::vector<Pattern> patterns;
-  for (const Secant& secant : stated->secants) {
-    Pattern pattern;
-    pattern.found.effect = secant.effect->id;
-    pattern.found.side = model::effects::name(secant.side);
-    pattern.white = covariance.half_solve(secant.change_mm);
-    pattern.found.sigmas = pattern.white.norm();
-    patterns.push_back(std::move(pattern));
-  }
-  stable_sort(patterns,
-              [](const Pattern& a, const Pattern& b) { return a.found.sigmas > b.found.sigmas; });
+  std::vector<Pattern> patterns = patterns_of(set);
+  stable_sort(patterns, descending([](const Pattern& one) { return one.found.sigmas; }));
   std::vector<DetectableEffect> found;
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     for (std::size_t j = 0; j < patterns.size(); ++j) {

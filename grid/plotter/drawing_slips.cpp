@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/input_checks/transformation_search.hpp"
 #include "grid/statistics.hpp"
 
@@ -34,7 +35,7 @@ double median_share(const TestDrawing& drawing, const Eigen::VectorXd& as_set) {
   std::vector<double> shares;
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     if (drawing.measures[i].kind == Kind::length)
-      shares.push_back(drawing.measures[i].value_mm / as_set[static_cast<Eigen::Index>(i)]);
+      shares.push_back(drawing.measures[i].value_mm / as_set[as_index(i)]);
   }
   return shares.empty() ? 1.0 : median(std::move(shares));
 }
@@ -136,11 +137,11 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
   const Eigen::MatrixXd basis = derivatives(drawn, machine);
   Eigen::VectorXd sigma(basis.cols());
   for (Eigen::Index k = 0; k < sigma.size(); ++k)
-    sigma[k] = std::max(1e-3, machine.parameters()[static_cast<std::size_t>(k)].prior_sigma.value_or(1e3));
+    sigma[k] = std::max(1e-3, machine.parameters()[as_size(k)].prior_sigma.value_or(1e3));
   const std::function<TrendRows(const TestDrawing&)> rows = [&](const TestDrawing& meant) {
     TrendRows own{basis, Eigen::MatrixXd(basis.rows(), 1)};
     for (std::size_t i = 0; i < meant.measures.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
+      const auto row = as_index(i);
       own.off_mm(row, 0) = meant.measures[i].value_mm - (*as_set)[row];
     }
     return own;
@@ -174,8 +175,8 @@ std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
       if (!rejected[i] || !rejected[j]) continue;
       const DrawnMeasure &a = drawing.measures[i], &b = drawing.measures[j];
       const double sigma = kFitsSigmas * std::max(a.sigma_mm, b.sigma_mm);
-      if (std::abs(a.value_mm - found[static_cast<Eigen::Index>(j)]) > sigma ||
-          std::abs(b.value_mm - found[static_cast<Eigen::Index>(i)]) > sigma)
+      if (std::abs(a.value_mm - found[as_index(j)]) > sigma ||
+          std::abs(b.value_mm - found[as_index(i)]) > sigma)
         continue;
       return DrawingFailure{
           DrawingFailure::Reason::rows_exchanged,

@@ -19,7 +19,7 @@ BedPoint middle_of(const std::vector<BedPoint>& points) {
     sum.x_mm += point.x_mm;
     sum.y_mm += point.y_mm;
   }
-  const double count = static_cast<double>(points.size());
+  const double count = as_double(points.size());
   return {sum.x_mm / count, sum.y_mm / count};
 }
 

@@ -2,8 +2,8 @@
 #include "grid/synthetic/design.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <tuple>
 
@@ -18,13 +18,12 @@ using model::MarkPoint;
 constexpr double kRoundNumberMm = 100.0;
 constexpr int kBands = 5;
 
-template <class Enum, std::size_t Count>
-std::optional<Enum> word_of(std::string_view word,
-                            const std::array<std::string_view, Count>& words) {
-  for (std::size_t i = 0; i < Count; ++i) {
-    if (words[i] == word) return static_cast<Enum>(i);
-  }
-  return std::nullopt;
+/// `words` in the order of the enumerators.
+template <class Enum>
+std::optional<Enum> word_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  const auto* found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) return std::nullopt;
+  return static_cast<Enum>(found - words.begin());
 }
 
 // From the bed's centre to the outermost marks.
@@ -142,20 +141,16 @@ void put_in_order(std::vector<Mark>& marks, VisitingOrder order, Random& random)
 }
 
 std::optional<DesignKind> design_kind(std::string_view word) {
-  return word_of<DesignKind>(
-      word, std::array<std::string_view, 4>{"regular", "chebyshev", "random", "given"});
+  return word_of<DesignKind>(word, {"regular", "chebyshev", "random", "given"});
 }
 
 std::optional<Region> region(std::string_view word) {
-  return word_of<Region>(
-      word, std::array<std::string_view, 5>{"whole", "left", "right", "top", "bottom"});
+  return word_of<Region>(word, {"whole", "left", "right", "top", "bottom"});
 }
 
 std::optional<VisitingOrder> visiting_order(std::string_view word) {
   return word_of<VisitingOrder>(
-      word,
-      std::array<std::string_view, 5>{
-          "rows", "columns", "serpentine_rows", "serpentine_columns", "random"});
+      word, {"rows", "columns", "serpentine_rows", "serpentine_columns", "random"});
 }
 
 }  // namespace chaintrue::grid::synthetic

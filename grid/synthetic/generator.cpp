@@ -77,7 +77,7 @@ std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, R
     while (done < repeats && (i + 1) * as_size(repeats) >= marks.size() * as_size(done + 1)) {
       // Each mark is repeated once before any is visited a third time.
       if (unrepeated.empty()) {
-        for (std::size_t k = 0; k <= i; ++k) unrepeated.push_back(k);
+        unrepeated = numbers_below(i + 1);
       }
       const std::size_t pick = random.below(unrepeated.size());
       session.push_back(marks[unrepeated[pick]].place);
@@ -133,8 +133,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
   Random length_noise(spec.seed, kLengthNoise);
   Random position_noise(spec.seed, kPositionNoise);
   Random slips(spec.seed, kBadPoints);
-  std::vector<std::size_t> shuffled(marks.size());
-  for (std::size_t i = 0; i < shuffled.size(); ++i) shuffled[i] = i;
+  auto shuffled = numbers_below(marks.size());
   slips.shuffle(shuffled);
   shuffled.resize(std::min(shuffled.size(), as_size(spec.bad.count)));
   sort(shuffled);

@@ -84,8 +84,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     distance.distance_mm = reading;
   }
   Random bad(spec.seed, kBadStream);
-  std::vector<std::size_t> order(made.set.distances.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  auto order = numbers_below(made.set.distances.size());
   bad.shuffle(order);
   for (std::size_t k = 0; k < order.size() && static_cast<int>(k) < spec.bad_readings; ++k) {
     made.set.distances[order[k]].distance_mm +=
