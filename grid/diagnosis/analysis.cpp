@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/statistics.hpp"

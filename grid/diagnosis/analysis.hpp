@@ -4,6 +4,9 @@
 /// again about the causes found, compare again.
 #pragma once
 
+#include <string_view>
+#include <tl/expected.hpp>
+
 #include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/estimate.hpp"

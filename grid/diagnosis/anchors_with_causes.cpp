@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/anchors_with_causes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid/belts/fit_report.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/averaged_anchors.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
+#include <string_view>
+#include <utility>
 
 namespace chaintrue::grid::diagnosis {
 namespace {

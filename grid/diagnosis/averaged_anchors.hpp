@@ -21,6 +21,8 @@
 /// Sci. 14 (1999) 382, equations 1 and 2.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/belts_system.hpp"
 

@@ -2,8 +2,12 @@
 #include "grid/diagnosis/bed_parts.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/parallel.hpp"

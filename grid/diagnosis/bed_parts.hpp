@@ -26,6 +26,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
 

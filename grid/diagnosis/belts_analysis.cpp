@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_analysis.hpp"
 
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/statistics.hpp"
 

@@ -4,6 +4,8 @@
 /// the noise is not stated, and yielding under the pull is expected. Private to grid/diagnosis.
 #pragma once
 
+#include <tl/expected.hpp>
+
 #include "grid/diagnosis/averaged_anchors.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "grid/belts/fit_report.hpp"
 #include "grid/diagnosis/belts_report.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_given_causes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

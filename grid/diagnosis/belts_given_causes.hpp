@@ -15,6 +15,10 @@
 /// projected out.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/diagnosis/regressor_system.hpp"

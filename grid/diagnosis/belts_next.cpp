@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
 #include "grid/diagnosis/belts_report.hpp"
 
 #include <fmt/format.h>

@@ -9,6 +9,8 @@
 /// both. The five anchor coordinates are the settings, without priors.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/belts_given_causes.hpp"
 #include "grid/diagnosis/regressors.hpp"
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/laws.hpp"

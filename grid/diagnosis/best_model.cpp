@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/best_model.hpp"
 
+#include <cmath>
+
 namespace chaintrue::grid::diagnosis {
 
 const Regressor& regressor(const Analysis& a, int k) { return a.system.regressor(k); }

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "grid/diagnosis/decision.hpp"
 
 #include "grid/diagnosis/estimate.hpp"

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
 
 #include "grid/diagnosis/findings.hpp"

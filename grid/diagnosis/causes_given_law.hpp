@@ -8,6 +8,10 @@
 /// strength 12 a twelfth is left in the readings, less than their noise at any one of them.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/laws.hpp"
 
 namespace chaintrue::grid::diagnosis {

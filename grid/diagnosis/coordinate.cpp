@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/coordinate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/regressor_system.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/decision.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "grid/diagnosis/estimate.hpp"

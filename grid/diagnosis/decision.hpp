@@ -4,6 +4,8 @@
 /// and when to abstain.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/diagnose.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "grid/diagnosis/best_model.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"

@@ -20,7 +20,10 @@
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"

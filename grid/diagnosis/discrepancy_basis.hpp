@@ -18,7 +18,9 @@
 /// Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428, algorithm 1).
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
 

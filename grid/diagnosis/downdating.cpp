@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/downdating.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 

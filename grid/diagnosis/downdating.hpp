@@ -19,6 +19,8 @@
 /// never tried, and discrepancies below a least probability are ignored.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 

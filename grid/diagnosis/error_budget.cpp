@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/other_places.hpp"

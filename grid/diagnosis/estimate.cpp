@@ -2,6 +2,8 @@
 #include "grid/diagnosis/estimate.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -4,7 +4,9 @@
 /// comparison; and the residual at every point, including held-out ones.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
 

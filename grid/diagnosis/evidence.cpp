@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <stdexcept>
 

@@ -23,8 +23,13 @@
 /// with a process.
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"

@@ -27,6 +27,11 @@
 /// grid/diagnosis.
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/regressor_places.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/model_collector.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"

@@ -3,7 +3,10 @@
 #include "grid/diagnosis/held_out_fold.hpp"
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"

@@ -9,6 +9,9 @@
 /// \endcode
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/downdating.hpp"
 

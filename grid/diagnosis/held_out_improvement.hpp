@@ -7,6 +7,9 @@
 /// at the length and size that the fold's points prefer.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

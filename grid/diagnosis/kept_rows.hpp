@@ -12,7 +12,10 @@
 /// \endcode
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "grid/diagnosis/regressor_columns.hpp"
 

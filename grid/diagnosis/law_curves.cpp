@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_curves.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -19,6 +19,9 @@
 ///   const std::vector<LawCurve> curves = law_curves(system);
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 

@@ -13,6 +13,9 @@
 /// law; then the leading laws in every context with a share given one of them.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 

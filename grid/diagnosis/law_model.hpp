@@ -12,6 +12,11 @@
 /// \endcode
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_residuals.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
 

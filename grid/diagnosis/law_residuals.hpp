@@ -9,6 +9,9 @@
 /// If the law is right, points scatter about the curve as the readings do.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/law_evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

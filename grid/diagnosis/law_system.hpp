@@ -8,9 +8,12 @@
 ///   const double w = system.log_weight(equations, {set, discrepancy}, {0});
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <map>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"

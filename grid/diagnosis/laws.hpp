@@ -8,6 +8,8 @@
 /// those of the posterior over its curve.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/law_evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/model_collector.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"

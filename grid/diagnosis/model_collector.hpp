@@ -4,6 +4,7 @@
 #pragma once
 
 #include <set>
+#include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
 

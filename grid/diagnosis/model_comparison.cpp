@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <deque>
 
 #include "grid/diagnosis/estimate.hpp"

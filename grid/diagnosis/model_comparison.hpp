@@ -9,6 +9,9 @@
 /// three and four at a time from the best of those.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

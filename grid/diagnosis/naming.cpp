@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/naming.hpp"
 
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "grid/diagnosis/causes_given_law.hpp"

@@ -4,6 +4,10 @@
 /// or a claimed law. Private to grid/diagnosis.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "grid/diagnosis/laws.hpp"
 #include "grid/map/joint_fit.hpp"
 

@@ -3,6 +3,9 @@
 /// All possible next measurements, as a session. Private to grid/diagnosis.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

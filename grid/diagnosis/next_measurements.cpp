@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/next_measurements.hpp"
 
+#include <algorithm>
+
 #include "grid/diagnosis/law_model.hpp"
 #include "model/effects/catalogue.hpp"
 

@@ -4,6 +4,8 @@
 /// remaining confusion (expected_discrimination.hpp).
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/next_candidates.hpp"

@@ -6,6 +6,12 @@
 /// 12 (2020) 860, on the largest statistic of many alternatives.
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
 #include "grid/diagnosis/evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/observation/length_points.hpp"

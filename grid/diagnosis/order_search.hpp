@@ -20,6 +20,9 @@
 /// \endcode
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

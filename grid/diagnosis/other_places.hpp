@@ -3,6 +3,8 @@
 /// The machine of an analysis at unmeasured places.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 #include "interp/surface.hpp"
 

@@ -2,6 +2,8 @@
 #include "grid/diagnosis/outlier_search.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"

@@ -15,6 +15,8 @@
 /// for the mean-shift model.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 

@@ -4,6 +4,9 @@
 /// Private to grid/diagnosis.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/regressor_system.hpp"
 #include "model/effects/declared_effect.hpp"
 

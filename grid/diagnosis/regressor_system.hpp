@@ -14,7 +14,11 @@
 /// continues through zero as a straight line.
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
+#include <optional>
+#include <tl/expected.hpp>
+#include <vector>
 
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/observations.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/regressors.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "grid/chain_rows.hpp"

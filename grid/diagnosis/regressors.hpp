@@ -4,6 +4,10 @@
 /// in.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 #include "model/effects/declared_effect.hpp"

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "model/effects/catalogue.hpp"
 

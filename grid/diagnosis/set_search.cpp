@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/set_search.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 

@@ -5,6 +5,8 @@
 /// discrepancy.
 #pragma once
 
+#include <vector>
+
 #include "grid/diagnosis/model_collector.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/stability.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/parallel.hpp"

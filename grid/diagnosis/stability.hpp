@@ -9,6 +9,10 @@
 /// holds if its first cause is still in it.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 

@@ -5,7 +5,9 @@
 /// last bit of a sine.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 

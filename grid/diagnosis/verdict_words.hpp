@@ -4,6 +4,9 @@
 /// to grid/diagnosis.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::grid::diagnosis {

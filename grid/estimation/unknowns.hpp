@@ -10,6 +10,8 @@
 /// Private to grid/estimation.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "grid/chain_rows.hpp"
 
 namespace chaintrue::grid::estimation {

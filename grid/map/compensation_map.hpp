@@ -22,6 +22,7 @@
 #include <stdexcept>
 #include <string>
 #include <tl/expected.hpp>
+#include <variant>
 #include <vector>
 
 #include "grid/map/map_field.hpp"

@@ -108,6 +108,23 @@ TEST(Estimate, PointsAndDistancesTogetherKnowMoreThanEither) {
   }
 }
 
+TEST(Estimate, ReadingsThatSayNothingLeaveWhatWasStated) {
+  constexpr double kNothingMm = 1e6;
+  const Owner own = owner(1, 4, 3);
+  auto input = of_both(own);
+  input.observations = {std::make_shared<const observation::ChainLengthReadings>(
+      chain_length_readings(*length_points(own.points), {kNothingMm, kNothingMm}, 15.0, std::nullopt))};
+  const auto found = estimation::estimate(input);
+  ASSERT_TRUE(found);
+  const Eigen::MatrixXd stated = estimation::stated_knowledge(input.machine).covariance;
+  for (Eigen::Index i = 0; i < estimation::kMachineUnknowns; ++i) {
+    SCOPED_TRACE(i);
+    // A scale moves a length by 4,000 mm per unit, 8 mm a sigma: of the variance, 24 readings take 2e-9.
+    EXPECT_NEAR(found->knowledge.covariance(i, i) / stated(i, i), 1.0, 1e-6);
+    EXPECT_NEAR(found->knowledge.mean[i], 0.0, 1e-4 * std::sqrt(stated(i, i)));
+  }
+}
+
 TEST(Estimate, UnitResultsUseTheFitsFinalWeights) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     SCOPED_TRACE(seed);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/arguments.hpp"
 
+#include <utility>
+
 #include <CLI/CLI.hpp>
 
 #include "grid/containers.hpp"

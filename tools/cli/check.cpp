@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue check: checks by a few new points whether a map, or anchors, are still valid.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "grid/map/check.hpp"
 #include "grid/belts/anchors_check.hpp"
 #include "grid/files/check_file.hpp"

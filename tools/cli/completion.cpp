@@ -2,6 +2,12 @@
 /// \file
 /// chaintrue completion and chaintrue man: completion for shells and manual pages, made from the
 /// verbs and options themselves, the text of --help.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 #include "grid/containers.hpp"

@@ -2,6 +2,17 @@
 /// \file
 /// chaintrue diagnose: what the simulation gets wrong at these points, why, the gain from naming
 /// the cause, and what to measure next.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+#include <vector>
+
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/containers.hpp"
 #include "grid/diagnosis/law_declaration.hpp"

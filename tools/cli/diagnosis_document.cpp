@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "tools/cli/diagnosis_sections.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue effects: the catalogue as text, and the change that one effect makes to a machine.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include "tools/cli/effect_drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/drawing_file.hpp"

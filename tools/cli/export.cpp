@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue export: a machine, or its calibration, as numbers to type into another program.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/workshop_units.hpp"

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A map for other controllers: as a kinematics module, or as the closest settings.
+#include <fmt/format.h>
+
 #include <cctype>
 #include <filesystem>
+#include <memory>
+#include <string>
 
 #include "grid/containers.hpp"
 #include "grid/files/klipper_kinematics.hpp"

@@ -3,6 +3,11 @@
 /// chaintrue fit: measured points become a compensation map, and the fit is reported in words.
 #include "tools/cli/fit.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/check_file.hpp"

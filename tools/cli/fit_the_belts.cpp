@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include "tools/cli/fit.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/files/holes_file.hpp"

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include "tools/cli/fit.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"

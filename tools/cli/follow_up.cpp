@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "grid/containers.hpp"
 #include "tools/cli/diagnosis_words.hpp"

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue formats: the reference page and the JSON Schema of each file format.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
 #include "grid/files/format_pages.hpp"
 #include "tools/cli/verb.hpp"
 

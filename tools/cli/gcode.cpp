@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode: the verbs check, lengths, compensate, verify, explain and their options.
+#include <memory>
+#include <string>
+
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/start_plotter.hpp"

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode check and lengths: what a program does, without changing it.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/places.hpp"

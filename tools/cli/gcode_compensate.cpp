@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode compensate.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"

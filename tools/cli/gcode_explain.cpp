@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode explain.
+#include <fmt/format.h>
+
 #include <charconv>
+#include <string>
+#include <vector>
 
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/talk.hpp"

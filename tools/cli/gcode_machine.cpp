@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include "tools/cli/gcode_job.hpp"
 
 #include <algorithm>

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode verify.
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"

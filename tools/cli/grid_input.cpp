@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/grid_input.hpp"
 
+#include <fmt/format.h>
+
 #include "grid/containers.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue import: converts files of other programs to a machine, a grid or belts.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"

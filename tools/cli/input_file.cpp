@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/input_file.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
 
 #include "grid/containers.hpp"

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/made_by.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <string_view>
 
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/map/map_accuracy.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/map_words.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "grid/containers.hpp"

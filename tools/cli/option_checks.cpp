@@ -2,6 +2,7 @@
 #include "tools/cli/option_checks.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"

@@ -2,6 +2,7 @@
 #include "tools/cli/places.hpp"
 
 #include <fmt/format.h>
+#include <memory>
 #include <unistd.h>
 
 #include <fstream>

@@ -2,7 +2,16 @@
 /// \file
 /// chaintrue plan: where to measure, as a list for the workshop, and the expected error of the map;
 /// and after a diagnosis, what to measure next.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "grid/planning/check_plan.hpp"
 #include "grid/planning/second_visits.hpp"

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/plan_holes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
+#include <vector>
 
 #include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"

@@ -5,9 +5,10 @@
 #include <emscripten.h>
 #else
 #include <unistd.h>
-
 #endif
 
+#include <chrono>
+#include <cstdio>
 #include <memory>
 
 #include "tools/cli/progress_line.hpp"

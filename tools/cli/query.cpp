@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue query: chain lengths for points, and the point for chain lengths.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "grid/containers.hpp"
 #include "grid/files/points_file.hpp"
 #include "tools/cli/fields.hpp"

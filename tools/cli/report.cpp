@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue report: a map, a diagnosis or anchors as one HTML page that needs no network.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "grid/files/sources.hpp"
 #include "tools/cli/anchors_document.hpp"

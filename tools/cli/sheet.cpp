@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/sheet.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "grid/files/grid_file.hpp"

@@ -2,6 +2,12 @@
 /// \file
 /// chaintrue simulate: a simulated grid measured on a machine with hidden effects, or the bare
 /// readings at given places.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include "tools/cli/simulate_options.hpp"
 
 #include <charconv>
+#include <utility>
+#include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/files/maslow4_log.hpp"

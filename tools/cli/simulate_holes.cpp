@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include "tools/cli/simulate_options.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "grid/files/answer_file.hpp"
 #include "grid/files/holes_file.hpp"

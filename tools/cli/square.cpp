@@ -2,7 +2,13 @@
 /// \file
 /// chaintrue square: predicts the test square that an owner would cut and measure, by a map or for
 /// a controller with settings that differ from the machine; and the program that cuts it.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "grid/plotter/test_drawing.hpp"
 #include "tools/cli/effect_drawing.hpp"

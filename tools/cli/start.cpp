@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue start: makes a folder with the machine, the next steps, and the sheets to print.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "grid/planning/second_visits.hpp"
 #include "tools/cli/failed.hpp"

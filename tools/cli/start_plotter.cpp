@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/start_plotter.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <vector>
 
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"

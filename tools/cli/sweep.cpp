@@ -2,9 +2,12 @@
 /// \file
 /// chaintrue sweep: accuracy against the simulator over any product of factors; stopped, resumed,
 /// split and merged at will.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 
@@ -18,9 +21,13 @@
 #include "tools/report/document.hpp"
 
 #ifdef CHAINTRUE_HAS_MPI
+#include <memory>
 #include <mpi.h>
 
 #include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
 #endif
 
 namespace chaintrue::cli {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <string_view>
 #include <nlohmann/json.hpp>
 
 #include "grid/precondition.hpp"
