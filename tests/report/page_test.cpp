@@ -206,9 +206,8 @@ TEST(BedChart, TheArrowOfABadPointEndsAtTheFrame) {
   const double frame_mm = 1100.0;  // a twentieth of the sheet's width beyond it
   EXPECT_DOUBLE_EQ(bad.x_mm + std::get<double>(table.rows[1].back()) * magnification * bad.dx_mm,
                    frame_mm);
-  EXPECT_EQ(cut_off_at_frame(sheet, {good, bad}, magnification),
-            " Cut off at the frame: point 9 (25.40 mm).");
-  EXPECT_EQ(cut_off_at_frame(sheet, {good}, magnification), "");
+  EXPECT_EQ(chart.caption, " Cut off at the frame: point 9 (25.40 mm).");
+  EXPECT_EQ(arrows_chart(sheet, {good}, magnification, kAfterColor).caption, "");
 }
 
 TEST(MapPictures, RefuseASheetWithoutExtent) {

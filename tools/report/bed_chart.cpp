@@ -97,18 +97,6 @@ double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows) 
   return longest_mm > 0.0 ? round_down_125(kLongestArrow * sheet.width_mm() / longest_mm) : 1.0;
 }
 
-std::string cut_off_at_frame(const Outline& sheet,
-                             const std::vector<Arrow>& arrows,
-                             double magnification) {
-  const Outline view = view_of(sheet, arrows);
-  std::vector<std::string> names;
-  for (const Arrow& arrow : arrows) {
-    if (shown_of(arrow, view, magnification) == 1.0) continue;
-    names.push_back(fmt::format("{} ({:.2f} mm)", arrow.name, length_mm(arrow)));
-  }
-  return names.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(names, ", "));
-}
-
 Chart arrows_chart(const Outline& sheet,
                    const std::vector<Arrow>& arrows,
                    double magnification,
@@ -117,7 +105,10 @@ Chart arrows_chart(const Outline& sheet,
       "arrows",
       {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm", "shown"}};
   const Outline view = view_of(sheet, arrows);
+  std::vector<std::string> cut;
   for (const Arrow& arrow : arrows) {
+    const double shown = shown_of(arrow, view, magnification);
+    if (shown != 1.0) cut.push_back(fmt::format("{} ({:.2f} mm)", arrow.name, length_mm(arrow)));
     table.rows.push_back({arrow.name,
                           arrow.x_mm,
                           arrow.y_mm,
@@ -126,11 +117,12 @@ Chart arrows_chart(const Outline& sheet,
                           arrow.is_bad,
                           arrow.noise_x_mm,
                           arrow.noise_y_mm,
-                          shown_of(arrow, view, magnification)});
+                          shown});
   }
   const double key_mm = round_down_125(kLongestArrow * sheet.width_mm() / magnification);
   const std::string key = fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification);
   return {.specification = "bed_arrows",
+          .caption = cut.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(cut, ", ")),
           .data = {std::move(table)},
           .signals = view_signals(view,
                                   sheet,
@@ -151,7 +143,7 @@ std::vector<ChartRow> arrow_rows(const Outline& sheet,
                               const std::string& caption) {
     Chart drawn = arrows_chart(sheet, arrows, magnification, color);
     drawn.title = title;
-    drawn.caption = caption + cut_off_at_frame(sheet, arrows, magnification);
+    drawn.caption.insert(0, caption);
     return drawn;
   };
   const double coarse = magnification_of(sheet, before), fine = magnification_of(sheet, after);

@@ -73,18 +73,13 @@ struct Arrow {
 /// The magnification at which the longest arrow of a good point spans an eighth of the bed; 1 if
 /// all have zero length.
 [[nodiscard]] double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
-/// charts/bed_arrows without title and caption; the scale is printed in the chart. The arrow of a bad point,
-/// which does not count for the scale, ends at the frame.
+/// charts/bed_arrows without a title; the scale is printed in the chart. The arrow of a bad point, which does not
+/// count for the scale, ends at the frame, and the caption names it with its length:
+/// " Cut off at the frame: point 9 (25.40 mm)."
 [[nodiscard]] Chart arrows_chart(const Outline& sheet,
                                  const std::vector<Arrow>& arrows,
                                  double magnification,
                                  const char* color);
-/// Names the arrows that end at the frame, with their lengths: " Cut off at the frame: point 9 (25.40 mm).",
-/// or empty.
-[[nodiscard]] std::string cut_off_at_frame(const Outline& sheet,
-                                           const std::vector<Arrow>& arrows,
-                                           double magnification);
-
 /// Texts of the charts before and after.
 struct ArrowWords {
   std::string before, before_caption, after, after_caption;
