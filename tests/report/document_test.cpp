@@ -45,7 +45,7 @@ Document sample() {
   chart.alternative = Table{.columns = {{.width = 8}, {.gap = 2}}, .rows = {{{"in words", "97 %"}}}};
   document.sections = {
       {"The anchors, mm", {numbers()}},
-      {"Lines", {List{List::Mark::number, {{"one", {{"below one"}}}, {"two"}}}}},
+      {"Lines", {List{true, {{"one", {{"below one"}}}, {"two"}}}}},
       {"Odds", {chart}},
       {"Text", {Paragraph{"a paragraph"}, Paragraph{"a detail", Detail::verbose}}},
       {"For those who ask", {Paragraph{"all of it"}}, false, Detail::verbose},
@@ -156,7 +156,7 @@ TEST(Document, KeepsTextCells) {
   Document document{.verdict = {bad}, .remarks = {"r", {Paragraph{bad}}}};
   document.sections = {{bad,
                         {Paragraph{bad},
-                         List{List::Mark::number, {{bad, {{bad}}}}},
+                         List{true, {{bad, {{bad}}}}},
                          Table{{{bad}}, {{{bad}}}, bad}}}};
   const std::string html = render_html(document);
   EXPECT_THAT(html, Not(HasSubstr("<b>&")));

@@ -27,7 +27,7 @@ grid::MeasuredBelts belts(int columns, int rows) {
 
 /// As many points as a nearly square lattice has.
 grid::MeasuredBelts belts(std::int64_t count) {
-  const int rows = static_cast<int>(std::sqrt(static_cast<double>(count)));
+  const int rows = static_cast<int>(std::sqrt(count));
   return belts(static_cast<int>(count) / rows, rows);
 }
 

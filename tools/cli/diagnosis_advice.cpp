@@ -66,7 +66,7 @@ std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& b
 
 Section next_section(const Diagnosis& found) {
   const std::vector<std::string> sentences = follow_ups_in_words(found);
-  List list{List::Mark::number};
+  List list{.is_numbered = true};
   for (std::size_t i = 0; i < sentences.size(); ++i)
     list.items.push_back({sentences[i] + chance_then(found, i)});
   Section section{fmt::format("What to measure next (chaintrue plan {} --after diagnosis.json)",

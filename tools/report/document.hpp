@@ -58,8 +58,7 @@ struct Item {
   std::vector<Item> items{};
 };
 struct List {
-  enum class Mark { none, number };
-  Mark mark = Mark::none;
+  bool is_numbered = false;  ///< not the sub-items
   std::vector<Item> items{};
 };
 

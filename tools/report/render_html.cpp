@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <string_view>
 #include <nlohmann/json.hpp>
 
 #include "grid/precondition.hpp"
@@ -165,7 +164,7 @@ class HtmlWriter {
     add("</div>\n");
   }
 
-  void write(const List& list) { write_list(list.items, list.mark); }
+  void write(const List& list) { write_list(list.items, list.is_numbered); }
 
   void write(const Figures& figures) {
     std::string boxes;
@@ -177,12 +176,11 @@ class HtmlWriter {
     element("<div class=\"figures\">\n", boxes, "</div>\n");
   }
 
-  void write_list(const std::vector<Item>& items, List::Mark mark) {
-    const bool is_numbered = mark == List::Mark::number;
+  void write_list(const std::vector<Item>& items, bool is_numbered) {
     html_ += is_numbered ? "<ol>\n" : "<ul class=\"plain\">\n";
     for (const Item& item : items) {
       add("<li>{}", explained(capitalised(item.text)));
-      if (!item.items.empty()) write_list(item.items, List::Mark::none);
+      if (!item.items.empty()) write_list(item.items, false);
       add("</li>\n");
     }
     html_ += is_numbered ? "</ol>\n" : "</ul>\n";

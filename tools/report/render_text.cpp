@@ -77,7 +77,7 @@ class TextWriter {
     if (!shows(text.detail) || text.text.empty()) return;
     line(blanks(indent_) + (text.is_note ? "Note: " : "") + text.text);
   }
-  void write(const List& list) { items(list.items, list.mark, kIndent); }
+  void write(const List& list) { items(list.items, list.is_numbered, kIndent); }
   void write(const Figures& /*on the page only*/) {}
   void write(const Chart& chart) {
     if (chart.alternative) write(*chart.alternative);
@@ -86,11 +86,11 @@ class TextWriter {
     for (const Chart& chart : row.charts) write(chart);
   }
 
-  void items(const std::vector<Item>& list, List::Mark mark, int indent) {
+  void items(const std::vector<Item>& list, bool is_numbered, int indent) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const std::string sign = mark == List::Mark::number ? fmt::format("{:>2}. ", i + 1) : "";
+      const std::string sign = is_numbered ? fmt::format("{:>2}. ", i + 1) : "";
       line(blanks(indent) + sign + list[i].text);
-      items(list[i].items, List::Mark::none, indent + kIndent);
+      items(list[i].items, false, indent + kIndent);
     }
   }
 

@@ -56,25 +56,18 @@ def _cases_of(command, environment, folder):
 
 
 def _with_filter(command, cases, skipped):
-    """A command for these cases, its own where none are named, less those that are skipped."""
-    own = [a.split("=", 1)[1] for a in command if a.startswith("--gtest_filter=")]
-    wanted = ":".join(c for c in cases if c not in skipped)
-    if not cases:
-        wanted = own[0] if own else "*"
-        if skipped:
-            wanted += (":" if "-" in wanted else "-") + ":".join(skipped)
-    if wanted == "*":
-        return command
-    others = [a for a in command if not a.startswith("--gtest_filter=")]
-    return others + [f"--gtest_filter={wanted}"]
+    """A command for these cases, all where none are named, less those that are skipped."""
+    wanted = ":".join(c for c in cases if c not in skipped) or "*"
+    if skipped and not cases:
+        wanted += "-" + ":".join(skipped)
+    return command if wanted == "*" else command + [f"--gtest_filter={wanted}"]
 
 
 class Suite:
     """The tests of a build folder."""
 
-    def __init__(self, build, prefix, limit_s):
+    def __init__(self, build, limit_s):
         self.build = Path(build)
-        self.prefix = prefix
         self.limit_s = limit_s
         self.excluded = set()  # tests that fail without a fault
         self.seconds = {}      # of each command that passed
@@ -163,7 +156,7 @@ class Suite:
 
     def _watched(self, command, environment, entry):
         """Exit code, the case that failed or ran last, and whether it was silent for too long."""
-        process = subprocess.Popen(self.prefix + command, cwd=entry.folder, env=environment,
+        process = subprocess.Popen(command, cwd=entry.folder, env=environment,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                    stdin=subprocess.DEVNULL, start_new_session=True)
         case = failed = ""
