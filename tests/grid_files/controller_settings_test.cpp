@@ -74,5 +74,22 @@ TEST(ControllerSettings, ReadAWallPlottersAnchors) {
               ElementsAre("left_anchor_x", "left_anchor_y", "right_anchor_x", "right_anchor_y"));
 }
 
+TEST(FluidNc, EachAnchorHasItsOwnCoordinates) {
+  const ReadMachine read = parse_fluidnc(
+      "axes:\n"
+      "  x:\n    max_travel_mm: 2400\n"
+      "  y:\n    max_travel_mm: 1200\n"
+      "kinematics:\n"
+      "  WallPlotter:\n"
+      "    left_anchor_x: -1500\n    left_anchor_y: 1010\n"
+      "    right_anchor_x: 1490\n    right_anchor_y: 1020\n",
+      "config.yaml");
+  const auto& motors = read.machine.motors;
+  EXPECT_EQ(motors.left.x_mm, -1500.0);
+  EXPECT_EQ(motors.left.y_mm, 1010.0);
+  EXPECT_EQ(motors.right.x_mm, 1490.0);
+  EXPECT_EQ(motors.right.y_mm, 1020.0);
+}
+
 }  // namespace
 }  // namespace chaintrue::grid::files
