@@ -172,7 +172,7 @@ FAULTS = [
     Fault("clamp_box_side", "tools/gcode/limits.cpp",
           "std::fabs(sample.command.y_mm) - box->half_height_mm",
           "std::fabs(sample.command.y_mm) - box->half_width_mm",
-          "clamp|limits"),
+          "uncuttable|clamp"),
     # tools/cli
     Fault("check_exit_code", "tools/cli/check.cpp",
           "answer.check.is_valid_as_it_is() ? kDone : kCheckFailed",
@@ -185,5 +185,5 @@ FAULTS = [
     Fault("range_unchecked", "tools/cli/numbers.cpp",
           "range.holds(*number)",
           "true",
-          "cli.*(options|arguments|/command\\.)"),
+          "command_line"),
 ]
