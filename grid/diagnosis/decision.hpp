@@ -47,7 +47,7 @@ struct Decision {
   [[nodiscard]] std::vector<CauseId> leaders() const;
   /// The class of a cause; the number of classes if it has none.
   [[nodiscard]] std::size_t class_of(const CauseId& cause) const;
-  /// Of a class; 0 if there is no such class.
+  /// Probability of a class; 0 if there is no such class.
   [[nodiscard]] double probability_of(std::size_t index) const;
 };
 

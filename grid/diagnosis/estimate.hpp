@@ -30,7 +30,7 @@ struct Estimate {
   Indices free;  ///< positions in `regressors`
 
   [[nodiscard]] RegressorSet free_regressors() const;
-  /// Of a regressor of the model.
+  /// Index of one of the model's regressors in this estimate.
   [[nodiscard]] Eigen::Index position(int regressor) const;
 };
 

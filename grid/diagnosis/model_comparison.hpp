@@ -35,7 +35,7 @@ struct ModelComparison {
   Indices kernels;
   /// \throws std::invalid_argument if no model has a finite weight.
   [[nodiscard]] const CandidateModel& best() const;
-  /// In which that is.
+  /// The marginalised system of the best model.
   [[nodiscard]] const MarginalisedSystem& best_system() const {
     return marginalised_systems[best().marginalised];
   }

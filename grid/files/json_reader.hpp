@@ -193,7 +193,7 @@ class Record : public RecordTable {
     return required("x_mm", x, path(member, &P::x_mm), value)
         .required("y_mm", y, path(member, &P::y_mm), value);
   }
-  /// Those of the object itself.
+  /// The required x_mm and y_mm of the object itself.
   Record& place(Text x, Text y, const Value<double>& value) {
     return required("x_mm", x, &T::x_mm, value).required("y_mm", y, &T::y_mm, value);
   }

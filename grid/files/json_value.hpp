@@ -46,7 +46,7 @@ class Cursor {
   /// Reports that this value is not the expected one; `missing` reports that it is absent.
   void expect(std::string expected, ProblemKind kind = ProblemKind::unexpected) const;
   void missing(std::string expected) const;
-  /// The same of something found in it, such as a wrong number of elements.
+  /// As above, for something found inside the value, such as a wrong number of elements.
   void report(std::string_view found, ProblemKind kind, std::string expected) const {
     problems_->add(pointer(), found, kind, std::move(expected));
   }

@@ -55,7 +55,7 @@ inline Truth both_hold(Truth a, Truth b) {
 }
 inline Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
 
-/// Of the condition of an #if.
+/// Evaluates the condition of an #if.
 [[nodiscard]] Truth truth_of(std::string_view condition,
                              std::function<bool(const std::string& name)> is_enabled,
                              std::function<bool(const std::string& name)> is_defined);

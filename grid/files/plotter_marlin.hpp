@@ -24,7 +24,7 @@ inline constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
 /// The settings of most controllers do not say what hangs on the cords.
 void warn_of_gondola(const model::PlotterMachine& machine, Problems& problems);
 
-/// Of M665 and M92 in a log, or of a Configuration.h.
+/// Reads M665 and M92 from a log, or the settings from a Configuration.h.
 [[nodiscard]] SetPlotter plotter_of_marlin(const std::string& text, Problems& problems);
 
 }  // namespace chaintrue::grid::files

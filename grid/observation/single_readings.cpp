@@ -57,7 +57,7 @@ struct ReadingKind {
   std::string_view name;
   /// Puts a reading into the machine; null for what its settings predict.
   void (*take)(Machine&, const ExtraReading&);
-  /// Null: no machine predicts it.
+  /// Predicts the reading; null if no machine can.
   double (*predict)(const Machine&, const ExtraReading&);
 };
 

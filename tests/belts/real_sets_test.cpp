@@ -26,7 +26,7 @@ class RealBelts : public testing::TestWithParam<RealSet> {
  protected:
   void SetUp() override {
     const auto read = testing_support::published_readings(GetParam().file);
-    if (!read) GTEST_SKIP() << kNotHere;
+    if (!read) GTEST_SKIP() << kNotHere;  // the logs are shared data, not part of a checkout
     import_ = *read;
   }
   files::Maslow4Import import_;
@@ -64,7 +64,7 @@ TEST_P(RealBelts, TheTwoConventionsOfThePrintDifferByLessThanTheHeights) {
 
 TEST(RealBeltSets, HalfOfARebuiltFramePredictsTheOther) {
   const auto import = testing_support::published_readings("frame_rebuilt.txt");
-  if (!import) GTEST_SKIP() << kNotHere;
+  if (!import) GTEST_SKIP() << kNotHere;  // the logs are shared data, not part of a checkout
   const auto fit = fit_belts(import->belts);
   ASSERT_TRUE(fit && fit->half_left_out);
   // The other program's figure is 1.92, for one half by the other; here it is for both.
@@ -73,7 +73,7 @@ TEST(RealBeltSets, HalfOfARebuiltFramePredictsTheOther) {
 
 TEST(RealBeltSets, SixPlacesAreFittedWithLargeSigmas) {
   const auto import = testing_support::published_readings("clbm_2026-01.txt");
-  if (!import) GTEST_SKIP() << kNotHere;
+  if (!import) GTEST_SKIP() << kNotHere;  // the logs are shared data, not part of a checkout
   ASSERT_EQ(import->belts.points.size(), 6U);
   const auto fit = fit_belts(import->belts);
   ASSERT_TRUE(fit) << fit.error().sentence();
@@ -84,7 +84,7 @@ TEST(RealBeltSets, SixPlacesAreFittedWithLargeSigmas) {
 
 TEST(RealBeltSets, ATensionTestShowsTheStretchOfEachPull) {
   const auto import = testing_support::published_readings("tension_test.txt");
-  if (!import) GTEST_SKIP() << kNotHere;
+  if (!import) GTEST_SKIP() << kNotHere;  // the logs are shared data, not part of a checkout
   EXPECT_EQ(import->belts.points.size(), 8U);
   EXPECT_EQ(import->warnings.size(), 2U);  // the lines in brackets, and too few places for a fit
   const auto fit = fit_belts(import->belts);

@@ -29,7 +29,7 @@ class Option;
 
 namespace chaintrue::cli {
 
-/// Of a command line: all of them, or those given for an option.
+/// Words of a command line: all of them, or those given for one option.
 using Words = std::vector<std::string>;
 
 /// The command's exit codes, on which scripts may rely.

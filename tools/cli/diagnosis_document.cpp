@@ -134,7 +134,7 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& s
   add(kOpen, !found.next_measurements.empty(), next_section);
   add(kFoldedOnPage, has_readings, residuals_section);
   add(kFolded, !found.hypotheses.empty(), probabilities_section);
-  // Folded as the section decides.
+  // The section itself decides whether it is folded.
   add(kOpenOnPage, found.stability.has_value(), stability_section);
   add(kFolded, found.drawing.has_value(), drawn_measures_section);
   add(kFolded, !found.settings.empty(), settings_section);

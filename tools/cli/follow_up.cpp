@@ -30,7 +30,7 @@ bool gives_commands(const MeasuredGrid& measured) {
   return !measured.points.empty() && !measured.points.front().lengths;
 }
 
-/// Below what to do with them; nothing without any.
+/// The lines as JSON after a heading that says what to do with them; empty if there are none.
 std::string json_lines(const std::string& what_to_do, const std::vector<Fields>& lines) {
   std::string text = lines.empty() ? "" : what_to_do;
   for (const auto& fields : lines) text += "  " + json_of(fields) + ",\n";

@@ -63,7 +63,7 @@ struct GcodeOptions {
 /// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
-/// Of --map; reports a scale that is unknown. \throws InputError for a bad file.
+/// Opens the file given as --map and warns if its scale is unknown. \throws InputError for a bad file.
 [[nodiscard]] Target open_target(const GcodeOptions& options);
 
 /// How the machine's controller executes a program.

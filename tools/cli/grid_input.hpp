@@ -70,7 +70,7 @@ struct ReadingCounts {
   std::size_t distances = 0;
   std::size_t holes = 0;
 };
-/// Of all files.
+/// Counts the readings of all files together.
 [[nodiscard]] ReadingCounts counts_of(const grid::Measured& measured);
 
 /// The file, and those of --with.

@@ -74,8 +74,8 @@ inline constexpr double kMostToCutWithMm = 3.0;
 /// compensate and export accept such a map only with --force.
 [[nodiscard]] std::string not_to_cut_with(const CompensationMap& map);
 
-/// Unless it is empty or the user forces it, reports the reason `why` against using a result, and how
-/// to use it anyway. \throws Failed
+/// Refuses a result for the reason `why` and explains how to use it anyway; does nothing if `why` is
+/// empty or the user forces it. \throws Failed
 void require_fit_for_cutting(const std::string& why, bool is_forced);
 
 /// Rms and maximum of `size_of` over all that are not bad.

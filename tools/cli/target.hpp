@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// What points are asked of and programs are made for: a compensation map, the anchors of four
-/// belts, or the V-plotter that a test drawing found. Verbs ask `lengths` and know no more; what
-/// only one of the three has is in `content`.
+/// belts, or the V-plotter that a test drawing found. Verbs ask `lengths`; `content` holds
+/// what only one of the three has.
 ///
 /// \code
 ///   const Target target = open_target(open_target_file(command.map), command.frame);

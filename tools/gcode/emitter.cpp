@@ -113,7 +113,7 @@ Emitter::Emitter(ByteSink out, int decimals, bool semicolons)
 
 std::int64_t Emitter::rounded(double value_mm) const { return std::llround(value_mm * per_mm_); }
 
-/// Of units of the last decimal.
+/// Formats a count of units of the last decimal.
 std::string Emitter::number(std::int64_t count) const {
   std::string digits = fmt::format("{:0{}}", std::abs(count), decimals_ + 1);
   digits.insert(digits.size() - static_cast<std::size_t>(decimals_), 1, '.');

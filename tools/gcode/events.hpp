@@ -24,7 +24,7 @@ struct Point {
   double y_mm = 0.0;
   double z_mm = 0.0;
   friend bool operator==(const Point&, const Point&) = default;
-  /// Without its height.
+  /// Drops the height.
   operator model::BedPoint() const { return {x_mm, y_mm}; }
 };
 
@@ -50,7 +50,7 @@ struct Arc {
   /// Signed count of started turns, as in the G-code: G2 -1, G3 P2 +2.
   int turns = 0;
 
-  /// Of G18 or G19.
+  /// True for the planes of G18 and G19.
   [[nodiscard]] bool is_upright() const { return first.z_mm != 0.0 || second.z_mm != 0.0; }
 };
 

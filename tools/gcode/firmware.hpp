@@ -103,7 +103,7 @@ struct Firmware {
 /// (model/belts/belt_controller.hpp).
 [[nodiscard]] const Firmware& firmware_of_four_belts();
 
-/// That of a V-plotter.
+/// The firmware of a V-plotter.
 [[nodiscard]] const Firmware& firmware(model::PlotterFirmware plotter);
 
 /// Whether it interpolates chain lengths, in pieces of a command.

@@ -44,7 +44,7 @@ struct Dialect {
 /// X, Y, Z in mm, A, B, C in degrees.
 using Axes = std::array<double, 6>;
 
-/// Of a coordinate system about Z: cosine and sine.
+/// Rotation of a coordinate system about Z: cosine and sine.
 using Turn = std::complex<double>;
 
 class Interpreter {
@@ -174,7 +174,7 @@ class Interpreter {
   [[nodiscard]] std::string system_name() const;
   /// In the program's units.
   [[nodiscard]] Axes position() const;
-  /// Of a predefined name (#<_x> ..).
+  /// Value of a predefined name (#<_x> ..).
   [[nodiscard]] std::optional<double> state(std::string_view name) const;
 
   Dialect dialect_;

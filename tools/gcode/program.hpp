@@ -64,7 +64,7 @@ class Program {
   void follow_block();
   void end_of_file();
   void end(std::size_t line, std::string_view word);
-  /// Zero at the end.
+  /// The character at this position; zero at the end of the line.
   [[nodiscard]] char peek(std::size_t at) const { return line_.text[at]; }
 
   Block block_;

@@ -29,7 +29,7 @@ struct Outline {
   [[nodiscard]] double width_mm() const { return x_max_mm - x_min_mm; }
   [[nodiscard]] double height_mm() const { return y_max_mm - y_min_mm; }
   void include(double x_mm, double y_mm);
-  /// With a margin on every side.
+  /// Returns the outline with a margin added on every side.
   [[nodiscard]] Outline widened(double margin_mm) const;
   /// \throws std::invalid_argument for one without an extent.
   void require_extent() const;

@@ -13,7 +13,7 @@
 namespace chaintrue::report {
 
 using Replacement = std::pair<std::string_view, std::string_view>;
-/// Every occurrence of the first by the second, for one replacement after the other.
+/// Replaces every occurrence of each pair's first text by its second, one pair after the other.
 [[nodiscard]] std::string replaced(std::string text,
                                    std::initializer_list<Replacement> replacements);
 [[nodiscard]] std::string capitalised(std::string text);

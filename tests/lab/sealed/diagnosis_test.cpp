@@ -143,7 +143,7 @@ TEST(Traps, ABadSettingIsNamedAsASetting) {
   }
 }
 
-/// Of random visits, without a cause.
+/// The usual size of patterns over random visits, with no cause acting.
 auto yardstick_of(std::uint64_t seed) {
   const auto blank = posed({}, Order::random, seed);
   return generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
