@@ -16,8 +16,11 @@ struct SetOfCauses {
   double probability = 0.0;
 };
 
-/// The decision for these sets, each together with a pattern, with every cause in its own class.
-Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
+/// The decision for these sets, each together with a pattern or without, with every cause in its own class.
+Decision decided(const std::vector<SetOfCauses>& sets,
+                 std::size_t causes,
+                 bool detected = true,
+                 int discrepancy = 0) {
   RegressorSystem system;
   std::vector<CauseClass> classes;
   for (std::size_t k = 0; k < causes; ++k) {
@@ -32,11 +35,11 @@ Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
   for (const SetOfCauses& own : sets) {
     CandidateModel model;
     model.regressors = own.causes;
-    model.discrepancy = 0;
+    model.discrepancy = discrepancy;
     model.log_weight = std::log(own.probability);
     comparison.models.push_back(model);
   }
-  return decide(system, comparison, {}, true, classes);
+  return decide(system, comparison, {}, detected, classes);
 }
 
 TEST(Decision, FitsTheNamedCause) {
@@ -52,6 +55,14 @@ TEST(Decision, FitsANamedCauseWithoutItsPartners) {
   ASSERT_EQ(found.verdict, Verdict::named);
   EXPECT_EQ(found.listed, std::vector<std::size_t>{1});
   EXPECT_EQ(found.regressors, std::vector<int>{1});
+}
+
+TEST(Decision, NamesNothingThatNoiseCouldMake) {
+  const std::vector<SetOfCauses> likely = {{{0}, 0.98}, {{}, 0.02}};
+  EXPECT_EQ(decided(likely, 2, true, -1).verdict, Verdict::named);
+  const Decision within_noise = decided(likely, 2, false, -1);
+  EXPECT_NE(within_noise.verdict, Verdict::named);
+  EXPECT_TRUE(within_noise.listed.empty());
 }
 
 }  // namespace

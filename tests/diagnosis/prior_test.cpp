@@ -13,6 +13,7 @@
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/effects/catalogue.hpp"
+#include "sessions.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -100,6 +101,25 @@ TEST(Prior, APatternMakesNoCauseOfBeltsLikelier) {
     // Rounding of logarithms.
     EXPECT_NEAR(prior_of(system, {k}, true) / prior_of(system, {}, true), odds, 1e-12 * odds) << k;
   }
+}
+
+// A chain skips forwards as often as backwards, and the sign does not change how well it shows.
+TEST(Prior, LinksAddedAreAsLikelyAsLinksLost) {
+  const Analysis analysis = testing_support::analysis_of(testing_support::session_of({}, 11));
+  const std::vector<Regressor>& regressors = analysis.system.regressors;
+  int pairs = 0;
+  for (const Regressor& lost : regressors) {
+    if (!lost.fixed || lost.values.front() >= 0.0) continue;
+    const auto added = std::find_if(regressors.begin(), regressors.end(), [&](const Regressor& other) {
+      return other.cause == lost.cause && other.values.front() == -lost.values.front() &&
+             std::equal(other.values.begin() + 1, other.values.end(), lost.values.begin() + 1);
+    });
+    ASSERT_NE(added, regressors.end()) << lost.cause.effect->id;
+    // The curvature of a chain's length over six millimetres.
+    EXPECT_NEAR(lost.log_prior, added->log_prior, 0.05) << lost.cause.effect->id;
+    ++pairs;
+  }
+  EXPECT_GT(pairs, 20);
 }
 
 }  // namespace

@@ -103,6 +103,18 @@ TEST(CorrectedData, ReportEffectsThatNeedTheOrder) {
   EXPECT_EQ(corrected->grid.points[3].lengths->left_mm, measured.grid.points[3].lengths->left_mm);
 }
 
+// docs/effects.md: what a tape reads over the true distance is 1 + scale; its zero offset is no part of it.
+TEST(CorrectedData, ATapeThatReadsLongIsShortened) {
+  MeasuredHoles set;
+  set.machine = machine_with({{{"tape_scale", "both", {{"scale", 0.001}}}}});
+  set.tape.tape_zero_offset_mm = 100.0;
+  set.distances.resize(1);
+  set.distances[0].distance_mm = 100.0 + 2002.0;
+  const MeasuredHoles corrected = with_true_tape(set);
+  EXPECT_NEAR(corrected.distances[0].distance_mm, 100.0 + 2000.0, 1e-9);  // rounding of 2 m
+  EXPECT_TRUE(corrected.machine->effects.empty());
+}
+
 // The map of a machine with stated drift, skip and hysteresis equals that of one without.
 TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
   const auto disturbed = session(machine_with({kOfThePaper, kOfTheMachine, kOfTheVisit}));
