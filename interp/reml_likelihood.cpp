@@ -93,6 +93,7 @@ void Likelihood::turn_rows() {
   // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R. It is orthonormal
   // to rounding even where g is at rounding level, and it spans the directions that no row reaches.
   to_ridge_ = linear::product(linear::transposed(f), q);
+  to_ridge_.rightCols(all.rows() - rank).setZero();
   basis_ = linear::qr(to_ridge_.leftCols(rank)).q;
   const Eigen::MatrixXd rest = linear::product(linear::transposed(q), all.rightCols(p + 1));
   rows_ = rest.leftCols(p);

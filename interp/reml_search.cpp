@@ -230,7 +230,7 @@ tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood) {
       break;
     }
   }
-  return SearchResult{limits, std::move(here.state), std::move(here.derivatives)};
+  return SearchResult{limits, std::move(here.state), here.derivatives};
 }
 
 std::vector<Likelihood::Node> posterior_nodes(const Likelihood& likelihood,

@@ -5,6 +5,16 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <Eigen/LU>
+
+// A point is evaluated with AVX2 where the processor has it; contraction to fused multiply-add is off,
+// so both ways give the same bits.
+#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define CHAINTRUE_CLONES [[gnu::target_clones("avx2", "default")]]
+#else
+#define CHAINTRUE_CLONES
+#endif
+
 namespace chaintrue::interp {
 namespace {
 
@@ -79,7 +89,7 @@ SplinePair::SplinePair(const TensorSpline& first, const TensorSpline& second)
   }
 }
 
-double SplinePair::Axis::locate(double x, std::ptrdiff_t& index) const {
+inline double SplinePair::Axis::locate(double x, std::ptrdiff_t& index) const {
   // One maximum, one minimum: nested conditionals become branches, which are mispredicted near the
   // edges of a small table.
   const double guess = (x - first) * per_mean_length;
@@ -93,7 +103,7 @@ double SplinePair::Axis::locate(double x, std::ptrdiff_t& index) const {
   return (x - interval[index].low) * interval[index].per_length;
 }
 
-PairGradient SplinePair::at(double x, double y) const {
+CHAINTRUE_CLONES PairGradient SplinePair::at(double x, double y) const {
   std::ptrdiff_t i = 0;
   std::ptrdiff_t j = 0;
   const double u = x_.locate(x, i);
