@@ -12,28 +12,22 @@ namespace {
 
 using Four = std::array<double, 4>;
 
-// The four B-splines over one cell at t in [0, 1] and their derivatives with respect to t.
-Four values(double t) {
-  const double s = 1.0 - t;
-  return {s * s * s / 6.0,
-          (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
-          (1.0 + 3.0 * t * (1.0 + t * s)) / 6.0,
-          t * t * t / 6.0};
+// The derivative of that order (0 to 3) with respect to t of the four B-splines over one cell, at t in
+// [0, 1]: de Boor's recurrence on unit knots raises the degree to 3 - order, and each derivative is a
+// difference of two splines one degree lower.
+Four splines(double t, int order) {
+  Four b = {1.0};
+  for (std::size_t degree = 1; degree <= 3; ++degree) {
+    const auto d = static_cast<double>(degree);
+    const bool raises = static_cast<int>(degree) + order <= 3;
+    for (std::size_t r = degree + 1; r-- > 0;) {
+      const double left = r > 0 ? b[r - 1] : 0.0;
+      const auto at = static_cast<double>(r);
+      b[r] = raises ? ((t + d - at) * left + (at + 1.0 - t) * b[r]) / d : left - b[r];
+    }
+  }
+  return b;
 }
-
-Four first_derivatives(double t) {
-  const double s = 1.0 - t;
-  return {-s * s / 2.0, t * (3.0 * t - 4.0) / 2.0, (1.0 + t * (2.0 - 3.0 * t)) / 2.0, t * t / 2.0};
-}
-
-Four second_derivatives(double t) {
-  const double s = 1.0 - t;
-  return {s, 3.0 * t - 2.0, 1.0 - 3.0 * t, t};
-}
-
-Four third_derivatives(double /*t*/) { return {-1.0, 3.0, -3.0, 1.0}; }
-
-using Derivative = Four (*)(double);
 
 struct AxisSupport {
   Eigen::Index first;
@@ -47,7 +41,7 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
   const double inside = std::clamp(u, 0.0, cells);
   const double cell = std::min(std::floor(inside), cells - 1.0);
   AxisSupport result{
-      static_cast<Eigen::Index>(cell), values(inside - cell), first_derivatives(inside - cell)};
+      static_cast<Eigen::Index>(cell), splines(inside - cell, 0), splines(inside - cell, 1)};
   const double beyond = u - inside;
   for (std::size_t i = 0; i < 4; ++i) {
     result.value[i] += beyond * result.slope[i];
@@ -58,14 +52,14 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
 
 // Integral over the axis of the product of two functions' derivatives of one order, for all pairs.
 // Products of cubics have degree six at most: four Gauss points are exact.
-Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, Derivative derivative, int order) {
+Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, int order) {
   constexpr std::array<double, 4> kNode = {
       0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
   constexpr std::array<double, 4> kWeight = {
       0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
   Eigen::Matrix4d cell = Eigen::Matrix4d::Zero();
   for (std::size_t g = 0; g < 4; ++g) {
-    const Four b = derivative(kNode[g]);
+    const Four b = splines(kNode[g], order);
     const Eigen::Map<const Eigen::Vector4d> v(b.data());
     cell += kWeight[g] * v * v.transpose();
   }
@@ -154,17 +148,13 @@ Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
     throw std::invalid_argument(
         fmt::format("a bending penalty of order {}; known are 2 and 3", order));
   }
-  constexpr std::array<Derivative, 4> kDerivatives = {
-      values, first_derivatives, second_derivatives, third_derivatives};
   Eigen::MatrixXd penalty = Eigen::MatrixXd::Zero(size(), size());
   double binomial = 1.0;
   for (int in_y = 0; in_y <= order; ++in_y) {
-    const int in_x = order - in_y;
-    add_kronecker(
-        penalty,
-        binomial,
-        axis_gram(columns_y_, step_y_, kDerivatives[static_cast<std::size_t>(in_y)], in_y),
-        axis_gram(columns_x_, step_x_, kDerivatives[static_cast<std::size_t>(in_x)], in_x));
+    add_kronecker(penalty,
+                  binomial,
+                  axis_gram(columns_y_, step_y_, in_y),
+                  axis_gram(columns_x_, step_x_, order - in_y));
     binomial *= static_cast<double>(order - in_y) / (in_y + 1);
   }
   return penalty;

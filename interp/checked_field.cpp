@@ -22,25 +22,28 @@ std::uint64_t key(std::int64_t column, std::int64_t row) {
          (static_cast<std::uint64_t>(row) & 0xFFFFFFFFU);
 }
 
-double size(const Value& value) { return std::hypot(value[0], value[1]); }
+/// One component at the sixteen nodes around a cell, (x, y).
+using Nodes = Eigen::Matrix4d;
 
-/// Powers of t of the cubic through values at -1, 0, 1 and 2.
-std::array<double, 4> cubic(double a, double b, double c, double d) {
-  return {b,
-          c - a / 3.0 - b / 2.0 - d / 6.0,
-          (a + c) / 2.0 - b,
-          (d - a) / 6.0 + (b - c) / 2.0};
+/// The largest length of what `of` makes of the components, at any place.
+template <class Of>
+double largest(const std::array<Nodes, 2>& nodes, Of of) {
+  return std::sqrt((of(nodes[0]).cwiseAbs2() + of(nodes[1]).cwiseAbs2()).maxCoeff());
 }
 
-Value polynomial(const std::array<double, 32>& powers, double u, double v) {
-  Value sum{};
-  for (std::size_t i = 4; i-- > 0;) {
-    const double* const row = powers.data() + 8 * i;
-    for (std::size_t k = 0; k < 2; ++k) {
-      sum[k] = sum[k] * u + (((row[6 + k] * v + row[4 + k]) * v + row[2 + k]) * v + row[k]);
-    }
-  }
-  return sum;
+/// Largest second derivative along any direction, times the spacing squared.
+double curvature_of(const std::array<Nodes, 2>& nodes) {
+  const double along_x = largest(nodes, [](const Nodes& f) -> Eigen::Matrix<double, 2, 4> {
+    return f.topRows<2>() - 2.0 * f.middleRows<2>(1) + f.bottomRows<2>();
+  });
+  const double along_y = largest(nodes, [](const Nodes& f) -> Eigen::Matrix<double, 4, 2> {
+    return f.leftCols<2>() - 2.0 * f.middleCols<2>(1) + f.rightCols<2>();
+  });
+  const double mixed = largest(nodes, [](const Nodes& f) -> Eigen::Matrix3d {
+    return f.topLeftCorner<3, 3>() - f.topRightCorner<3, 3>() - f.bottomLeftCorner<3, 3>() +
+           f.bottomRightCorner<3, 3>();
+  });
+  return std::sqrt(along_x * along_x + along_y * along_y + 2.0 * mixed * mixed);
 }
 
 }  // namespace
@@ -64,7 +67,7 @@ std::optional<Value> CheckedField::value(double x, double y) {
     ++left_;
     return std::nullopt;
   }
-  return polynomial(found.cell->powers, found.u, found.v);
+  return found.cell->polynomial.at(found.u, found.v, 1.0, 1.0).value;
 }
 
 double CheckedField::curvature(double x, double y) {
@@ -107,10 +110,10 @@ std::optional<Value> CheckedField::evaluate(double x, double y) {
   return function_(x, y);
 }
 
-std::optional<CheckedField::Nodes> CheckedField::nodes_around(Level& level,
-                                                              std::int64_t column,
-                                                              std::int64_t row) {
-  Nodes nodes;
+std::optional<std::array<Nodes, 2>> CheckedField::nodes_around(Level& level,
+                                                               std::int64_t column,
+                                                               std::int64_t row) {
+  std::array<Nodes, 2> nodes;
   bool known = true;
   for (std::int64_t k = 0; k < 4; ++k) {
     for (std::int64_t i = 0; i < 4; ++i) {
@@ -122,56 +125,27 @@ std::optional<CheckedField::Nodes> CheckedField::nodes_around(Level& level,
                                  static_cast<double>(y) * level.spacing);
       }
       known = known && place->second;
-      nodes[static_cast<std::size_t>(4 * k + i)] = place->second.value_or(Value{});
+      const Value value = place->second.value_or(Value{});
+      for (std::size_t z = 0; z < 2; ++z) nodes[z](i, k) = value[z];
     }
   }
   return known ? std::optional(nodes) : std::nullopt;
 }
 
 void CheckedField::fill(Level& level, Cell& cell, std::int64_t column, std::int64_t row) {
+  static const Eigen::Matrix4d kToPowers = powers_through({-1.0, 0.0, 1.0, 2.0});
   cell.state = State::given_up;
   const auto nodes = nodes_around(level, column, row);
   if (!nodes) return;
-  const auto at = [&](std::size_t i, std::size_t k) -> const Value& {
-    return (*nodes)[4 * k + i];
-  };
-  for (std::size_t z = 0; z < 2; ++z) {
-    std::array<std::array<double, 4>, 4> along;  // powers of u of each row
-    for (std::size_t k = 0; k < 4; ++k) {
-      along[k] = cubic(at(0, k)[z], at(1, k)[z], at(2, k)[z], at(3, k)[z]);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto up = cubic(along[0][i], along[1][i], along[2][i], along[3][i]);
-      for (std::size_t j = 0; j < 4; ++j) cell.powers[8 * i + 2 * j + z] = up[j];
-    }
-  }
-  const auto difference = [](const Value& a, const Value& b) {
-    return Value{a[0] - b[0], a[1] - b[1]};
-  };
-  double along = 0.0;
-  double up = 0.0;
-  double mixed = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto second = [&](const Value& before, const Value& after) {
-        return size(difference(difference(after, at(i, k)), difference(at(i, k), before)));
-      };
-      if (i >= 1 && i <= 2) along = std::max(along, second(at(i - 1, k), at(i + 1, k)));
-      if (k >= 1 && k <= 2) up = std::max(up, second(at(i, k - 1), at(i, k + 1)));
-      if (i < 3 && k < 3) {
-        mixed = std::max(mixed,
-                         size(difference(difference(at(i + 1, k + 1), at(i, k + 1)),
-                                         difference(at(i + 1, k), at(i, k)))));
-      }
-    }
-  }
-  cell.curvature = std::sqrt(along * along + up * up + 2.0 * mixed * mixed) /
-                   (level.spacing * level.spacing);
+  for (std::size_t z = 0; z < 2; ++z)
+    cell.polynomial.set(z, kToPowers * (*nodes)[z] * kToPowers.transpose());
+  cell.curvature = curvature_of(*nodes) / (level.spacing * level.spacing);
   for (const auto& look : kLook) {
     const auto exact = evaluate((static_cast<double>(column) + look[0]) * level.spacing,
                                 (static_cast<double>(row) + look[1]) * level.spacing);
     if (!exact) return;
-    const double error = size(difference(polynomial(cell.powers, look[0], look[1]), *exact));
+    const Value found = cell.polynomial.at(look[0], look[1], 1.0, 1.0).value;
+    const double error = std::hypot(found[0] - (*exact)[0], found[1] - (*exact)[1]);
     if (!(kErrorSafety * error <= options_.bound)) return;
   }
   cell.state = State::interpolates;

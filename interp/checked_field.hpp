@@ -21,6 +21,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "interp/pair_polynomial.hpp"
+
 namespace chaintrue::interp {
 
 ///     CheckedField field(slow, {16.0, 1e-4});
@@ -53,9 +55,8 @@ class CheckedField {
   struct Cell {
     State state = State::fresh;
     double curvature = 0.0;
-    std::array<double, 32> powers{};  // of u^i v^j in value k at 8 i + 2 j + k
+    PairPolynomial polynomial;
   };
-  using Nodes = std::array<Value, 16>;
   struct Level {
     double spacing;
     std::unordered_map<std::uint64_t, std::optional<Value>> nodes;
@@ -73,7 +74,10 @@ class CheckedField {
   Found find(double x, double y);
   [[nodiscard]] bool may_fill() const;
   void fill(Level& level, Cell& cell, std::int64_t column, std::int64_t row);
-  std::optional<Nodes> nodes_around(Level& level, std::int64_t column, std::int64_t row);
+  /// Each component at the sixteen nodes around a cell, (x, y).
+  std::optional<std::array<Eigen::Matrix4d, 2>> nodes_around(Level& level,
+                                                             std::int64_t column,
+                                                             std::int64_t row);
   std::optional<Value> evaluate(double x, double y);
 
   Function function_;

@@ -9,7 +9,6 @@
 #include "interp/measured_region.hpp"
 #include "interp/missing_nodes.hpp"
 #include "interp/planner_nodes.hpp"
-#include "interp/quintic_spline.hpp"
 #include "interp/reml.hpp"
 #include "interp/spline_axis.hpp"
 #include "interp/spline_pair.hpp"

@@ -10,7 +10,6 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -124,40 +123,24 @@ MatrixXd Cholesky::root_of_inverse() const {
 }
 double Cholesky::log_det() const { return 2.0 * lower_.diagonal().array().log().sum(); }
 
-PivotedCholesky::PivotedCholesky(const MatrixXd& matrix) {
-  const Eigen::LDLT<MatrixXd> ldlt(matrix);
-  triangle_ = ldlt.matrixLDLT();
-  exchanged_ = ldlt.transpositionsP();
-}
+PivotedCholesky::PivotedCholesky(const MatrixXd& matrix)
+    : factor_(std::make_shared<const Eigen::LDLT<MatrixXd>>(matrix)) {}
 
-MatrixXd PivotedCholesky::solved(const MatrixXd& b) const {
-  MatrixXd x = exchanged_ * b;
-  const auto l = triangle_.triangularView<Eigen::UnitLower>();
-  l.solveInPlace(x);
-  for (Eigen::Index k = 0; k < x.rows(); ++k) {
-    const double own = triangle_(k, k);
-    if (std::abs(own) > std::numeric_limits<double>::min()) {
-      x.row(k) /= own;
-    } else {
-      x.row(k).setZero();
-    }
-  }
-  l.adjoint().solveInPlace(x);
-  return exchanged_.transpose() * x;
-}
+MatrixXd PivotedCholesky::solved(const MatrixXd& b) const { return factor_->solve(b); }
 MatrixXd PivotedCholesky::inverse() const {
-  return solved(MatrixXd::Identity(triangle_.rows(), triangle_.rows()));
+  return solved(MatrixXd::Identity(factor_->rows(), factor_->rows()));
 }
 
 MatrixXd PivotedCholesky::root(double least) const {
+  const VectorXd pivots = factor_->vectorD();
   std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < triangle_.rows(); ++k) {
-    if (triangle_(k, k) > least) columns.push_back(k);
+  for (Eigen::Index k = 0; k < pivots.size(); ++k) {
+    if (pivots[k] > least) columns.push_back(k);
   }
-  const MatrixXd lower = triangle_.triangularView<Eigen::UnitLower>();
-  const VectorXd scale = triangle_.diagonal()(columns).cwiseSqrt();
+  const MatrixXd lower = factor_->matrixL();
+  const VectorXd scale = pivots(columns).cwiseSqrt();
   const MatrixXd kept = lower(Eigen::all, columns);
-  return exchanged_.transpose() * scaled_columns(kept, scale);
+  return factor_->transpositionsP().transpose() * scaled_columns(kept, scale);
 }
 
 SymmetricEigen::SymmetricEigen(const MatrixXd& matrix) {

@@ -14,6 +14,8 @@
 /// rows or columns. Deterministic: same processor, same bytes, from any number of threads.
 #pragma once
 
+#include <memory>
+
 #include <Eigen/Core>
 
 namespace chaintrue::linear {
@@ -140,8 +142,7 @@ class PivotedCholesky {
  private:
   [[nodiscard]] Eigen::MatrixXd solved(const Eigen::MatrixXd& b) const;
 
-  Eigen::MatrixXd triangle_;  ///< L below the diagonal, D on it
-  Eigen::Transpositions<Eigen::Dynamic> exchanged_;
+  std::shared_ptr<const Eigen::LDLT<Eigen::MatrixXd>> factor_;
 };
 
 /// M = V diag(values) V' of a symmetric matrix, from its lower triangle; values ascending, the columns

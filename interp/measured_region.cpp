@@ -14,36 +14,20 @@ double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-// The tangent plane at the nearest measured point, continued along `near.direction`.
-ValueGradient linear(const Surface& surface, const NearestPoint& near) {
-  const ValueGradient z = surface.at(near.point.x, near.point.y);
-  const PlanePoint& n = near.direction;
-  const double outward = n.x * z.dx + n.y * z.dy;
-  ValueGradient result{z.value + near.distance * outward, z.dx, z.dy};
-  if (near.on_edge) {
-    // The foot point moves along the edge: d/dt (n . grad) by a central difference.
-    const Rectangle domain = surface.domain();
-    const double step = 1e-4 * std::max(domain.width(), domain.height());
-    const PlanePoint t{-n.y, n.x};
-    const auto outward_at = [&](double s) {
-      const ValueGradient neighbour = surface.at(near.point.x + s * t.x, near.point.y + s * t.y);
-      return n.x * neighbour.dx + n.y * neighbour.dy;
-    };
-    const double turn = near.distance * (outward_at(step) - outward_at(-step)) / (2.0 * step);
-    result.dx += turn * t.x;
-    result.dy += turn * t.y;
-  }
-  return result;
+double along(const PlanePoint& direction, const ValueGradient& z) {
+  return direction.x * z.dx + direction.y * z.dy;
 }
 
-ValueGradient clamped(const Surface& surface, const NearestPoint& near) {
-  const ValueGradient z = surface.at(near.point.x, near.point.y);
-  if (!near.on_edge) {
-    return {z.value, 0.0, 0.0};
-  }
-  const PlanePoint t{-near.direction.y, near.direction.x};
-  const double along = t.x * z.dx + t.y * z.dy;
-  return {z.value, along * t.x, along * t.y};
+// How much the slope along near.direction changes with the foot point's way along the edge, by a
+// central difference.
+double turn(const Surface& surface, const NearestPoint& near, const PlanePoint& tangent) {
+  const Rectangle domain = surface.domain();
+  const double step = 1e-4 * std::max(domain.width(), domain.height());
+  const auto outward_at = [&](double s) {
+    return along(near.direction,
+                 surface.at(near.point.x + s * tangent.x, near.point.y + s * tangent.y));
+  };
+  return (outward_at(step) - outward_at(-step)) / (2.0 * step);
 }
 
 }  // namespace
@@ -140,15 +124,24 @@ ValueGradient evaluate(const Surface& surface,
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return {};
   const NearestPoint near = hull.nearest(at.x, at.y);
   if (near.distance == 0.0) return surface.at(at.x, at.y);
-  if (policy.outside == OutsidePolicy::clamp) return clamped(surface, near);
-  const ValueGradient z = linear(surface, near);
-  if (policy.outside == OutsidePolicy::linear) return z;
+  const bool is_clamped = policy.outside == OutsidePolicy::clamp;
+  const PlanePoint& n = near.direction;
+  const PlanePoint t{-n.y, n.x};
+  const ValueGradient foot = surface.at(near.point.x, near.point.y);
+  const double outward = is_clamped ? 0.0 : along(n, foot);
+  // From a corner the foot does not move: the direction turns instead.
+  double across = is_clamped && !near.on_edge ? 0.0 : along(t, foot);
+  if (!is_clamped && near.on_edge) across += near.distance * turn(surface, near, t);
+  const ValueGradient z{foot.value + near.distance * outward,
+                        outward * n.x + across * t.x,
+                        outward * n.y + across * t.y};
+  if (policy.outside != OutsidePolicy::fade) return z;
   const double s = std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
   const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
   const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
   return {weight * z.value,
-          weight * z.dx + fall * near.direction.x * z.value,
-          weight * z.dy + fall * near.direction.y * z.value};
+          weight * z.dx + fall * n.x * z.value,
+          weight * z.dy + fall * n.y * z.value};
 }
 
 }  // namespace chaintrue::interp

@@ -12,16 +12,11 @@
 namespace chaintrue::interp {
 namespace {
 
-/// Value at a hole from the spline along one line: weights of the line's nodes, zero at its holes.
-struct LineFill {
-  Eigen::VectorXd weights;
-  double value;
-  std::size_t present;
-};
-
-std::optional<LineFill> along(const std::vector<double>& nodes,
-                              const Eigen::VectorXd& line,
-                              double at) {
+/// The spline along one line at a hole as weights on the line's nodes, zero at its holes. Empty with
+/// fewer than three present nodes.
+std::optional<Eigen::VectorXd> along(const std::vector<double>& nodes,
+                                     const Eigen::VectorXd& line,
+                                     double at) {
   std::vector<double> x;
   std::vector<Eigen::Index> present;
   for (Eigen::Index i = 0; i < line.size(); ++i) {
@@ -30,29 +25,10 @@ std::optional<LineFill> along(const std::vector<double>& nodes,
       present.push_back(i);
     }
   }
-  if (x.size() < 3) {
-    return std::nullopt;
-  }
-  LineFill fill{Eigen::VectorXd::Zero(line.size()), 0.0, x.size()};
-  fill.weights(present) = SplineAxis(x).cardinal_weights(at);
-  fill.value = fill.weights(present).dot(line(present));
-  return fill;
-}
-
-/// R C f of (1); empty if a node that it needs is missing.
-std::optional<double> across(const Eigen::Ref<const Eigen::MatrixXd>& values,
-                             const LineFill& row,
-                             const LineFill& column) {
-  double sum = 0.0;
-  for (Eigen::Index iy = 0; iy < values.cols(); ++iy) {
-    for (Eigen::Index ix = 0; ix < values.rows(); ++ix) {
-      const double weight = row.weights(ix) * column.weights(iy);
-      if (weight == 0.0) continue;
-      if (std::isnan(values(ix, iy))) return std::nullopt;
-      sum += weight * values(ix, iy);
-    }
-  }
-  return sum;
+  if (x.size() < 3) return std::nullopt;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(line.size());
+  weights(present) = SplineAxis(x).cardinal_weights(at);
+  return weights;
 }
 
 }  // namespace
@@ -69,24 +45,27 @@ std::optional<FilledGrid> fill_missing(const std::vector<double>& x_nodes,
                                             y_nodes.size()));
   }
   FilledGrid result{values, {}};
+  const auto is_hole = values.array().isNaN();
+  const Eigen::MatrixXd holes = is_hole.cast<double>();
+  const Eigen::MatrixXd present = is_hole.select(0.0, values);
   for (Eigen::Index iy = 0; iy < values.cols(); ++iy) {
     for (Eigen::Index ix = 0; ix < values.rows(); ++ix) {
-      if (!std::isnan(values(ix, iy))) {
-        continue;
-      }
+      if (holes(ix, iy) == 0.0) continue;
       const auto row = along(x_nodes, values.col(iy), x_nodes[static_cast<std::size_t>(ix)]);
       const auto column =
           along(y_nodes, values.row(ix).transpose(), y_nodes[static_cast<std::size_t>(iy)]);
       if (!row && !column) return std::nullopt;
-      const bool by_row = row && (!column || row->present >= column->present);
-      FilledNode node{ix, iy, by_row ? row->value : column->value, 0.0, 0.0};
+      const double by_row = row ? row->dot(present.col(iy)) : NAN;
+      const double by_column = column ? column->dot(present.row(ix)) : NAN;
+      const bool row_has_more = static_cast<double>(values.rows()) - holes.col(iy).sum() >=
+                                static_cast<double>(values.cols()) - holes.row(ix).sum();
+      FilledNode node{ix, iy, row && (!column || row_has_more) ? by_row : by_column, 0.0, 0.0};
       node.by_line = node.value;
       if (row && column) {
-        node.doubt = std::abs(row->value - column->value);
-        if (const auto both = across(values, *row, *column)) {
-          node.value = row->value + column->value - *both;
-          node.doubt =
-              std::min(std::abs(row->value - node.value), std::abs(column->value - node.value));
+        node.doubt = std::abs(by_row - by_column);
+        if (row->cwiseAbs().dot(holes * column->cwiseAbs()) == 0.0) {
+          node.value = by_row + by_column - row->dot(present * *column);
+          node.doubt = std::min(std::abs(by_row - node.value), std::abs(by_column - node.value));
         }
       }
       result.values(ix, iy) = node.value;

@@ -7,15 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "interp/linear_algebra.hpp"
 #include "interp/reml_search.hpp"
 
 namespace chaintrue::interp {
 
 PenalisedProblem::PenalisedProblem(Eigen::Index columns)
-    : gram(Eigen::MatrixXd::Zero(columns, columns)),
-      moment(Eigen::VectorXd::Zero(columns)),
-      prior_precision(gram),
-      prior_mean(moment) {}
+    : design(Eigen::MatrixXd::Zero(0, columns)),
+      prior_precision(Eigen::MatrixXd::Zero(columns, columns)),
+      prior_mean(Eigen::VectorXd::Zero(columns)) {}
 
 void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
                                 const Eigen::Ref<const Eigen::VectorXd>& y) {
@@ -26,16 +26,17 @@ void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
                                             y.size(),
                                             columns()));
   }
-  linear::add_gram(gram, 1.0, x);
-  moment.noalias() += x.transpose() * y;
-  response_square += y.squaredNorm();
+  design.conservativeResize(design.rows() + x.rows(), Eigen::NoChange);
+  design.bottomRows(x.rows()) = x;
+  response.conservativeResize(design.rows());
+  response.tail(y.size()) = y;
   rows += x.rows();
-  if (keeps_rows) {
-    design.conservativeResize(rows, columns());
-    design.bottomRows(x.rows()) = x;
-    response.conservativeResize(rows);
-    response.tail(y.size()) = y;
-  }
+}
+
+void PenalisedProblem::add_products(Eigen::Index count, const Eigen::MatrixXd& products) {
+  const Eigen::MatrixXd root = linear::PivotedCholesky(products).root(0.0).transpose();
+  add_rows(root.leftCols(columns()), root.rightCols(1));
+  rows += count - root.rows();
 }
 
 namespace {
@@ -46,18 +47,15 @@ tl::unexpected<FitFailure> rank_deficient() {
       "the points do not determine the fit: some combination of its unknowns is left free"});
 }
 
-PenalisedFit fit_at(const PenalisedProblem& problem,
-                    const reml::Likelihood& likelihood,
-                    const reml::Theta& theta,
-                    const reml::State& state) {
+PenalisedFit fit_at(const reml::Likelihood& likelihood, const reml::State& state) {
   PenalisedFit fit;
-  fit.coefficients = likelihood.to_columns(state.coefficients);
-  fit.covariance = likelihood.covariance({{theta, 1.0}}, state);
+  fit.coefficients = likelihood.coefficients(state);
+  fit.covariance = likelihood.covariance({{state.theta, 1.0}}, state);
   fit.corrected_covariance = fit.covariance;
-  fit.lambda = std::exp(theta[0]);
+  fit.lambda = state.lambda();
   fit.inverse_lambda = 1.0 / fit.lambda;
-  fit.sigma2 = std::exp(theta[1]);
-  fit.edf = fit.covariance.cwiseProduct(problem.gram).sum() / fit.sigma2;
+  fit.sigma2 = state.sigma2();
+  fit.edf = likelihood.edf(state);
   fit.minus_two_log_reml = state.value;
   return fit;
 }
@@ -74,8 +72,9 @@ tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& pro
         found.error(),
         fmt::format("the choice of smoothing did not settle in {} steps", reml::kMostSteps)});
   }
-  PenalisedFit fit = fit_at(problem, likelihood, found->theta, found->state);
-  if (options.correct_covariance && (likelihood.has_ridge() || likelihood.finds_sigma2())) {
+  PenalisedFit fit = fit_at(likelihood, found->state);
+  if (options.correct_covariance &&
+      (likelihood.has_ridge() || likelihood.noise() != NoiseKnowledge::exact)) {
     const auto nodes = reml::posterior_nodes(likelihood, *found);
     fit.corrected_covariance = likelihood.covariance(nodes, found->state);
     fit.inverse_lambda = 0.0;
@@ -91,69 +90,30 @@ tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem
     throw std::invalid_argument(
         fmt::format("a fit with lambda {} and sigma2 {}; both are positive", lambda, sigma2));
   }
-  const reml::Theta theta(std::log(lambda), std::log(sigma2));
-  // One Cholesky factor costs less than the preparation for many lambdas, if it is accurate enough.
-  const reml::Likelihood once(problem, theta);
-  if (auto state = once.evaluate(theta, reml::Order::value)) {
-    state->value -= static_cast<double>(problem.ridge.count) * theta[0];
-    return fit_at(problem, once, theta, *state);
-  }
   const reml::Likelihood likelihood(problem, SmoothingPrior::none);
-  const auto state = likelihood.evaluate(theta, reml::Order::value);
+  const auto state = likelihood.at({std::log(lambda), std::log(sigma2)});
   if (!state) return rank_deficient();
-  return fit_at(problem, likelihood, theta, *state);
+  return fit_at(likelihood, *state);
 }
-
-namespace {
-
-// The Cholesky factor of I - H_gg.
-tl::expected<linear::Cholesky, FitFailure> without_group(
-    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
-  const Eigen::Index m = spread.rows();
-  linear::Cholesky factor(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
-  // The rounding of covariance * gram is about 1e-12.
-  constexpr double kSmallestPivot = 1e-9;
-  if (!factor.is_positive_definite() ||
-      factor.lower().diagonal().array().square().minCoeff() < kSmallestPivot) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::rank_deficient,
-                                     "the other points do not determine the fit without these"});
-  }
-  return factor;
-}
-
-}  // namespace
 
 tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
     const Eigen::Ref<const Eigen::VectorXd>& residual,
     const Eigen::Ref<const Eigen::MatrixXd>& spread,
     double sigma2) {
-  if (spread.rows() != residual.size() || spread.cols() != residual.size()) {
-    throw std::invalid_argument(fmt::format("{} held-out residuals with a spread of {} x {}",
-                                            residual.size(),
-                                            spread.rows(),
-                                            spread.cols()));
+  const Eigen::Index m = residual.size();
+  if (spread.rows() != m || spread.cols() != m) {
+    throw std::invalid_argument(fmt::format(
+        "{} held-out residuals with a spread of {} x {}", m, spread.rows(), spread.cols()));
   }
-  return without_group(spread, sigma2).map([&](const linear::Cholesky& factor) {
-    return factor.solve(residual);
-  });
-}
-
-tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
-    const Eigen::Ref<const Eigen::VectorXd>& residual,
-    const Eigen::Ref<const Eigen::MatrixXd>& root,
-    double sigma2) {
-  if (root.rows() != residual.size()) {
-    throw std::invalid_argument(
-        fmt::format("{} held-out residuals with a root of {} rows", residual.size(), root.rows()));
+  const linear::Cholesky kept(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
+  // The rounding of the spread is about 1e-12.
+  constexpr double kSmallestPivot = 1e-9;
+  if (!kept.is_positive_definite() ||
+      kept.lower().diagonal().array().square().minCoeff() < kSmallestPivot) {
+    return tl::unexpected(FitFailure{FitFailure::Reason::rank_deficient,
+                                     "the other points do not determine the fit without these"});
   }
-  if (root.rows() <= root.cols()) {
-    return held_out_residual(residual, linear::outer(root), sigma2);
-  }
-  // (I - W W' / s2)^-1 = I + W (s2 I - W' W)^-1 W'; one is positive definite if and only if the
-  // other is.
-  return without_group(linear::gram(root), sigma2).map([&](const linear::Cholesky& factor) {
-    return Eigen::VectorXd(residual + root * factor.solve(root.transpose() * residual) / sigma2);
-  });
+  return kept.solve(residual);
 }
 
 }  // namespace chaintrue::interp

@@ -66,7 +66,7 @@ struct NoiseScale {
   double degrees_of_freedom = 0.0;  ///< for `from_repeats`
 };
 
-/// The data of a fit, reduced to what the fit needs: n, X'X, X'y, y'y.
+/// The data of a fit and what is known beforehand.
 ///
 ///     PenalisedProblem problem(q);
 ///     problem.add_rows(design, response);          // whitened
@@ -75,25 +75,21 @@ struct NoiseScale {
 struct PenalisedProblem {
   explicit PenalisedProblem(Eigen::Index columns);
 
-  void add_rows(const Eigen::Ref<const Eigen::MatrixXd>& design,
-                const Eigen::Ref<const Eigen::VectorXd>& response);
+  void add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
+                const Eigen::Ref<const Eigen::VectorXd>& y);
+  /// `count` rows known by [X y]'[X y]: q + 1 others with these products stand for them. Squaring
+  /// loses half the digits where there is hardly any noise.
+  void add_products(Eigen::Index count, const Eigen::MatrixXd& products);
 
-  [[nodiscard]] Eigen::Index columns() const { return gram.cols(); }
+  [[nodiscard]] Eigen::Index columns() const { return design.cols(); }
 
-  Eigen::Index rows = 0;
-  Eigen::MatrixXd gram;             ///< X'X
-  Eigen::VectorXd moment;           ///< X'y
-  double response_square = 0.0;     ///< y'y
+  Eigen::Index rows = 0;            ///< n; as many as were added
+  Eigen::MatrixXd design;           ///< X
+  Eigen::VectorXd response;         ///< y
   Eigen::MatrixXd prior_precision;  ///< S0, q x q, zero in the ridge's rows and columns
   Eigen::VectorXd prior_mean;       ///< b0, zero in the ridge
   Ridge ridge;
   NoiseScale noise;
-  /// Set before the first row: add_rows then keeps X and y as well. Where there are no more rows
-  /// than ridge columns, a fit keeps full precision however small the noise is; X'X alone loses it
-  /// by squaring.
-  bool keeps_rows = false;
-  Eigen::MatrixXd design;
-  Eigen::VectorXd response;
 };
 
 /// Why a fit has no result.
@@ -129,12 +125,6 @@ struct PenalisedFit {
     const Eigen::Ref<const Eigen::MatrixXd>& spread,
     double sigma2);
 
-/// For a group of many rows, with W W' = X_g A^-1 X_g' (W is m x q): costs m q^2 + q^3, not m^3.
-[[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
-    const Eigen::Ref<const Eigen::VectorXd>& residual,
-    const Eigen::Ref<const Eigen::MatrixXd>& root,
-    double sigma2);
-
 /// Prior on lambda and, if unknown, on sigma2.
 enum class SmoothingPrior {
   none,             ///< plain REML
@@ -148,11 +138,12 @@ struct FitOptions {
 
 /// Chooses lambda and sigma2 and fits. Deterministic: same input, same bytes. Throws
 /// std::invalid_argument when shapes do not fit or a number is not finite.
-/// Cost: O(q^3) once, and O(q p^2) for each of some 60 evaluations of V.
+/// Cost: O(q^3) once, and O(q p^2) for each of some 60 evaluations of V, p columns being outside the
+/// ridge.
 [[nodiscard]] tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& problem,
                                                                    const FitOptions& options = {});
 
-/// The fit with lambda and sigma2 given. Cost: O(q^3), without an eigendecomposition.
+/// The fit with lambda and sigma2 given.
 [[nodiscard]] tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(
     const PenalisedProblem& problem, double lambda, double sigma2);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -14,24 +15,7 @@ void check(const PenalisedProblem& problem) {
   const Eigen::Index q = problem.columns();
   const Ridge& ridge = problem.ridge;
   const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
-  if (problem.keeps_rows && problem.design.rows() != problem.rows) {
-    fail(fmt::format("{} of {} rows were kept", problem.design.rows(), problem.rows));
-  }
-  if (q == 0 || problem.gram.rows() != q || problem.moment.size() != q ||
-      problem.prior_precision.rows() != q || problem.prior_precision.cols() != q ||
-      problem.prior_mean.size() != q) {
-    fail(
-        fmt::format("a fit with X'X of {} x {}, X'y of {}, a prior precision of {} x {} and a "
-                    "prior mean of {}",
-                    problem.gram.rows(),
-                    q,
-                    problem.moment.size(),
-                    problem.prior_precision.rows(),
-                    problem.prior_precision.cols(),
-                    problem.prior_mean.size()));
-  }
-  if (!problem.gram.allFinite() || !problem.moment.allFinite() ||
-      !std::isfinite(problem.response_square)) {
+  if (!problem.design.allFinite() || !problem.response.allFinite()) {
     fail("the data of a penalised fit are not finite");
   }
   if (ridge.first < 0 || ridge.count < 0 || ridge.first + ridge.count > q) {
@@ -48,262 +32,181 @@ void check(const PenalisedProblem& problem) {
   }
 }
 
-}  // namespace
+struct InverseRoot {
+  Eigen::MatrixXd root;  // W with W W' the inverse
+  double log_determinant;
+};
 
-ScaledCholesky::ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& diagonal) {
+// Of a matrix scaled to unit diagonal: the units of a column must not affect its rank. Empty where
+// the matrix is not positive definite to rounding.
+std::optional<InverseRoot> inverse_root(const Eigen::MatrixXd& matrix) {
   // A pivot of the unit-diagonal matrix below this value means that a combination of columns is
   // undetermined.
   constexpr double kZeroPivot = 1e-12;
-  if (!(diagonal.array() > 0.0).all()) return;
-  scale_ = diagonal.array().rsqrt();
-  factor_ = linear::Cholesky(scale_.asDiagonal() * matrix * scale_.asDiagonal());
-  positive_ = factor_.is_positive_definite() && (factor_.lower().diagonal().array().square() >=
-                                                 kZeroPivot * static_cast<double>(matrix.rows()))
-                                                    .all();
+  if (!(matrix.diagonal().array() > 0.0).all()) return std::nullopt;
+  const Eigen::VectorXd scale = matrix.diagonal().array().rsqrt();
+  const linear::Cholesky factor(scale.asDiagonal() * matrix * scale.asDiagonal());
+  const bool is_positive =
+      factor.is_positive_definite() && (factor.lower().diagonal().array().square() >=
+                                        kZeroPivot * static_cast<double>(matrix.rows()))
+                                           .all();
+  if (!is_positive) return std::nullopt;
+  return InverseRoot{scale.asDiagonal() * factor.root_of_inverse(),
+                     factor.log_det() - 2.0 * scale.array().log().sum()};
 }
 
-double ScaledCholesky::log_determinant() const {
-  return factor_.log_det() - 2.0 * scale_.array().log().sum();
-}
+}  // namespace
 
-Eigen::MatrixXd ScaledCholesky::solve(const Eigen::MatrixXd& right) const {
-  return scale_.asDiagonal() * factor_.solve(Eigen::MatrixXd(scale_.asDiagonal() * right));
-}
-
-Eigen::MatrixXd ScaledCholesky::inverse_root() const {
-  return scale_.asDiagonal() * factor_.root_of_inverse();
-}
+double State::lambda() const { return std::exp(theta[0]); }
+double State::sigma2() const { return std::exp(theta[1]); }
 
 Likelihood::Likelihood(const PenalisedProblem& problem, SmoothingPrior prior)
-    : problem_(problem), prior_kind_(prior) {
+    : problem_(problem) {
   check(problem);
-  finds_sigma2_ = problem.noise.knowledge != NoiseKnowledge::exact;
-  if (problem.noise.knowledge == NoiseKnowledge::from_repeats) {
-    extra_degrees_ = problem.noise.degrees_of_freedom;
-  }
-  gather(problem.ridge);
-  if (problem.ridge.count > 0) diagonalise();
-}
-
-Likelihood::Likelihood(const PenalisedProblem& problem, const Theta& fixed)
-    : problem_(problem), prior_kind_(SmoothingPrior::none) {
-  check(problem);
-  if (problem.noise.knowledge == NoiseKnowledge::from_repeats) {
-    extra_degrees_ = problem.noise.degrees_of_freedom;
-  }
-  gather({});
-  shared_prior_.diagonal().segment(problem.ridge.first, problem.ridge.count).array() +=
-      std::exp(fixed[0]);
-}
-
-void Likelihood::gather(const Ridge& ridge) {
-  first_ = ridge.first;
-  for (Eigen::Index i = 0; i < problem_.columns(); ++i) {
+  if (noise() == NoiseKnowledge::from_repeats) degrees_ = problem.noise.degrees_of_freedom;
+  if (prior == SmoothingPrior::avoids_boundary) prior_slope_ = flat_slope();
+  const Ridge& ridge = problem.ridge;
+  for (Eigen::Index i = 0; i < problem.columns(); ++i) {
     if (i < ridge.first || i >= ridge.first + ridge.count) shared_.push_back(i);
   }
-  shared_gram_ = problem_.gram(shared_, shared_);
-  shared_prior_ = problem_.prior_precision(shared_, shared_);
-  shared_mean_ = problem_.prior_mean(shared_);
-  coupling_ = Eigen::MatrixXd::Zero(0, shared_gram_.cols());
-  moment_ = problem_.moment(shared_);
+  shared_prior_ = problem.prior_precision(shared_, shared_);
+  shared_mean_ = problem.prior_mean(shared_);
+  rows_ = problem.design(Eigen::all, shared_);
+  response_ = problem.response;
+  eigenvalues_ = Eigen::VectorXd::Zero(response_.size());
+  to_ridge_ = Eigen::MatrixXd::Zero(0, response_.size());
+  if (has_ridge()) turn_rows();
 }
 
-void Likelihood::diagonalise() {
+void Likelihood::turn_rows() {
   const Eigen::Index m = problem_.ridge.count;
-  const auto in_ridge = Eigen::seqN(first_, m);
-  if (problem_.keeps_rows && problem_.rows <= m) {
-    const Eigen::MatrixXd f = problem_.design.middleCols(first_, m);
-    const linear::SymmetricEigen solver(linear::outer(f));
-    const Eigen::MatrixXd q = solver.eigenvectors().rowwise().reverse();
-    const Eigen::VectorXd g = solver.eigenvalues().reverse().cwiseMax(0.0);
-    // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R. It is
-    // orthonormal to rounding even where g is at rounding level, and it spans the directions that
-    // no row reaches.
-    const Eigen::MatrixXd turned = linear::product(linear::transposed(f), q);
-    basis_ = linear::qr(turned).q;
-    eigenvalues_ = Eigen::VectorXd::Zero(m);
-    eigenvalues_.head(g.size()) = g;
-    rows_ = TurnedRows{g,
-                       linear::product(linear::transposed(q), problem_.design(Eigen::all, shared_)),
-                       linear::product(linear::transposed(q), problem_.response),
-                       linear::product(linear::transposed(basis_), turned)};
-  } else {
-    const linear::SymmetricEigen solver(problem_.gram(in_ridge, in_ridge));
-    basis_ = solver.eigenvectors();
-    eigenvalues_ = solver.eigenvalues().cwiseMax(0.0);
-  }
-  coupling_ = linear::product(linear::transposed(basis_), problem_.gram(in_ridge, shared_));
-  Eigen::VectorXd moment(problem_.columns());
-  moment << basis_.transpose() * problem_.moment.segment(first_, m), moment_;
-  moment_ = std::move(moment);
+  const Eigen::Index p = rows_.cols();
+  Eigen::MatrixXd all(response_.size(), m + p + 1);
+  all << problem_.design.middleCols(problem_.ridge.first, m), rows_, response_;
+  if (all.rows() > all.cols()) all = linear::upper_triangle(all);
+  const Eigen::MatrixXd f = all.leftCols(m);
+  const linear::SymmetricEigen solver(linear::outer(f));
+  const Eigen::MatrixXd q = solver.eigenvectors().rowwise().reverse();
+  eigenvalues_ = solver.eigenvalues().reverse().cwiseMax(0.0);
+  const Eigen::Index rank = std::min(m, all.rows());
+  eigenvalues_.tail(all.rows() - rank).setZero();
+  // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R. It is orthonormal
+  // to rounding even where g is at rounding level, and it spans the directions that no row reaches.
+  to_ridge_ = linear::product(linear::transposed(f), q);
+  to_ridge_.rightCols(all.rows() - rank).setZero();
+  basis_ = linear::qr(to_ridge_.leftCols(rank)).q;
+  const Eigen::MatrixXd rest = linear::product(linear::transposed(q), all.rightCols(p + 1));
+  rows_ = rest.leftCols(p);
+  response_ = rest.col(p);
 }
 
 double Likelihood::balance() const {
   return problem_.ridge.balance > 0.0
              ? problem_.ridge.balance
-             : eigenvalues_.sum() / static_cast<double>(eigenvalues_.size());
+             : eigenvalues_.sum() / static_cast<double>(problem_.ridge.count);
 }
 
 double Likelihood::response_variance() const {
   // Responses below this are rounding errors.
   constexpr double kLeast = 1e-20;
   return std::max(
-      problem_.response_square / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
+      response_.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
       kLeast);
 }
 
 Theta Likelihood::flat_slope() const {
-  return {has_ridge() ? 1.0 : 0.0, finds_sigma2_ && !noise_from_repeats() ? -1.0 : 0.0};
+  return {has_ridge() ? 1.0 : 0.0, noise() == NoiseKnowledge::unknown ? -1.0 : 0.0};
 }
 
-std::optional<Likelihood::Factor> Likelihood::factor(const Theta& theta) const {
-  const double lambda = std::exp(theta[0]);
-  const double per_sigma2 = std::exp(-theta[1]);
-  const Eigen::VectorXd a = eigenvalues_.array() * per_sigma2 + lambda;
-  const Eigen::VectorXd inverse = a.cwiseInverse();
-  Eigen::MatrixXd u = (per_sigma2 * inverse).asDiagonal() * coupling_;
-  Eigen::MatrixXd h = per_sigma2 * shared_gram_ + shared_prior_;
-  Eigen::VectorXd diagonal = h.diagonal();
-  Eigen::VectorXd of_rows;
-  if (rows_) {
-    of_rows = (std::exp(theta[1]) + rows_->eigenvalues.array() / lambda).inverse();
-    h = shared_prior_;
-    linear::add_product(
-        h, 1.0, linear::transposed(rows_->shared), of_rows.asDiagonal() * rows_->shared);
-    diagonal = h.diagonal();
-  } else {
-    linear::add_product(h, -per_sigma2, linear::transposed(coupling_), u);
-  }
-  ScaledCholesky corner(h, diagonal);
-  if (!corner.positive()) return std::nullopt;
-  const double log_determinant = a.array().log().sum() + corner.log_determinant();
-  return Factor{lambda,
-                std::exp(theta[1]),
-                inverse,
-                std::move(u),
-                std::move(of_rows),
-                std::move(corner),
-                log_determinant};
-}
-
-Likelihood::BestFit Likelihood::solve(const Factor& factor) const {
-  const Eigen::Index m = eigenvalues_.size();
-  const Eigen::VectorXd pull = shared_prior_ * shared_mean_;
-  Eigen::VectorXd b(problem_.columns());
-  if (rows_) {  // (6)
-    const Eigen::VectorXd s = factor.corner.solve(
-        pull + rows_->shared.transpose() * (factor.of_rows.asDiagonal() * rows_->response));
-    const Eigen::VectorXd residual = rows_->response - rows_->shared * s;
-    const Eigen::VectorXd weighted = factor.of_rows.asDiagonal() * residual;
-    b << rows_->to_ridge * (weighted / factor.lambda), s;
-    return {b, residual.dot(weighted) + (s - shared_mean_).dot(shared_prior_ * (s - shared_mean_))};
-  }
-  Eigen::VectorXd right = moment_ / factor.sigma2;
-  right.tail(pull.size()) += pull;
-  const Eigen::VectorXd s =
-      factor.corner.solve(right.tail(pull.size()) - factor.u.transpose() * right.head(m));
-  b << factor.inverse.asDiagonal() * right.head(m) - factor.u * s, s;
-  return {b, problem_.response_square / factor.sigma2 + shared_mean_.dot(pull) - b.dot(right)};
-}
-
-std::optional<State> Likelihood::evaluate(const Theta& theta, Order order) const {
-  const auto a = factor(theta);
-  if (!a) return std::nullopt;
-  const BestFit best = solve(*a);
+std::optional<State> Likelihood::at(const Theta& theta) const {
   State state;
-  state.coefficients = best.coefficients;
-  state.value = static_cast<double>(problem_.rows) * theta[1] + best.deviance + a->log_determinant -
-                static_cast<double>(eigenvalues_.size()) * theta[0] +
-                extra_degrees_ * (theta[1] + 1.0 / a->sigma2);
-  if (order == Order::hessian) add_derivatives(state, *a, best.deviance);
-  if (prior_kind_ == SmoothingPrior::avoids_boundary) {
-    state.value += flat_slope().dot(theta);
-    if (order == Order::hessian) state.gradient += flat_slope();
-  }
+  state.theta = theta;
+  state.weights = (state.sigma2() + eigenvalues_.array() / state.lambda()).inverse();
+  Eigen::MatrixXd h = shared_prior_;
+  linear::add_product(h, 1.0, linear::transposed(rows_), state.weights.asDiagonal() * rows_);
+  auto inverse = inverse_root(h);
+  if (!inverse) return std::nullopt;
+  state.root = std::move(inverse->root);
+  const Eigen::VectorXd right = shared_prior_ * shared_mean_ +
+                                rows_.transpose() * (state.weights.asDiagonal() * response_);
+  state.shared = state.root * (state.root.transpose() * right);
+  state.residual = response_ - rows_ * state.shared;
+  const Eigen::VectorXd off = state.shared - shared_mean_;
+  const auto more_rows = static_cast<double>(problem_.rows - response_.size());
+  state.value = more_rows * theta[1] - state.weights.array().log().sum() +
+                inverse->log_determinant +
+                state.residual.dot(state.weights.asDiagonal() * state.residual) +
+                off.dot(shared_prior_ * off) + degrees_ * (theta[1] + 1.0 / state.sigma2()) +
+                prior_slope_.dot(theta);
   return state;
 }
 
-// With D_i = dA / dtheta_i and u_i = D_i b - d(A b) / dtheta_i, db / dtheta_i = -A^-1 u_i. For
-// sigma2 D = -(A - S), which spares X'X: A^-1 D = -(1 - A^-1 lambda J - A^-1 S0).
-void Likelihood::add_derivatives(State& state, const Factor& factor, double deviance) const {
-  const Eigen::Index m = eigenvalues_.size();
-  const auto p = static_cast<Eigen::Index>(shared_.size());
-  const auto q = static_cast<double>(problem_.columns());
-  const Eigen::VectorXd v = state.coefficients.head(m);
-  const Eigen::VectorXd off = state.coefficients.tail(p) - shared_mean_;
+Derivatives Likelihood::derivatives(const State& state) const {
+  const Eigen::VectorXd& d = state.weights;
+  const Eigen::MatrixXd halves = linear::product(rows_, state.root);  // K is their square
+  const Eigen::VectorXd fits =
+      d.cwiseProduct(state.residual.cwiseAbs2() + halves.rowwise().squaredNorm());
+  Eigen::MatrixX2d e(d.size(), 2);
+  e << d.cwiseProduct(eigenvalues_ / -state.lambda()), state.sigma2() * d;
+  const Theta slope = e.transpose() * (1.0 - fits.array()).matrix();
+  Derivatives result{slope, e.transpose() * (2.0 * fits.array() - 1.0).matrix().asDiagonal() * e};
+  // The second derivatives of w are the first with their sign.
+  result.hessian.diagonal() += Theta(-slope[0], slope[1]);
+  Eigen::MatrixX2d pull(halves.cols(), 2);
+  Eigen::MatrixX2d spread(halves.cols() * halves.cols(), 2);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const Eigen::MatrixXd weighted = d.cwiseProduct(e.col(i)).asDiagonal() * halves;
+    pull.col(i) = weighted.transpose() * state.residual;
+    spread.col(i) = linear::product(linear::transposed(halves), weighted).reshaped();
+  }
+  result.hessian -= 2.0 * pull.transpose() * pull + spread.transpose() * spread;
+  result.gradient += prior_slope_;
+  result.gradient[1] += static_cast<double>(problem_.rows - response_.size()) +
+                        degrees_ * (1.0 - 1.0 / state.sigma2());
+  result.hessian(1, 1) += degrees_ / state.sigma2();
+  return result;
+}
 
-  // Traces of A^-1 D and of A^-1 D A^-1 D', for D and D' of lambda J (0) and S0 (1).
-  const Eigen::MatrixXd root = factor.corner.inverse_root();
-  const Eigen::MatrixXd corner = linear::outer(root);
-  const Eigen::VectorXd plain = factor.lambda * factor.inverse;
-  const Eigen::VectorXd extra =
-      factor.lambda * linear::product(factor.u, corner).cwiseProduct(factor.u).rowwise().sum();
-  const Eigen::MatrixXd of_ridge = factor.lambda * linear::product(corner, linear::gram(factor.u));
-  const Eigen::MatrixXd of_prior = linear::product(corner, shared_prior_);
-  const auto trace_of_product = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-    return a.cwiseProduct(b.transpose()).sum();
-  };
-  const double t0 = plain.sum() + extra.sum();
-  const double t1 = of_prior.trace();
-  const double t00 =
-      plain.squaredNorm() + 2.0 * plain.dot(extra) + trace_of_product(of_ridge, of_ridge);
-  const double t01 = trace_of_product(of_ridge, of_prior);
-  const double t11 = trace_of_product(of_prior, of_prior);
+double Likelihood::edf(const State& state) const {
+  const Eigen::VectorXd leverage = linear::product(rows_, state.root).rowwise().squaredNorm();
+  return state.weights.dot(eigenvalues_ / state.lambda() +
+                           state.sigma2() * state.weights.cwiseProduct(leverage));
+}
 
-  const double ridge_square = factor.lambda * v.squaredNorm();
-  const Eigen::VectorXd force = shared_prior_ * off;
-  const Theta trace(t0, -(q - t0 - t1));
-  const Theta first(ridge_square, -(deviance - ridge_square - off.dot(force)));
-  Eigen::Matrix2d second;
-  second << t00, -(t0 - t00 - t01), -(t0 - t00 - t01), q - 2.0 * (t0 + t1) + t00 + 2.0 * t01 + t11;
-
-  // u = (lambda v, 0) and (lambda v, force); u' A^-1 u by the root of the corner.
-  const Eigen::VectorXd of_v = factor.lambda * (factor.u.transpose() * v);
-  Eigen::MatrixXd halves(p, 2);
-  halves << -root.transpose() * of_v, root.transpose() * (force - of_v);
-  const double in_ridge = factor.lambda * v.dot(plain.cwiseProduct(v));
-  const Eigen::Matrix2d square = linear::gram(halves) + Eigen::Matrix2d::Constant(in_ridge);
-
-  // The second derivative of exp(+-theta) adds the signed first derivative again.
-  const Theta twice(first + trace);
-  state.hessian = -2.0 * square - second;
-  state.hessian(0, 0) += twice[0];
-  state.hessian(1, 1) += -twice[1] + extra_degrees_ / factor.sigma2;
-  state.gradient = twice + Theta(-static_cast<double>(m),
-                                 static_cast<double>(problem_.rows) +
-                                     extra_degrees_ * (1.0 - 1.0 / factor.sigma2));
+Eigen::VectorXd Likelihood::coefficients(const State& state) const {
+  Eigen::VectorXd b(problem_.columns());
+  b.segment(problem_.ridge.first, problem_.ridge.count) =
+      to_ridge_ * (state.weights.asDiagonal() * state.residual) / state.lambda();
+  b(shared_) = state.shared;
+  return b;
 }
 
 Eigen::MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const State& centre) const {
-  const Eigen::Index m = eigenvalues_.size();
-  const auto p = static_cast<Eigen::Index>(shared_.size());
+  const auto [first, m, balance] = problem_.ridge;
+  const Eigen::Index p = rows_.cols();
   const auto count = static_cast<Eigen::Index>(nodes.size());
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(m);
+  const Eigen::VectorXd middle = coefficients(centre);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
+  const Eigen::Index rank = std::min(m, eigenvalues_.size());
+  g.head(rank) = eigenvalues_.head(rank);
+  Eigen::VectorXd of_ridge = Eigen::VectorXd::Zero(m);
   // (-U', I)' H^-1 (-U', I) = W W' with W = (-U', I)' times a root of H^-1; one wide product is
   // faster than many narrow ones.
   Eigen::MatrixXd wide(problem_.columns(), count * (p + 1));
   for (Eigen::Index k = 0; k < count; ++k) {
     const Node& node = nodes[static_cast<std::size_t>(k)];
-    const Factor a = factor(node.theta).value();
-    const Eigen::MatrixXd root = std::sqrt(node.weight) * a.corner.inverse_root();
-    diagonal += node.weight * a.inverse;
-    wide.block(0, k * p, m, p) = -linear::product(a.u, root);
-    wide.block(m, k * p, p, p) = root;
-    wide.col(count * p + k) =
-        std::sqrt(node.weight) * (solve(a).coefficients - centre.coefficients);
+    const State state = at(node.theta).value();
+    const double root = std::sqrt(node.weight);
+    of_ridge.array() += node.weight / (g.array() / state.sigma2() + state.lambda());
+    const Eigen::MatrixXd of_rows =
+        (-root / state.lambda() * state.weights).asDiagonal() * linear::product(rows_, state.root);
+    wide.block(first, k * p, m, p) = linear::product(to_ridge_, of_rows);
+    wide(shared_, Eigen::seqN(k * p, p)) = root * state.root;
+    wide.col(count * p + k) = root * (coefficients(state) - middle);
   }
-  Eigen::MatrixXd working = linear::outer(wide);
-  working.diagonal().head(m) += diagonal;
-  Eigen::MatrixXd result = to_columns(to_columns(working).transpose());
-  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
-  return result;
-}
-
-Eigen::MatrixXd Likelihood::to_columns(const Eigen::MatrixXd& working) const {
-  const Eigen::Index m = eigenvalues_.size();
-  Eigen::MatrixXd result(working.rows(), working.cols());
-  result.middleRows(first_, m) = linear::product(basis_, working.topRows(m));
-  result(shared_, Eigen::all) = working.bottomRows(working.rows() - m);
+  Eigen::MatrixXd result = linear::outer(wide);
+  result.block(first, first, m, m) +=
+      linear::outer(linear::scaled_columns(basis_, of_ridge.cwiseSqrt()));
   return result;
 }
 

@@ -5,22 +5,27 @@
 /// The restricted likelihood of reml.hpp as a function of theta = (log lambda, log sigma2), with two
 /// derivatives. Internal to interp.
 ///
-/// Notation beyond reml.hpp (F the n x m part of X in the ridge, Z the n x p rest, s and s0 the
-/// coefficients and prior means of the rest):
-///   R, g     F'F = R diag(g) R'; working coordinates are R' (ridge part of b), then s
-///   a        diagonal of A in the ridge: g / sigma2 + lambda
-///   C        R' F' Z
-///   U        diag(1 / a) C / sigma2
-///   H        Schur complement on the rest: Z'Z / sigma2 + S0 - C' U / sigma2
-/// A^-1 is diag(1 / a) + U H^-1 U' in the ridge, -U H^-1 beside it, H^-1 in the corner, and
-/// log|A| = sum log a + log|H|.                                                               (4)
+/// Notation beyond reml.hpp (F the part of X in the ridge, Z the rest with p columns, s and s0 the
+/// coefficients and prior means of the rest). An orthogonal transformation of the rows changes
+/// nothing, so they are first reduced to q + 1 where there are more (the triangle of [F Z y]), k being
+/// their number then, and turned by Q:
+///   Q, g     F F' = Q diag(g) Q'; from here on Z and y stand for Q'Z and Q'y
+///   R        orthonormal, its first columns along those of F'Q; beyond them g = 0
+///   D        diag(1 / w), w = sigma2 + g / lambda: the rows are independent with variances w
+///   H        S0 + Z' D Z, all its terms positive
+///   s        H^-1 (S0 s0 + Z' D y), and r = y - Z s
+///   a        g / sigma2 + lambda
+///   U        F' Q D Z / lambda
 ///
-/// With little noise the difference in H cancels. Where the rows are known and n <= m, with
-/// F F' = Q diag(g) Q':
-///   D        diag(1 / (sigma2 + g / lambda)): Q D Q' is the inverse of sigma2 I + F F' / lambda
-///   H        = S0 + Z' Q D Q' Z, all its terms positive                                       (5)
-///   s        = H^-1 (S0 s0 + Z' Q D Q' y), and with r = y - Z s the ridge's part of b is
-///            F' Q D Q' r / lambda, the deviance r' Q D Q' r + (s - s0)' S0 (s - s0)           (6)
+///     V      = (n - k) log sigma2 + sum log w + log|H| + r' D r + (s - s0)' S0 (s - s0)      (4)
+///     b      = F' Q D r / lambda in the ridge                                                 (5)
+///     A^-1   = R diag(1 / a) R' + U H^-1 U' in the ridge, -U H^-1 beside it, H^-1 elsewhere   (6)
+///
+/// With K = Z H^-1 Z' and e_i = D dw / dtheta_i (elementwise, dw / d log lambda = -g / lambda)
+///
+///     dV     = sum e_i (1 - D (r^2 + K_jj))                                                   (7)
+///     d2V    = sum e_i e_j (2 D (r^2 + K_jj) - 1) + sum D (1 - D (r^2 + K_jj)) d2w
+///              - 2 (D e_i r)' K (D e_j r) - (D e_i)' (K o K) (D e_j)                          (8)
 
 #include <optional>
 #include <vector>
@@ -32,33 +37,22 @@ namespace chaintrue::interp::reml {
 
 using Theta = Eigen::Vector2d;
 
-enum class Order { value, hessian };
-
-/// V and its derivatives at one theta.
+/// The fit at one theta.
 struct State {
-  double value = 0.0;            ///< V of (3), with the prior's terms
-  Eigen::VectorXd coefficients;  ///< in working coordinates
-  // Filled for Order::hessian only.
-  Theta gradient;
-  Eigen::Matrix2d hessian;
+  Theta theta = Theta::Zero();
+  double value = 0.0;        ///< V of (4), with the prior's terms
+  Eigen::VectorXd weights;   ///< D
+  Eigen::VectorXd shared;    ///< s
+  Eigen::VectorXd residual;  ///< r
+  Eigen::MatrixXd root;      ///< W with W W' = H^-1
+  [[nodiscard]] double lambda() const;
+  [[nodiscard]] double sigma2() const;
 };
 
-/// Cholesky factor of a matrix scaled to unit diagonal: the units of a column must not affect its
-/// rank.
-class ScaledCholesky {
- public:
-  /// `diagonal` is what the pivots are compared with.
-  ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& diagonal);
-  [[nodiscard]] bool positive() const { return positive_; }
-  [[nodiscard]] double log_determinant() const;
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  /// W with W W' the inverse.
-  [[nodiscard]] Eigen::MatrixXd inverse_root() const;
-
- private:
-  Eigen::VectorXd scale_;
-  linear::Cholesky factor_;
-  bool positive_ = false;
+/// Of V at a state.
+struct Derivatives {
+  Theta gradient;
+  Eigen::Matrix2d hessian;
 };
 
 class Likelihood {
@@ -66,23 +60,24 @@ class Likelihood {
   /// Keeps a reference. \throws std::invalid_argument where shapes do not fit or a number is not
   /// finite.
   Likelihood(const PenalisedProblem& problem, SmoothingPrior prior);
-  /// For one theta: the ridge is treated as a prior, so no eigendecomposition is needed.
-  Likelihood(const PenalisedProblem& problem, const Theta& fixed);
 
-  [[nodiscard]] bool has_ridge() const { return eigenvalues_.size() > 0; }
-  [[nodiscard]] bool finds_sigma2() const { return finds_sigma2_; }
-  [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
+  [[nodiscard]] bool has_ridge() const { return problem_.ridge.count > 0; }
+  [[nodiscard]] NoiseKnowledge noise() const { return problem_.noise.knowledge; }
   /// The lambda at which the ridge weighs as much as the data; 0 if the data do not determine it.
   [[nodiscard]] double balance() const;
   /// Mean square of the responses, an upper bound of the noise. At least 1e-20: rows are whitened,
   /// so ten digits below the assumed sigma is rounding.
   [[nodiscard]] double response_variance() const;
-  /// Derivatives of the flat prior's terms in V, whether or not V includes them.
-  [[nodiscard]] Theta flat_slope() const;
-  [[nodiscard]] SmoothingPrior prior() const { return prior_kind_; }
+  /// Derivatives of the prior's terms that V lacks.
+  [[nodiscard]] Theta left_out_slope() const { return flat_slope() - prior_slope_; }
 
   /// Empty where A is not positive definite to rounding.
-  [[nodiscard]] std::optional<State> evaluate(const Theta& theta, Order order) const;
+  [[nodiscard]] std::optional<State> at(const Theta& theta) const;
+  [[nodiscard]] Derivatives derivatives(const State& state) const;
+  /// b, in the problem's columns.
+  [[nodiscard]] Eigen::VectorXd coefficients(const State& state) const;
+  /// Trace of the hat matrix.
+  [[nodiscard]] double edf(const State& state) const;
 
   /// A point of a distribution of theta.
   struct Node {
@@ -93,52 +88,23 @@ class Likelihood {
   /// the coefficients of `centre`. A must be positive definite at every node.
   [[nodiscard]] Eigen::MatrixXd covariance(const std::vector<Node>& nodes,
                                            const State& centre) const;
-  /// From working coordinates to the problem's columns.
-  [[nodiscard]] Eigen::MatrixXd to_columns(const Eigen::MatrixXd& working) const;
 
  private:
-  /// A at one theta.
-  struct Factor {
-    double lambda;
-    double sigma2;
-    Eigen::VectorXd inverse;  // 1 / a
-    Eigen::MatrixXd u;        // U
-    Eigen::VectorXd of_rows;  // D, where the rows are turned
-    ScaledCholesky corner;    // of H
-    double log_determinant;
-  };
-  /// The minimiser of |y - X b|^2 / sigma2 + (b - b0)' S (b - b0), and that minimum.
-  struct BestFit {
-    Eigen::VectorXd coefficients;
-    double deviance;
-  };
-  void gather(const Ridge& ridge);
-  void diagonalise();
-  [[nodiscard]] std::optional<Factor> factor(const Theta& theta) const;
-  [[nodiscard]] BestFit solve(const Factor& factor) const;
-  void add_derivatives(State& state, const Factor& factor, double deviance) const;
+  void turn_rows();
+  /// Derivatives of the flat prior's terms.
+  [[nodiscard]] Theta flat_slope() const;
 
   const PenalisedProblem& problem_;
-  SmoothingPrior prior_kind_;
-  bool finds_sigma2_ = false;
-  double extra_degrees_ = 0.0;        // d
-  Eigen::Index first_ = 0;            // of the ridge's columns
+  double degrees_ = 0.0;                // d
+  Theta prior_slope_ = Theta::Zero();
   std::vector<Eigen::Index> shared_;  // the columns outside the ridge
-  Eigen::MatrixXd shared_gram_;       // Z'Z
   Eigen::MatrixXd shared_prior_;      // S0
   Eigen::VectorXd shared_mean_;       // s0
+  Eigen::VectorXd eigenvalues_;       // g
+  Eigen::MatrixXd rows_;              // Z
+  Eigen::VectorXd response_;          // y
   Eigen::MatrixXd basis_;             // R
-  Eigen::VectorXd eigenvalues_;       // g, m numbers
-  Eigen::MatrixXd coupling_;          // C
-  Eigen::VectorXd moment_;            // R'F'y, then Z'y
-  /// The rows turned by Q, for (5) and (6).
-  struct TurnedRows {
-    Eigen::VectorXd eigenvalues;
-    Eigen::MatrixXd shared;    // Q'Z
-    Eigen::VectorXd response;  // Q'y
-    Eigen::MatrixXd to_ridge;  // R'F'Q
-  };
-  std::optional<TurnedRows> rows_;
+  Eigen::MatrixXd to_ridge_;          // F'Q
 };
 
 }  // namespace chaintrue::interp::reml

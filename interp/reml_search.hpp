@@ -14,12 +14,15 @@ namespace chaintrue::interp::reml {
 /// The most steps of a search before it counts as not converged.
 inline constexpr int kMostSteps = 100;
 
+struct Limits {
+  Theta low = Theta::Zero();
+  Theta high = Theta::Zero();  ///< equal to `low` if there is nothing to search
+};
+
 struct SearchResult {
-  Theta theta;
-  /// The search's limits; equal if there is nothing to search.
-  Theta low;
-  Theta high;
-  State state;  ///< with the derivatives
+  Limits limits;
+  State state;
+  Derivatives derivatives;
 };
 
 /// A coarse scan, then Newton with a bounded step.

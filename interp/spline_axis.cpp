@@ -2,7 +2,6 @@
 #include "interp/spline_axis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -33,122 +32,113 @@ void check_nodes(const std::vector<double>& nodes) {
   }
 }
 
-// With too few nodes the not-a-knot condition gives no separate equation; it reduces to a vanishing
-// third derivative.
-EndCondition effective_end(EndCondition end, const AxisEnds& ends, std::size_t nodes) {
+// With too few nodes the not-a-knot condition does not determine the spline; it reduces to a vanishing
+// third derivative, and for two such ends of one cell, whose conditions are the same, to a natural end.
+AxisEnds effective(const AxisEnds& ends, std::size_t nodes) {
   const bool both = ends.low == EndCondition::not_a_knot && ends.high == EndCondition::not_a_knot;
-  if (end == EndCondition::not_a_knot && (nodes == 2 || (nodes == 3 && both))) {
-    return EndCondition::parabolic;
+  AxisEnds result = ends;
+  for (EndCondition* end : {&result.low, &result.high}) {
+    if (*end == EndCondition::not_a_knot && (nodes == 2 || (nodes == 3 && both)))
+      *end = EndCondition::parabolic;
   }
-  return end;
+  if (nodes == 2 && result.low == result.high && result.low == EndCondition::parabolic)
+    result.low = EndCondition::natural;
+  return result;
 }
 
-// One end's equation: own slope, the next one; q of the end cell, and of the one beside it.
-std::array<double, 4> end_equation(EndCondition end, double outer_step, double inner_step) {
-  const double both = outer_step + inner_step;
-  switch (end) {
-    case EndCondition::not_a_knot:
-      return {inner_step,
-              both,
-              (outer_step + 2.0 * both) * inner_step / both,
-              outer_step * outer_step / both};
-    case EndCondition::natural:
-      return {2.0, 1.0, 3.0, 0.0};
-    case EndCondition::parabolic:
-      return {1.0, 1.0, 2.0, 0.0};
-    case EndCondition::clamped:
-      return {1.0, 0.0, 0.0, 0.0};
-  }
-  throw std::logic_error("unknown end condition");
-}
-
-// The slopes per value, and per slope given at the low and at the high end.
-Eigen::MatrixXd solve_slopes(const std::vector<double>& nodes,
-                             EndCondition low,
-                             EndCondition high) {
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  const Eigen::Map<const Eigen::VectorXd> x(nodes.data(), n);
-  const Eigen::VectorXd h = x.tail(n - 1) - x.head(n - 1);
-  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, n + 2);
-  const auto add_quotient = [&](Eigen::Index row, Eigen::Index cell, double factor) {
-    right(row, cell) -= factor / h(cell);
-    right(row, cell + 1) += factor / h(cell);
-  };
-  for (Eigen::Index i = 1; i + 1 < n; ++i) {  // (1)
-    left.row(i).segment<3>(i - 1) << h(i), 2.0 * (h(i - 1) + h(i)), h(i - 1);
-    add_quotient(i, i - 1, 3.0 * h(i));
-    add_quotient(i, i, 3.0 * h(i - 1));
-  }
-  const auto set_end = [&](EndCondition end, Eigen::Index row, Eigen::Index inward) {
-    const Eigen::Index outer = std::min(row, n - 2);
-    const Eigen::Index inner = std::clamp<Eigen::Index>(outer + inward, 0, n - 2);
-    const auto [own, next, of_outer, of_inner] = end_equation(end, h(outer), h(inner));
-    left(row, row) = own;
-    left(row, row + inward) = next;
-    add_quotient(row, outer, of_outer);
-    add_quotient(row, inner, of_inner);
-    if (end == EndCondition::clamped) right(row, inward > 0 ? n : n + 1) = 1.0;
-  };
-  set_end(low, 0, 1);
-  set_end(high, n - 1, -1);
-  return linear::inverse(left) * right;
+// The condition as weights on the slopes at the end, in the middle and at the far side of the end
+// cell, between which the slope of a cubic is a parabola.
+Eigen::Vector3d slope_condition(EndCondition end) {
+  if (end == EndCondition::natural) return {3.0, -4.0, 1.0};
+  if (end == EndCondition::parabolic) return {1.0, -2.0, 1.0};
+  return {1.0, 0.0, 0.0};
 }
 
 }  // namespace
 
-SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends)
-    : nodes_(std::move(nodes)) {
+SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends, int degree)
+    : nodes_(std::move(nodes)), degree_(degree) {
   check_nodes(nodes_);
-  EndCondition low = effective_end(ends.low, ends, nodes_.size());
-  const EndCondition high = effective_end(ends.high, ends, nodes_.size());
-  // Both equations are the same; a natural end gives the straight line as well.
-  const bool is_line = nodes_.size() == 2 && low == high && high == EndCondition::parabolic;
-  if (is_line) low = EndCondition::natural;
-  solution_ = solve_slopes(nodes_, low, high);
+  const auto n = static_cast<Eigen::Index>(nodes_.size());
+  if (n <= degree) degree_ = 3;
+  const auto [low, high] = effective(ends, nodes_.size());
+  const auto left_out = [&](EndCondition end) {
+    return end == EndCondition::not_a_knot ? (degree_ - 1) / 2 : 0;
+  };
+  const auto at_end = static_cast<std::size_t>(degree_ + 1);
+  knots_.assign(at_end, nodes_.front());
+  knots_.insert(knots_.end(), nodes_.begin() + 1 + left_out(low), nodes_.end() - 1 - left_out(high));
+  knots_.insert(knots_.end(), at_end, nodes_.back());
+  const auto functions = static_cast<Eigen::Index>(knots_.size() - at_end);
+  Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(functions, functions);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(functions, n + 2);
+  right.topLeftCorner(n, n).setIdentity();
+  Eigen::Index row = 0;
+  for (const double node : nodes_) {
+    const SplineSupport s = support(node);
+    equations.row(row++).segment(s.first, s.count) = s.value.head(s.count);
+  }
+  const auto add_end = [&](EndCondition end, double at, double inward, Eigen::Index given) {
+    if (end == EndCondition::not_a_knot) return;
+    const Eigen::Vector3d weights = slope_condition(end);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const SplineSupport s = support(at + 0.5 * static_cast<double>(k) * inward);
+      equations.row(row).segment(s.first, s.count) += weights[k] * s.slope.head(s.count);
+    }
+    if (end == EndCondition::clamped) right(row, given) = 1.0;
+    ++row;
+  };
+  add_end(low, nodes_[0], nodes_[1] - nodes_[0], n);
+  add_end(high, nodes_.back(), nodes_.end()[-2] - nodes_.back(), n + 1);
+  if (row != functions) {
+    throw std::invalid_argument(
+        fmt::format("a spline of degree {} without not-a-knot ends", degree_));
+  }
+  solution_ = linear::inverse(equations) * right;
 }
 
-std::size_t SplineAxis::cell(double x) const {
-  const auto inner_end = nodes_.end() - 1;
-  const auto above = std::upper_bound(nodes_.begin() + 1, inner_end, x);
-  return static_cast<std::size_t>(above - nodes_.begin()) - 1;
-}
-
-Eigen::MatrixXd SplineAxis::slopes(const Eigen::Ref<const Eigen::MatrixXd>& values,
-                                   const Eigen::VectorXd& low_slopes,
-                                   const Eigen::VectorXd& high_slopes) const {
-  const Eigen::Index n = values.rows();
-  Eigen::MatrixXd result = solution_.leftCols(n) * values;
-  if (low_slopes.size() > 0) result += solution_.col(n) * low_slopes.transpose();
-  if (high_slopes.size() > 0) result += solution_.col(n + 1) * high_slopes.transpose();
+// Values by the recurrence of Cox and de Boor (de Boor, chapter X, BSPLVB); the slopes come from
+// the values one degree lower.
+SplineSupport SplineAxis::support(double x) const {
+  const auto begin = knots_.begin() + degree_ + 1;
+  const auto end = knots_.end() - degree_ - 1;
+  const auto span = (std::upper_bound(begin, end, x) - knots_.begin()) - 1;
+  SplineSupport result{span - degree_, degree_ + 1, {}, {}};
+  auto& b = result.value;
+  auto& slope = result.slope;
+  b[0] = 1.0;
+  for (Eigen::Index d = 1; d <= degree_; ++d) {
+    double carried = 0.0;
+    slope[0] = 0.0;
+    for (Eigen::Index r = 0; r < d; ++r) {
+      const double right = knots_[static_cast<std::size_t>(span + r + 1)];
+      const double left = knots_[static_cast<std::size_t>(span + 1 + r - d)];
+      const double part = b[r] / (right - left);
+      slope[r] -= static_cast<double>(d) * part;
+      slope[r + 1] = static_cast<double>(d) * part;
+      b[r] = carried + (right - x) * part;
+      carried = (x - left) * part;
+    }
+    b[d] = carried;
+  }
   return result;
 }
 
-HermiteWeights SplineAxis::weights(std::size_t cell, double x) const {
-  const double h = nodes_[cell + 1] - nodes_[cell];
-  const double t = (x - nodes_[cell]) / h;
-  const double s = 1.0 - t;
-  return {s * s * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t), h * t * s * s, -h * t * t * s};
-}
-
-HermiteWeights SplineAxis::derivative_weights(std::size_t cell, double x) const {
-  const double h = nodes_[cell + 1] - nodes_[cell];
-  const double t = (x - nodes_[cell]) / h;
-  const double s = 1.0 - t;
-  const double slope = 6.0 * t * s / h;
-  return {-slope, slope, s * (s - 2.0 * t), t * (t - 2.0 * s)};
+Eigen::MatrixXd SplineAxis::coefficients(
+    const Eigen::Ref<const Eigen::MatrixXd>& conditions) const {
+  return solution_ * conditions;
 }
 
 Eigen::VectorXd SplineAxis::cardinal_weights(double x) const {
-  const std::size_t at = cell(x);
-  const auto i = static_cast<Eigen::Index>(at);
-  const HermiteWeights w = weights(at, x);
-  const auto slope = solution_.leftCols(solution_.rows());
-  Eigen::VectorXd result =
-      w.slope_low * slope.row(i).transpose() + w.slope_high * slope.row(i + 1).transpose();
-  result(i) += w.value_low;
-  result(i + 1) += w.value_high;
-  return result;
+  const SplineSupport s = support(x);
+  return solution_.block(s.first, 0, s.count, std::ssize(nodes_)).transpose() *
+         s.value.head(s.count);
+}
+
+Eigen::VectorXd SplineAxis::slope_weights(double x) const {
+  const SplineSupport s = support(x);
+  return solution_.block(s.first, 0, s.count, std::ssize(nodes_)).transpose() *
+         s.slope.head(s.count);
 }
 
 }  // namespace chaintrue::interp

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
+#include <Eigen/LU>
 
+// A point is evaluated with AVX2 where the processor has it; contraction to fused multiply-add is off,
+// so both ways give the same bits.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define CHAINTRUE_CLONES [[gnu::target_clones("avx2", "default")]]
 #else
@@ -16,17 +18,44 @@
 namespace chaintrue::interp {
 namespace {
 
-// Power coefficients from the values and (scaled) slopes at the ends of the unit interval.
-std::array<double, 4> powers(double f0, double f1, double d0, double d1) {
-  const double rise = f1 - f0;
-  return {f0, d0, 3.0 * rise - 2.0 * d0 - d1, d0 + d1 - 2.0 * rise};
+bool have_same_nodes(const SplineAxis& a, const SplineAxis& b) {
+  return std::equal(a.nodes().begin(), a.nodes().end(), b.nodes().begin(), b.nodes().end());
 }
 
-bool are_equal(std::span<const double> a, std::span<const double> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+// The splines that do not vanish in a cell.
+struct SplinesInCell {
+  Eigen::Index first;
+  Eigen::Matrix4d powers;  // (power, spline)
+};
+
+std::vector<SplinesInCell> splines_in_cells(const SplineAxis& axis) {
+  // Inside the cell: at its ends, rounding decides between it and the next one.
+  const Eigen::Vector4d places(0.125, 0.375, 0.625, 0.875);
+  const Eigen::Matrix4d to_powers = powers_through(places);
+  std::vector<SplinesInCell> cells;
+  const auto nodes = axis.nodes();
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    SplinesInCell cell;
+    Eigen::Matrix4d values;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      const SplineSupport s = axis.support(nodes[i] + places[k] * (nodes[i + 1] - nodes[i]));
+      if (s.count != 4) throw std::invalid_argument("a pair of splines that are not bicubic");
+      cell.first = s.first;
+      values.row(k) = s.value.head<4>();
+    }
+    cell.powers = to_powers * values;
+    cells.push_back(cell);
+  }
+  return cells;
 }
 
 }  // namespace
+
+Eigen::Matrix4d powers_through(const Eigen::Vector4d& places) {
+  Eigen::Matrix4d powers;
+  for (Eigen::Index i = 0; i < 4; ++i) powers.col(i) = places.array().pow(static_cast<double>(i));
+  return powers.inverse();
+}
 
 SplinePair::Axis::Axis(std::span<const double> nodes)
     : first(nodes.front()),
@@ -41,96 +70,47 @@ SplinePair::Axis::Axis(std::span<const double> nodes)
 }
 
 SplinePair::SplinePair(const TensorSpline& first, const TensorSpline& second)
-    : x_(first.axes()->x.nodes()), y_(first.axes()->y.nodes()) {
-  if (!are_equal(first.axes()->x.nodes(), second.axes()->x.nodes()) ||
-      !are_equal(first.axes()->y.nodes(), second.axes()->y.nodes())) {
+    : x_(first.axes().x.nodes()), y_(first.axes().y.nodes()) {
+  if (!have_same_nodes(first.axes().x, second.axes().x) ||
+      !have_same_nodes(first.axes().y, second.axes().y)) {
     throw std::invalid_argument("a pair of splines needs both on the same axes");
   }
-  const std::size_t columns = x_.intervals.size();
-  cells_.resize(columns * y_.intervals.size());
+  cells_.resize(x_.intervals.size() * y_.intervals.size());
   const TensorSpline* const splines[] = {&first, &second};
-  for (std::size_t at = 0; at < 2 * cells_.size(); ++at) {
-    const TensorSpline& spline = *splines[at % 2];
-    const std::size_t ix = at / 2 % columns;
-    const std::size_t iy = at / 2 / columns;
-    const double hx = 1.0 / x_.intervals[ix].per_length;
-    const double hy = 1.0 / y_.intervals[iy].per_length;
-    const NodeData& a = spline.node(ix, iy);
-    const NodeData& b = spline.node(ix + 1, iy);
-    const NodeData& c = spline.node(ix, iy + 1);
-    const NodeData& d = spline.node(ix + 1, iy + 1);
-    // Along x first: powers of u of f and of its y slope at both ends in y.
-    const auto f0 = powers(a.f, b.f, hx * a.fx, hx * b.fx);
-    const auto f1 = powers(c.f, d.f, hx * c.fx, hx * d.fx);
-    const auto s0 = powers(hy * a.fy, hy * b.fy, hx * hy * a.fxy, hx * hy * b.fxy);
-    const auto s1 = powers(hy * c.fy, hy * d.fy, hx * hy * c.fxy, hx * hy * d.fxy);
-    for (std::size_t u = 0; u < 4; ++u) {
-      const auto in_v = powers(f0[u], f1[u], s0[u], s1[u]);
-      for (std::size_t v = 0; v < 4; ++v) cells_[at / 2].c[8 * u + 2 * v + at % 2] = in_v[v];
+  for (std::size_t k = 0; k < 2; ++k) {
+    auto cell = cells_.begin();
+    const auto along_x = splines_in_cells(splines[k]->axes().x);
+    for (const SplinesInCell& y : splines_in_cells(splines[k]->axes().y)) {
+      for (const SplinesInCell& x : along_x) {
+        const auto c = splines[k]->coefficients().block<4, 4>(x.first, y.first);
+        cell++->set(k, x.powers * c * y.powers.transpose());
+      }
     }
   }
 }
 
-struct SplinePair::Kernel {
-  // The interval (beyond the ends, the nearest one) and the place in it.
-  [[gnu::always_inline]] static double locate(const Axis& axis, double x, std::ptrdiff_t& index) {
-    // One maximum, one minimum: nested conditionals become branches, which are mispredicted near the
-    // edges of a small table.
-    const double guess = (x - axis.first) * axis.per_mean_length;
-    const double low = guess > 0.0 ? guess : 0.0;
-    index = static_cast<int>(low < axis.last ? low : axis.last);
-    // Even nodes need no search: comparing with them would be a branch that random places
-    // mispredict.
-    if (axis.even) return guess - static_cast<double>(index);
-    const Interval* const interval = axis.intervals.data();
-    while (index > 0 && x < interval[index].low) --index;
-    while (index < static_cast<std::ptrdiff_t>(axis.last) && x >= interval[index + 1].low) ++index;
-    return (x - interval[index].low) * interval[index].per_length;
-  }
-
-  [[gnu::always_inline]] static void evaluate(const SplinePair& pair,
-                                              const PlanePoint& point,
-                                              PairGradient& out) {
-    std::ptrdiff_t i = 0;
-    std::ptrdiff_t j = 0;
-    const double u = locate(pair.x_, point.x, i);
-    const double v = locate(pair.y_, point.y, j);
-    const double* const cell =
-        pair.cells_.data()[j * static_cast<std::ptrdiff_t>(pair.x_.intervals.size()) + i].c.data();
-    // Horner's rule for the polynomial in u of each power of v of both surfaces: eight parallel
-    // loops that the compiler vectorises.
-    std::array<double, 8> p;
-    std::array<double, 8> slope;
-    for (std::size_t l = 0; l < 8; ++l) {
-      const double a = cell[24 + l] * u + cell[16 + l];
-      const double b = a * u + cell[8 + l];
-      slope[l] = (cell[24 + l] * u + a) * u + b;
-      p[l] = b * u + cell[l];
-    }
-    const double v2 = v * v;
-    const double per_x = pair.x_.intervals.data()[i].per_length;
-    const double per_y = pair.y_.intervals.data()[j].per_length;
-    for (std::size_t k = 0; k < 2; ++k) {
-      out.value[k] = (p[k] + v2 * p[4 + k]) + v * (p[2 + k] + v2 * p[6 + k]);
-      out.dx[k] = ((slope[k] + v2 * slope[4 + k]) + v * (slope[2 + k] + v2 * slope[6 + k])) * per_x;
-      out.dy[k] = ((2.0 * v * p[4 + k] + 3.0 * v2 * p[6 + k]) + p[2 + k]) * per_y;
-    }
-  }
-};
-
-PairGradient SplinePair::at(double x, double y) const {
-  PairGradient result;
-  Kernel::evaluate(*this, {x, y}, result);
-  return result;
+inline double SplinePair::Axis::locate(double x, std::ptrdiff_t& index) const {
+  // One maximum, one minimum: nested conditionals become branches, which are mispredicted near the
+  // edges of a small table.
+  const double guess = (x - first) * per_mean_length;
+  const double low = guess > 0.0 ? guess : 0.0;
+  index = static_cast<int>(low < last ? low : last);
+  // Even nodes need no search: comparing with them would be a branch that random places mispredict.
+  if (even) return guess - static_cast<double>(index);
+  const Interval* const interval = intervals.data();
+  while (index > 0 && x < interval[index].low) --index;
+  while (index < static_cast<std::ptrdiff_t>(last) && x >= interval[index + 1].low) ++index;
+  return (x - interval[index].low) * interval[index].per_length;
 }
 
-CHAINTRUE_CLONES void SplinePair::at(std::span<const PlanePoint> points,
-                                     std::span<PairGradient> results) const {
-  if (points.size() != results.size()) {
-    throw std::invalid_argument(
-        fmt::format("{} points and room for {} results", points.size(), results.size()));
-  }
-  for (std::size_t k = 0; k < points.size(); ++k) Kernel::evaluate(*this, points[k], results[k]);
+CHAINTRUE_CLONES PairGradient SplinePair::at(double x, double y) const {
+  std::ptrdiff_t i = 0;
+  std::ptrdiff_t j = 0;
+  const double u = x_.locate(x, i);
+  const double v = y_.locate(y, j);
+  const auto columns = static_cast<std::ptrdiff_t>(x_.intervals.size());
+  return cells_.data()[j * columns + i].at(
+      u, v, x_.intervals.data()[i].per_length, y_.intervals.data()[j].per_length);
 }
 
 }  // namespace chaintrue::interp

@@ -2,30 +2,19 @@
 #pragma once
 
 /// \file
-/// Two bicubic splines on the same axes, evaluated together: values and gradients at one place, or
-/// at many.
+/// Two bicubic splines on the same axes, evaluated together.
 ///
-/// Each cell holds the power coefficients of both bicubics interleaved, c[i][j][surface] for u^i
-/// v^j with u, v in [0, 1]: 256 bytes a cell. The values are those of the splines to rounding, also
+/// Each cell holds the powers of both bicubics. The values are those of the splines to rounding, also
 /// outside the rectangle of the nodes, where the bicubic of the nearest edge cell continues.
-/// Batches use AVX2 where the processor has it; contraction to fused multiply-add is off, so both
-/// ways give the same bits.
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "interp/pair_polynomial.hpp"
 #include "interp/tensor_spline.hpp"
 
 namespace chaintrue::interp {
-
-/// Values and gradients of the two surfaces at one point.
-struct PairGradient {
-  std::array<double, 2> value;
-  std::array<double, 2> dx;
-  std::array<double, 2> dy;
-};
 
 /// Immutable, thread safe; only the constructor allocates. Coordinates must be finite.
 ///
@@ -33,13 +22,10 @@ struct PairGradient {
 ///     const PairGradient here = chains.at(x, y);
 class SplinePair {
  public:
-  /// Throws std::invalid_argument unless both have the same axes.
+  /// Throws std::invalid_argument unless both are bicubic and have the same nodes.
   SplinePair(const TensorSpline& first, const TensorSpline& second);
 
   [[nodiscard]] PairGradient at(double x, double y) const;
-  /// results[k] = at(points[k].x, points[k].y). Throws std::invalid_argument when the spans differ
-  /// in length. Blocks of about a thousand points keep the results in the cache.
-  void at(std::span<const PlanePoint> points, std::span<PairGradient> results) const;
 
  private:
   struct Interval {
@@ -48,20 +34,18 @@ class SplinePair {
   };
   struct Axis {
     explicit Axis(std::span<const double> nodes);
+    /// The interval (beyond the ends, the nearest one) and the place in it.
+    [[gnu::always_inline]] double locate(double x, std::ptrdiff_t& index) const;
     double first;
     double per_mean_length;
     double last;       // index of the last interval
     bool even = true;  // all intervals have the mean length
     std::vector<Interval> intervals;
   };
-  struct alignas(64) Cell {
-    std::array<double, 32> c;
-  };
-  struct Kernel;
 
   Axis x_;
   Axis y_;
-  std::vector<Cell> cells_;  // x fastest
+  std::vector<PairPolynomial> cells_;  // x fastest
 };
 
 }  // namespace chaintrue::interp

@@ -2,16 +2,16 @@
 #pragma once
 
 /// \file
-/// Tensor-product bicubic spline on two non-uniform axes, C2 everywhere.
+/// Tensor-product spline on two non-uniform axes: bicubic, C2 everywhere, or with not-a-knot ends
+/// biquintic, C4, for smooth surfaces measured without noise.
 ///
-/// Notation: f, f_x, f_y, f_xy are the value, the two slopes and the twist at a node; they
-/// determine the bicubic of each cell (C. de Boor, Bicubic spline interpolation, J. Math. and Phys.
-/// 41 (1962) 212-218). Exact for every bicubic polynomial where both ends of both axes are
-/// not-a-knot.
+/// Exact for every bicubic (biquintic) polynomial where both ends of both axes are not-a-knot.
 ///
-/// Outside the rectangle of the nodes the bicubic of the nearest edge cell continues.
+/// Outside the rectangle of the nodes the polynomial of the nearest edge cell continues; at degree
+/// five it is accurate for only a fraction of a cell.
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,20 +36,15 @@ struct EdgeSlopes {
   Eigen::VectorXd y_high;  ///< df/dy along y = y_max
 };
 
-/// Two factored axes, shared by surfaces on the same grid.
+/// Two solved axes, shared by surfaces on the same grid.
 struct TensorAxes {
-  TensorAxes(std::vector<double> x_nodes, std::vector<double> y_nodes, const TensorEnds& ends = {})
-      : x(std::move(x_nodes), ends.x), y(std::move(y_nodes), ends.y) {}
+  TensorAxes(std::vector<double> x_nodes,
+             std::vector<double> y_nodes,
+             const TensorEnds& ends = {},
+             int degree = 3)
+      : x(std::move(x_nodes), ends.x, degree), y(std::move(y_nodes), ends.y, degree) {}
   SplineAxis x;
   SplineAxis y;
-};
-
-/// The data of one node: value, slopes and twist.
-struct NodeData {
-  double f;
-  double fx;
-  double fy;
-  double fxy;
 };
 
 /// One interpolating surface. Immutable, thread safe, `at` allocates nothing.
@@ -65,19 +60,18 @@ class TensorSpline final : public Surface {
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const TensorEnds& ends = {},
                const EdgeSlopes& slopes = {});
-  /// On axes that are already factored.
+  /// On axes that are already solved.
   TensorSpline(std::shared_ptr<const TensorAxes> axes,
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const EdgeSlopes& slopes = {});
 
   [[nodiscard]] ValueGradient at(double x, double y) const override;
-  [[nodiscard]] double value(double x, double y) const;
+  [[nodiscard]] double value(double x, double y) const { return at(x, y).value; }
   [[nodiscard]] Rectangle domain() const override;
 
-  [[nodiscard]] const std::shared_ptr<const TensorAxes>& axes() const { return axes_; }
-  [[nodiscard]] const NodeData& node(std::size_t ix, std::size_t iy) const {
-    return nodes_[iy * axes_->x.size() + ix];
-  }
+  [[nodiscard]] const TensorAxes& axes() const { return *axes_; }
+  /// Of the products of the two axes' B-splines, (x, y).
+  [[nodiscard]] const Eigen::MatrixXd& coefficients() const { return coefficients_; }
 
   /// The surface at (x, y) as weights on the node values, w(ix, iy), which propagate the covariance
   /// of the measured values to any point. Clamped ends count as clamped to zero slope.
@@ -85,7 +79,7 @@ class TensorSpline final : public Surface {
 
  private:
   std::shared_ptr<const TensorAxes> axes_;
-  std::vector<NodeData> nodes_;  // x fastest
+  Eigen::MatrixXd coefficients_;
 };
 
 }  // namespace chaintrue::interp

@@ -112,11 +112,12 @@ class Estimator {
     double damping = 1e-4;
     is_linearised_ = true;
     for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
-      Eigen::MatrixXd normal = now.gram + now.prior_precision;
-      const Eigen::VectorXd downhill = now.moment +
-                                       linear::product(now.prior_precision, now.prior_mean) -
-                                       linear::product(normal, state_.settings);
-      normal.diagonal() += damping * now.gram.diagonal();
+      const Eigen::VectorXd downhill =
+          now.design.transpose() * (now.response - now.design * state_.settings) +
+          now.prior_precision * (now.prior_mean - state_.settings);
+      Eigen::MatrixXd normal = linear::gram(now.design);
+      normal.diagonal() *= 1.0 + damping;
+      normal += now.prior_precision;
       State next = state_;
       next.settings += linear::PivotedCholesky(normal).solve(downhill);
       is_linearised_ = next.settings.allFinite() && problem_->linearise(next).has_value();

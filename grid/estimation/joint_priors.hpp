@@ -106,7 +106,6 @@ inline void add_surface_prior(const JointProblem& joint,
 [[nodiscard]] inline interp::PenalisedProblem weighted(const JointProblem& joint,
                                                        const Eigen::VectorXd& weights) {
   interp::PenalisedProblem problem(joint.unknowns().total());
-  problem.keeps_rows = joint.local() == nullptr;
   problem.noise = joint.input().noise;
   add_weighted_rows(joint, weights, problem);
   add_stated_priors(joint, problem);

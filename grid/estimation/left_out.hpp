@@ -110,8 +110,8 @@ class LeftOut {
       residual[i] =
           root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
     }
-    const auto held = interp::held_out_residual_by_root(
-        residual, root.asDiagonal() * by_root_(rows, Eigen::all), fit_.sigma2);
+    const auto held = interp::held_out_residual(
+        residual, linear::outer(root.asDiagonal() * by_root_(rows, Eigen::all)), fit_.sigma2);
     if (!held) {
       if (const auto rest = fit_without(group)) {
         for (const std::size_t unit : group)

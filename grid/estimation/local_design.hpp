@@ -76,40 +76,38 @@ class LocalDesign {
   /// Worth its cost of q^3 with more rows than this per unknown.
   static constexpr Eigen::Index kRowsForEachUnknown = 4;
 
-  /// Adds X' w X, X' w y, y' w y and the rows of positive weight; a weight for each unit.
+  /// Adds the rows of positive weight by [X y]' w [X y]; a weight for each unit.
   void add_rows(const Eigen::VectorXd& response,
                 const Eigen::VectorXd& weights,
                 interp::PenalisedProblem& problem) const {
-    const Eigen::Index size = to_unknowns_.rows();
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size, size);
-    Eigen::VectorXd moment = Eigen::VectorXd::Zero(size);
+    const auto [size, unknowns] = std::pair(to_unknowns_.rows(), to_unknowns_.cols());
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size + 1, size + 1);
+    Eigen::Index count = 0;
     for (std::size_t u = 0; u < units_.size(); ++u) {
       const double weight = weights[as_index(u)];
       if (weight == 0.0) continue;
+      count += units_[u].rows;
       for (Eigen::Index i = 0; i < units_[u].rows; ++i) {
         const Eigen::Index at = units_[u].first_row + i;
-        const auto& row = rows_[as_size(at)];
+        std::vector<Entry> row = rows_[as_size(at)];
+        row.emplace_back(size, response[at]);
         // Columns rise along a row except where two places meet: entries above the diagonal are added
         // below it.
         for (std::size_t a = 0; a < row.size(); ++a) {
           const double value = weight * row[a].second;
-          moment[row[a].first] += value * response[at];
           for (std::size_t b = 0; b <= a; ++b) {
             const auto [low, high] = std::minmax(row[a].first, row[b].first);
             const bool twice = a != b && low == high;
             gram(high, low) += (twice ? 2.0 : 1.0) * value * row[b].second;
           }
         }
-        problem.response_square += weight * response[at] * response[at];
-        ++problem.rows;
       }
     }
     gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-    linear::add_product(
-        problem.gram, 1.0, linear::transposed(to_unknowns_), linear::product(gram, to_unknowns_));
-    // Symmetric up to rounding.
-    problem.gram.triangularView<Eigen::StrictlyUpper>() = problem.gram.transpose();
-    linear::add_product(problem.moment, 1.0, linear::transposed(to_unknowns_), moment);
+    Eigen::MatrixXd to_all = Eigen::MatrixXd::Zero(size + 1, unknowns + 1);
+    to_all.topLeftCorner(size, unknowns) = to_unknowns_;
+    to_all(size, unknowns) = 1.0;
+    problem.add_products(count, linear::carried(linear::transposed(to_all), gram));
   }
 
   /// X_u C X_u' of every unit.

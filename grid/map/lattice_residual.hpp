@@ -17,10 +17,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "interp/quintic_spline.hpp"
 #include "interp/tensor_spline.hpp"
 #include "model/coordinates.hpp"
 
@@ -48,8 +48,10 @@ class LatticeSplines {
  public:
   /// \throws std::invalid_argument if the shapes do not fit the nodes or the nodes do not rise.
   explicit LatticeSplines(const LatticeResidual& residual)
-      : left_(residual.x_nodes_mm, residual.y_nodes_mm, residual.values_mm.left),
-        right_(residual.x_nodes_mm, residual.y_nodes_mm, residual.values_mm.right),
+      : quintic_(std::make_shared<const interp::TensorAxes>(
+            residual.x_nodes_mm, residual.y_nodes_mm, interp::TensorEnds{}, 5)),
+        left_(quintic_, residual.values_mm.left),
+        right_(quintic_, residual.values_mm.right),
         weights_(residual.x_nodes_mm, residual.y_nodes_mm, residual.doubt_mm),
         doubt_mm_(residual.doubt_mm),
         interpolation_sigma_mm_(residual.interpolation_sigma_mm) {}
@@ -71,8 +73,9 @@ class LatticeSplines {
   }
 
  private:
-  interp::QuinticSpline left_;
-  interp::QuinticSpline right_;
+  std::shared_ptr<const interp::TensorAxes> quintic_;
+  interp::TensorSpline left_;
+  interp::TensorSpline right_;
   interp::TensorSpline weights_;
   Eigen::MatrixXd doubt_mm_;
   double interpolation_sigma_mm_;

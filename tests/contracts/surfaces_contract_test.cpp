@@ -13,7 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include "interp/quintic_spline.hpp"
 #include "interp/tensor_spline.hpp"
 #include "tests/support/in_threads.hpp"
 #include "tests/support/random.hpp"
@@ -37,7 +36,7 @@ std::unique_ptr<Surface> bicubic(const Nodes& x, const Nodes& y, const Eigen::Ma
 }
 
 std::unique_ptr<Surface> quintic(const Nodes& x, const Nodes& y, const Eigen::MatrixXd& values) {
-  return std::make_unique<QuinticSpline>(x, y, values);
+  return std::make_unique<TensorSpline>(std::make_shared<TensorAxes>(x, y, TensorEnds{}, 5), values);
 }
 
 constexpr std::array kSurfaceMethods = {

@@ -31,6 +31,8 @@ EstimationInput input_of(int points) {
   return input;
 }
 
+constexpr double kRounding = 1e-13;
+
 TEST(LocalDesign, EqualsTheDenseDesign) {
   const EstimationInput input = input_of(300);
   JointProblem problem(input, true);
@@ -49,16 +51,16 @@ TEST(LocalDesign, EqualsTheDenseDesign) {
   const Eigen::MatrixXd& design = problem.design();
   const Eigen::MatrixXd gram = design.transpose() * by_row.asDiagonal() * design;
   const Eigen::VectorXd weighted_response = by_row.asDiagonal() * problem.response();
-  // Sums of some hundred products of sixteen digits.
-  constexpr double kRounding = 1e-13;
-  EXPECT_LE((weighted.gram - gram).cwiseAbs().maxCoeff(), kRounding * gram.cwiseAbs().maxCoeff());
-  EXPECT_EQ(weighted.gram, weighted.gram.transpose());
-  const Eigen::VectorXd moment = design.transpose() * weighted_response;
-  EXPECT_LE((weighted.moment - moment).cwiseAbs().maxCoeff(),
-            kRounding * moment.cwiseAbs().maxCoeff());
-  EXPECT_NEAR(weighted.response_square,
+  const auto expect_near = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    // Sums of some hundred products of sixteen digits.
+    EXPECT_LE((a - b).cwiseAbs().maxCoeff(), kRounding * b.cwiseAbs().maxCoeff());
+  };
+  expect_near(weighted.design.transpose() * weighted.design, gram);
+  expect_near(weighted.design.transpose() * weighted.response,
+              design.transpose() * weighted_response);
+  EXPECT_NEAR(weighted.response.squaredNorm(),
               problem.response().dot(weighted_response),
-              kRounding * weighted.response_square);
+              kRounding * weighted.response.squaredNorm());
   EXPECT_EQ(weighted.rows, (by_row.array() > 0.0).count());
   // Any covariance will do.
   const Eigen::MatrixXd covariance =

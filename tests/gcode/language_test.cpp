@@ -38,5 +38,16 @@ TEST(Language, WritesOutParametersInMessages) {
   EXPECT_FALSE(events.comments[2].message);
 }
 
+TEST(Language, KnowsTheToolInTheSpindle) {
+  ProgramEvents events;
+  ASSERT_TRUE(run_text("(print, #5400)\nT3\n(print, #5400)\nM6\n(print, #5400)\nM61 Q7\n"
+                       "(print, #5400 #<_current_tool>)\n",
+                       events));
+  std::vector<std::string> told;
+  for (const auto& comment : events.comments) told.push_back(comment.text);
+  EXPECT_THAT(told,
+              testing::ElementsAre(" 0.000000", " 0.000000", " 3.000000", " 7.000000 7.000000"));
+}
+
 }  // namespace
 }  // namespace chaintrue::gcode

@@ -25,8 +25,7 @@ FOR_USERS = ("interp/interp.hpp", "model/model.hpp", "grid/grid.hpp")
 # Libraries of tools/ that are independent of the command line.
 WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
 # Decompositions are templates that take seconds to compile, and code for one processor (linear_algebra_kernels.hpp).
-# The quintic spline, which no fit uses, has an LU factorisation of its own.
-DECOMPOSING = ("interp/linear_algebra.cpp", "interp/linear_algebra_kernels.cpp", "interp/quintic_spline.cpp")
+DECOMPOSING = ("interp/linear_algebra.hpp", "interp/linear_algebra.cpp", "interp/linear_algebra_kernels.cpp")
 DECOMPOSITION = re.compile(
     r"\b(LLT|LDLT|PartialPivLU|FullPivLU|HouseholderQR|ColPivHouseholderQR|FullPivHouseholderQR|Tridiagonalization"
     r"|CompleteOrthogonalDecomposition|BDCSVD|JacobiSVD|(?:Generalized)?SelfAdjointEigenSolver|EigenSolver)<([^<>]*(?:<[^<>]*>)?[^<>]*)>")

@@ -114,6 +114,7 @@ Parameters::Parameters(State state)
 }
 
 double Parameters::get(int index) const {
+  if (index == parameter::kTool) return state_("_current_tool").value();
   constexpr std::string_view kPosition[] = {"_x", "_y", "_z", "_a", "_b", "_c"};
   const auto axis = static_cast<std::size_t>(index - parameter::kPosition);
   return axis < std::size(kPosition) ? state_(kPosition[axis]).value() : stored(index);
@@ -123,7 +124,7 @@ void Parameters::set(int index, double value) { values_[static_cast<std::size_t>
 
 bool Parameters::writable(int index) const {
   // 5400 to 5428 are the tool and the position.
-  return index < 5400 || index > 5428;
+  return index < parameter::kTool || index > 5428;
 }
 
 std::optional<double> Parameters::get(std::string_view name) const {

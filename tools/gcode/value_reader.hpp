@@ -39,6 +39,7 @@ inline constexpr int kOffsetOn = 5210;
 inline constexpr int kOffset = 5211;
 inline constexpr int kSystem = 5220;
 inline constexpr int kFirstSystem = 5221;
+inline constexpr int kTool = 5400;  ///< in the spindle
 inline constexpr int kPosition = 5420;
 inline constexpr int kCount = 5603;
 }  // namespace parameter

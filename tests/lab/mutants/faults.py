@@ -56,7 +56,7 @@ FAULTS = [
           "-6.0 * s * (1.0 - s)",
           "region|fade"),
     Fault("average_without_prior", "interp/reml_search.cpp",
-          "(has_prior ? 0.0 : likelihood_.flat_slope().dot(theta))",
+          "likelihood_.left_out_slope().dot(theta)",
           "0.0",
           "interp.*reml"),
     # grid/observation

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// Two bicubic polynomials in one cell, evaluated together. Internal to interp.
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace chaintrue::interp {
+
+/// Values and gradients of two surfaces at one point.
+struct PairGradient {
+  std::array<double, 2> value;
+  std::array<double, 2> dx;
+  std::array<double, 2> dy;
+};
+
+/// The matrix that takes values at four places to the powers of the cubic through them.
+[[nodiscard]] Eigen::Matrix4d powers_through(const Eigen::Vector4d& places);
+
+/// Immutable once both are set. The coefficients are interleaved: 256 bytes, of u^i v^j in surface k
+/// at 8 i + 2 j + k.
+class alignas(64) PairPolynomial {
+ public:
+  /// powers(i, j) is the coefficient of u^i v^j.
+  void set(std::size_t surface, const Eigen::Matrix4d& powers) {
+    for (std::size_t at = 0; at < 16; ++at)
+      c_[8 * (at / 4) + 2 * (at % 4) + surface] =
+          powers(static_cast<Eigen::Index>(at / 4), static_cast<Eigen::Index>(at % 4));
+  }
+
+  /// At u and v, which rise by `per_x` and `per_y` with each unit of x and y.
+  [[nodiscard, gnu::always_inline]] PairGradient at(double u,
+                                                    double v,
+                                                    double per_x,
+                                                    double per_y) const {
+    // Horner's rule for the polynomial in u of each power of v of both surfaces: eight parallel
+    // loops that the compiler vectorises.
+    std::array<double, 8> p;
+    std::array<double, 8> slope;
+    for (std::size_t l = 0; l < 8; ++l) {
+      const double a = c_[24 + l] * u + c_[16 + l];
+      const double b = a * u + c_[8 + l];
+      slope[l] = (c_[24 + l] * u + a) * u + b;
+      p[l] = b * u + c_[l];
+    }
+    const double v2 = v * v;
+    PairGradient out;
+    for (std::size_t k = 0; k < 2; ++k) {
+      out.value[k] = (p[k] + v2 * p[4 + k]) + v * (p[2 + k] + v2 * p[6 + k]);
+      out.dx[k] = ((slope[k] + v2 * slope[4 + k]) + v * (slope[2 + k] + v2 * slope[6 + k])) * per_x;
+      out.dy[k] = ((2.0 * v * p[4 + k] + 3.0 * v2 * p[6 + k]) + p[2 + k]) * per_y;
+    }
+    return out;
+  }
+
+ private:
+  std::array<double, 32> c_{};
+};
+
+}  // namespace chaintrue::interp
