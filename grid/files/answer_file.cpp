@@ -2,7 +2,7 @@
 #include "grid/files/answer_file.hpp"
 
 #include "grid/files/json_text.hpp"
-#include "grid/files/machine_record.hpp"
+#include "grid/files/records.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {

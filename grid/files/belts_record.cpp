@@ -8,7 +8,7 @@
 #include "grid/containers.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -26,29 +26,23 @@ struct StatedAnchor {
 };
 
 auto anchor_record() {
-  return Record<StatedAnchor>("an anchor")
-      .optional("x_mm",
-                "x of the point where the belt leaves the frame, to the right of the bottom "
-                "left anchor. Given for all four anchors or for none.",
-                &StatedAnchor::x_mm,
-                kMillimetres)
-      .optional("y_mm",
-                "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
-                &StatedAnchor::y_mm,
-                kMillimetres)
-      .optional("z_mm",
-                "Its height above the bed; default: the firmware's.",
-                &StatedAnchor::z_mm,
-                kMillimetres);
+  RECORD(StatedAnchor, "an anchor")
+  OPTIONAL(x_mm,
+           "x of the point where the belt leaves the frame, to the right of the bottom "
+           "left anchor. Given for all four anchors or for none.",
+           kMillimetres)
+  OPTIONAL(y_mm,
+           "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
+           kMillimetres)
+  OPTIONAL(z_mm, "Its height above the bed; default: the firmware's.", kMillimetres);
 }
 
 auto anchors_record() {
-  using Anchors = PerBelt<StatedAnchor>;
-  return Record<Anchors>("four anchors")
-      .required("tl", "Top left.", &Anchors::tl, anchor_record())
-      .required("tr", "Top right.", &Anchors::tr, anchor_record())
-      .required("bl", "Bottom left, the origin.", &Anchors::bl, anchor_record())
-      .required("br", "Bottom right, on the x axis.", &Anchors::br, anchor_record());
+  RECORD(PerBelt<StatedAnchor>, "four anchors")
+  REQUIRED(tl, "Top left.", anchor_record())
+  REQUIRED(tr, "Top right.", anchor_record())
+  REQUIRED(bl, "Bottom left, the origin.", anchor_record())
+  REQUIRED(br, "Bottom right, on the x axis.", anchor_record());
 }
 
 void read_anchors(const Cursor& at, BeltMachine& machine) {
@@ -82,10 +76,12 @@ Json written_anchors(const BeltMachine& machine) {
 }
 
 auto belt_record() {
-  return Record<BeltMachine>("a belt").optional("turn_mm",
-                                                "Belt length for one turn of the encoder.",
-                                                &BeltMachine::belt_turn_mm,
-                                                kMillimetres);
+  RECORD(BeltMachine, "a belt")
+  FIELD(optional,
+        "turn_mm",
+        "Belt length for one turn of the encoder.",
+        &BeltMachine::belt_turn_mm,
+        kMillimetres);
 }
 
 constexpr Range kPull{"", 1e-3, 1e6};
@@ -125,11 +121,11 @@ void add_pull(Record<BeltPoint>& record) {
 using ThrownAway = PerBelt<std::vector<double>>;
 
 auto thrown_away_record() {
-  return Record<ThrownAway>("lengths of each belt")
-      .sparse("tl_mm", "Top left.", &ThrownAway::tl, list(kBeltLengthMm))
-      .sparse("tr_mm", "Top right.", &ThrownAway::tr, list(kBeltLengthMm))
-      .sparse("bl_mm", "Bottom left.", &ThrownAway::bl, list(kBeltLengthMm))
-      .sparse("br_mm", "Bottom right.", &ThrownAway::br, list(kBeltLengthMm));
+  RECORD(ThrownAway, "lengths of each belt")
+  FIELD(sparse, "tl_mm", "Top left.", &ThrownAway::tl, list(kBeltLengthMm))
+  FIELD(sparse, "tr_mm", "Top right.", &ThrownAway::tr, list(kBeltLengthMm))
+  FIELD(sparse, "bl_mm", "Bottom left.", &ThrownAway::bl, list(kBeltLengthMm))
+  FIELD(sparse, "br_mm", "Bottom right.", &ThrownAway::br, list(kBeltLengthMm));
 }
 
 void add_lengths(Record<BeltPoint>& record) {
@@ -168,14 +164,14 @@ void add_command(Record<BeltPoint>& record) {
 }
 
 auto belt_point_record() {
-  Record<BeltPoint> point("a place");
-  add_lengths(point);
-  add_command(point);
-  point.optional("order",
-                 "Number of the visit. Either all places have one, all different, or none has.",
-                 &BeltPoint::order,
-                 integer(0, 1000000));
-  point.computed(
+  RECORD(BeltPoint, "a place")
+  ALSO(add_lengths)
+  ALSO(add_command)
+  OPTIONAL(order,
+           "Number of the visit. Either all places have one, all different, or none has.",
+           integer(0, 1000000))
+  FIELD(
+      computed,
       "pulled",
       "Belts that a motor tensioned at the reading while the others held; default: those for the "
       "frame's orientation.",
@@ -187,19 +183,21 @@ auto belt_point_record() {
           if (contains(found, belt)) p.pulled->push_back(belt);
         }
       },
-      [](const BeltPoint& p) { return p.pulled; });
-  add_pull(point);
-  return point.sparse("thrown_away",
-                      "Single readings that the controller discarded here.",
-                      &BeltPoint::thrown_away_mm,
-                      thrown_away_record());
+      [](const BeltPoint& p) { return p.pulled; })
+  ALSO(add_pull)
+  FIELD(sparse,
+        "thrown_away",
+        "Single readings that the controller discarded here.",
+        &BeltPoint::thrown_away_mm,
+        thrown_away_record());
 }
 
 auto hole_place_record() {
-  return Record<model::BedPoint>("where a hole was commanded")
-      .place("Commanded x, to the right of the crossing of the frame's diagonals.",
-             "Commanded y, up from there.",
-             kCommand);
+  RECORD(model::BedPoint, "where a hole was commanded")
+  FIELD(place,
+        "Commanded x, to the right of the crossing of the frame's diagonals.",
+        "Commanded y, up from there.",
+        kCommand);
 }
 
 void add_end(Record<BeltDistance>& record,
@@ -242,120 +240,84 @@ void add_end(Record<BeltDistance>& record,
 }
 
 auto belt_distance_record() {
-  Record<BeltDistance> distance("a taped distance");
-  add_end(distance,
-          "from",
-          "A place by its number from 0, an anchor, or a hole cut by the machine.",
-          &BeltDistance::from);
-  add_end(distance, "to", "The other end, in the same form.", &BeltDistance::to);
-  distance.required("distance_mm", "The tape reading.", &BeltDistance::distance_mm, kBeltDistanceMm)
-      .optional(
-          "sigma_mm", "Noise of this reading, 1 sigma.", &BeltDistance::sigma_mm, kTapeSigmaMm);
-  return distance;
+  RECORD(BeltDistance, "a taped distance")
+  ALSO(add_end,
+       "from",
+       "A place by its number from 0, an anchor, or a hole cut by the machine.",
+       &BeltDistance::from)
+  ALSO(add_end, "to", "The other end, in the same form.", &BeltDistance::to)
+  REQUIRED(distance_mm, "The tape reading.", kBeltDistanceMm)
+  OPTIONAL(sigma_mm, "Noise of this reading, 1 sigma.", kTapeSigmaMm);
 }
 
 }  // namespace
 
 Record<FirmwareFit> firmware_fit_record() {
   constexpr Range kMisfit{"mm", 0.0, 10000.0};
-  return Record<FirmwareFit>("the machine's own words of its fit")
-      .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, kMisfit)
-      .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, kMisfit);
+  RECORD(FirmwareFit, "the machine's own words of its fit")
+  REQUIRED(rms_mm, "Its rms, as it prints it.", kMisfit)
+  REQUIRED(max_mm, "Its largest misfit.", kMisfit);
 }
 
 Record<BeltPrediction> prediction_record() {
-  return Record<BeltPrediction>("what was predicted")
-      .required("readings",
-                "Number of predicted readings of lower belts.",
-                &BeltPrediction::readings,
-                index_number(0, kMostReadings))
-      .required("rms_mm", "Rms of reading minus prediction.", &BeltPrediction::rms_mm, kSpreadMm)
-      .required("largest_mm", "Largest difference.", &BeltPrediction::largest_mm, kSpreadMm);
+  RECORD(BeltPrediction, "what was predicted")
+  REQUIRED(readings, "Number of predicted readings of lower belts.", index_number(0, kMostReadings))
+  REQUIRED(rms_mm, "Rms of reading minus prediction.", kSpreadMm)
+  REQUIRED(largest_mm, "Largest difference.", kSpreadMm);
 }
 
 Record<BeltScale> scale_record() {
-  return Record<BeltScale>("a scale")
-      .required("factor",
-                "True length divided by the belts' length.",
-                &BeltScale::factor,
-                {"", 0.1, 10.0})
-      .required("sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, {"", 0.0, 10.0})
-      .required("residuals_mm",
-                "Taped minus fitted, for each distance.",
-                &BeltScale::residuals_mm,
-                list(kMisfitMm));
+  RECORD(BeltScale, "a scale")
+  REQUIRED(factor, "True length divided by the belts' length.", {"", 0.1, 10.0})
+  REQUIRED(sigma, "Its uncertainty, 1 sigma.", {"", 0.0, 10.0})
+  REQUIRED(residuals_mm, "Taped minus fitted, for each distance.", list(kMisfitMm));
 }
 
 Record<BeltMachine> belt_machine_record() {
-  Record<BeltMachine> machine("a machine with four belts");
-  machine.optional("name", "Name of the machine in messages and pages.", &BeltMachine::name)
-      .custom("anchors",
-              "Where the belts leave the frame; absent: not known yet.",
-              false,
-              anchors_record().expected(),
-              read_anchors,
-              written_anchors)
-      .part("belt", "The belts.", false, belt_record())
-      .optional("arm_mm",
-                "From the tool to the point where a belt's end is attached.",
-                &BeltMachine::arm_mm,
-                kMillimetres)
-      .optional("end_extension_mm",
-                "Length of the belt's end, from its last tooth to the arm.",
-                &BeltMachine::end_extension_mm,
-                kMillimetres)
-      .optional("surface_mm",
-                "Thickness of spoilboard and work together, added to the heights of the anchors.",
-                &BeltMachine::surface_mm,
-                kMillimetres)
-      .optional("orientation",
-                "How the frame stands, which decides which belts are pulled.",
-                &BeltMachine::orientation,
-                by_name_to(model::Orientation::flat))
-      .optional("lengths",
-                "What a printed length includes: the belt, the belt with extension and arm, or the "
-                "level span from anchor to tool.",
-                &BeltMachine::lengths,
-                by_name_to(model::BeltLengths::span))
-      .optional("scale_x",
-                "The controller's factor for commands along x.",
-                &BeltMachine::scale_x,
-                number_in(""))
-      .optional("scale_y",
-                "The controller's factor for commands along y.",
-                &BeltMachine::scale_y,
-                number_in(""))
-      .optional(
-          "setting_names",
-          "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
-          "the top level, as before July 2025.",
-          &BeltMachine::setting_names,
-          choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
-                                       {"top_level", model::SettingNames::top_level}}))
+  RECORD(BeltMachine, "a machine with four belts")
+  OPTIONAL(name, "Name of the machine in messages and pages.")
+  FIELD(custom,
+        "anchors",
+        "Where the belts leave the frame; absent: not known yet.",
+        false,
+        anchors_record().expected(),
+        read_anchors,
+        written_anchors)
+  FIELD(part, "belt", "The belts.", false, belt_record())
+  OPTIONAL(arm_mm, "From the tool to the point where a belt's end is attached.", kMillimetres)
+  OPTIONAL(
+      end_extension_mm, "Length of the belt's end, from its last tooth to the arm.", kMillimetres)
+  OPTIONAL(surface_mm,
+           "Thickness of spoilboard and work together, added to the heights of the anchors.",
+           kMillimetres)
+  OPTIONAL(orientation,
+           "How the frame stands, which decides which belts are pulled.",
+           by_name_to(model::Orientation::flat))
+  OPTIONAL(lengths,
+           "What a printed length includes: the belt, the belt with extension and arm, or the "
+           "level span from anchor to tool.",
+           by_name_to(model::BeltLengths::span))
+  OPTIONAL(scale_x, "The controller's factor for commands along x.", number_in(""))
+  OPTIONAL(scale_y, "The controller's factor for commands along y.", number_in(""))
+  OPTIONAL(setting_names,
+           "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
+           "the top level, as before July 2025.",
+           choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
+                                        {"top_level", model::SettingNames::top_level}}))
       .check([](const Cursor& at, BeltMachine& own) {
         report_impossible(at, model::problems_of(own));
       });
-  return machine;
 }
 
 const Record<MeasuredBelts>& belts_record() {
-  static const auto record =
-      Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
-          .sparse("name", "Name of the set.", &MeasuredBelts::name)
-          .optional("machine",
-                    "The machine with its settings in force.",
-                    &MeasuredBelts::machine,
-                    belt_machine_record())
-          .required(
-              "points", "The places, in any order.", &MeasuredBelts::points, belt_point_record())
-          .sparse("distances",
-                  "Taped distances; without one the scale is unknown.",
-                  &MeasuredBelts::distances,
-                  belt_distance_record())
-          .optional("firmware_fit",
-                    "The machine's report of its own fit.",
-                    &MeasuredBelts::firmware_fit,
-                    firmware_fit_record());
+  static const auto record = [] {
+    RECORD(MeasuredBelts, "a chaintrue_belts file", kBeltsFormat)
+    SPARSE(name, "Name of the set.")
+    OPTIONAL(machine, "The machine with its settings in force.", belt_machine_record())
+    REQUIRED(points, "The places, in any order.", belt_point_record())
+    SPARSE(distances, "Taped distances; without one the scale is unknown.", belt_distance_record())
+    OPTIONAL(firmware_fit, "The machine's report of its own fit.", firmware_fit_record());
+  }();
   return record;
 }
 

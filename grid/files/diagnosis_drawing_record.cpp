@@ -12,27 +12,22 @@ using diagnosis::DrawnSetting;
 using diagnosis::DrawnValue;
 
 auto drawn_setting_record() {
-  return Record<DrawnSetting>("a setting of a plotter")
-      .required("name", "Name of the parameter, with its unit.", &DrawnSetting::name)
-      .required("set", "Value in the controller.", &DrawnSetting::set, kAnyNumber)
-      .required("found",
-                "Value estimated from the drawing together with the named causes.",
-                &DrawnSetting::found,
-                kAnyNumber)
-      .required("sigma", "Uncertainty of that, 1 sigma.", &DrawnSetting::sigma, kNotNegative)
-      .required("off", "True if the two differ by more than three sigmas.", &DrawnSetting::off);
+  RECORD(DrawnSetting, "a setting of a plotter")
+  REQUIRED(name, "Name of the parameter, with its unit.")
+  REQUIRED(set, "Value in the controller.", kAnyNumber)
+  REQUIRED(found, "Value estimated from the drawing together with the named causes.", kAnyNumber)
+  REQUIRED(sigma, "Uncertainty of that, 1 sigma.", kNotNegative)
+  REQUIRED(off, "True if the two differ by more than three sigmas.");
 }
 
 auto drawn_value_record() {
-  return Record<DrawnValue>("a measure of a drawing")
-      .required("name", "The length or the bow, by its crosses.", &DrawnValue::name)
-      .required("measured_mm", "The reading.", &DrawnValue::measured_mm, kAnyNumber)
-      .required("explained_mm",
-                "The value predicted by the estimated settings and the named causes.",
-                &DrawnValue::explained_mm,
-                kAnyNumber)
-      .required(
-          "rejected", "True if it contradicts the others and was left out.", &DrawnValue::rejected);
+  RECORD(DrawnValue, "a measure of a drawing")
+  REQUIRED(name, "The length or the bow, by its crosses.")
+  REQUIRED(measured_mm, "The reading.", kAnyNumber)
+  REQUIRED(explained_mm,
+           "The value predicted by the estimated settings and the named causes.",
+           kAnyNumber)
+  REQUIRED(rejected, "True if it contradicts the others and was left out.");
 }
 
 void take_cause_of_cords(CauseId& cause) {
@@ -44,16 +39,10 @@ void take_cause_of_cords(CauseId& cause) {
 }  // namespace
 
 Record<DrawingFindings> drawing_findings_record() {
-  return Record<DrawingFindings>("results for a drawing")
-      .required("plotter", "Name of the plotter.", &DrawingFindings::plotter)
-      .required("settings",
-                "All settings of the controller.",
-                &DrawingFindings::settings,
-                drawn_setting_record())
-      .required("measures",
-                "The measures of the drawing, in order.",
-                &DrawingFindings::measures,
-                drawn_value_record());
+  RECORD(DrawingFindings, "results for a drawing")
+  REQUIRED(plotter, "Name of the plotter.")
+  REQUIRED(settings, "All settings of the controller.", drawn_setting_record())
+  REQUIRED(measures, "The measures of the drawing, in order.", drawn_value_record());
 }
 
 void take_causes_of_cords(diagnosis::Diagnosis& d) {

@@ -9,10 +9,8 @@
 #include "grid/files/csv_table.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/grid_checks.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/reading_record.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -31,61 +29,35 @@ struct StatedGrid : MeasuredGrid {
 };
 
 auto noise_record() {
-  return Record<StatedNoise>("the noise")
-      .required(
-          "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNoiseMm)
-      .required("position_mm",
-                "Noise of a mark's position, 1 sigma on each axis.",
-                &StatedNoise::position_mm,
-                kNoiseMm)
-      .optional("dof",
-                "Degrees of freedom with which these are known; 15 means to about a fifth.",
-                &StatedNoise::dof,
-                kNoiseDof);
+  RECORD(StatedNoise, "the noise")
+  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNoiseMm)
+  REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNoiseMm)
+  OPTIONAL(
+      dof, "Degrees of freedom with which these are known; 15 means to about a fifth.", kNoiseDof);
 }
 
 auto sheet_uncertainty_record() {
-  using Sheet = SheetUncertainty;
-  return Record<Sheet>("the sheet's placement")
-      .required("shift_mm",
-                "Uncertainty of the sheet's position, 1 sigma on each axis.",
-                &Sheet::shift_mm,
-                {"mm", 0.0, 1000.0})
-      .required("rotation_mrad",
-                "Uncertainty of the sheet's rotation, 1 sigma.",
-                &Sheet::rotation_mrad,
-                {"mrad", 0.0, 500.0});
+  RECORD(SheetUncertainty, "the sheet's placement")
+  REQUIRED(
+      shift_mm, "Uncertainty of the sheet's position, 1 sigma on each axis.", {"mm", 0.0, 1000.0})
+  REQUIRED(rotation_mrad, "Uncertainty of the sheet's rotation, 1 sigma.", {"mrad", 0.0, 500.0});
 }
 
 const Record<StatedPoint>& point_record() {
-  using Point = StatedPoint;
-  static const auto record =
-      Record<Point>("a point")
-          .required("x_mm",
-                    "x of the tool. Null in a list that is not filled in yet.",
-                    &Point::x_mm,
-                    kCoordinate)
-          .required("y_mm",
-                    "y of the tool, up. Null in a list that is not filled in yet.",
-                    &Point::y_mm,
-                    kCoordinate)
-          .optional("left_mm",
-                    "Length of the left chain, as read or as commanded.",
-                    &Point::left_mm,
-                    kLength)
-          .optional("right_mm",
-                    "Length of the right chain, as read or as commanded.",
-                    &Point::right_mm,
-                    kLength)
-          .optional("commanded_x_mm",
-                    "Commanded x; the chain lengths are then those of the controller's kinematics.",
-                    &Point::commanded_x_mm,
-                    kCoordinate)
-          .optional("commanded_y_mm", "Commanded y, up.", &Point::commanded_y_mm, kCoordinate)
-          .optional("order",
-                    "Number of the visit. Either all points have one, all different, or none has.",
-                    &Point::order,
-                    integer(0, kLargestOrder));
+  static const auto record = [] {
+    RECORD(StatedPoint, "a point")
+    REQUIRED(x_mm, "x of the tool. Null in a list that is not filled in yet.", kCoordinate)
+    REQUIRED(y_mm, "y of the tool, up. Null in a list that is not filled in yet.", kCoordinate)
+    OPTIONAL(left_mm, "Length of the left chain, as read or as commanded.", kLength)
+    OPTIONAL(right_mm, "Length of the right chain, as read or as commanded.", kLength)
+    OPTIONAL(commanded_x_mm,
+             "Commanded x; the chain lengths are then those of the controller's kinematics.",
+             kCoordinate)
+    OPTIONAL(commanded_y_mm, "Commanded y, up.", kCoordinate)
+    OPTIONAL(order,
+             "Number of the visit. Either all points have one, all different, or none has.",
+             integer(0, kLargestOrder));
+  }();
   return record;
 }
 
@@ -129,43 +101,34 @@ void read_points(const Cursor& at, StatedGrid& grid) {
 }
 
 const Record<StatedGrid>& grid_record() {
-  static const auto record =
-      Record<StatedGrid>("a grid", kGridFormat)
-          .optional("name", "Name of the session in messages and pages.", &StatedGrid::name)
-          .optional("machine",
-                    "The machine with its settings in force; or machine_file.",
-                    &StatedGrid::machine,
-                    machine_record())
-          .sparse("machine_file",
-                  "Path of the machine file, from this file.",
-                  &StatedGrid::machine_file)
-          .optional("noise",
-                    "Noise of the readings. Missing values are estimated from repeated visits, or "
-                    "assumed; none is taken below the rounding of the readings.",
-                    &StatedGrid::noise,
-                    noise_record())
-          .optional("sheet",
-                    "How accurately the marks' sheet was placed by hand; absent: exactly.",
-                    &StatedGrid::sheet,
-                    sheet_uncertainty_record())
-          .sparse("readings",
-                  "What was measured besides the points.",
-                  &StatedGrid::readings,
-                  reading_record())
-          .custom("points",
-                  "The measured points.",
-                  true,
-                  {"a list of points", points_schema},
-                  read_points,
-                  [value = list(point_record())](const StatedGrid& grid) {
-                    return value.write(grid.lines);
-                  })
-          .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
-          .check([](const Cursor& at, StatedGrid& grid) {
-            if (grid.machine && !grid.machine_file.empty()) {
-              at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
-            }
-          });
+  static const auto record = [] {
+    RECORD(StatedGrid, "a grid", kGridFormat)
+    OPTIONAL(name, "Name of the session in messages and pages.")
+    OPTIONAL(machine, "The machine with its settings in force; or machine_file.", machine_record())
+    SPARSE(machine_file, "Path of the machine file, from this file.")
+    OPTIONAL(noise,
+             "Noise of the readings. Missing values are estimated from repeated visits, or "
+             "assumed; none is taken below the rounding of the readings.",
+             noise_record())
+    OPTIONAL(sheet,
+             "How accurately the marks' sheet was placed by hand; absent: exactly.",
+             sheet_uncertainty_record())
+    SPARSE(readings, "What was measured besides the points.", reading_record())
+    FIELD(
+        custom,
+        "points",
+        "The measured points.",
+        true,
+        {"a list of points", points_schema},
+        read_points,
+        [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.lines); })
+        .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+        .check([](const Cursor& at, StatedGrid& grid) {
+          if (grid.machine && !grid.machine_file.empty()) {
+            at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+          }
+        });
+  }();
   return record;
 }
 

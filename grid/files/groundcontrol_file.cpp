@@ -22,55 +22,11 @@ namespace chaintrue::grid::files {
 namespace {
 
 using model::Brackets;
-using model::ControllerSettings;
 using model::Feed;
 using model::Machine;
 using model::Ring;
 
 constexpr double kDegreeRad = std::numbers::pi / 180.0;
-
-enum class Need { always, ring, brackets, never };
-
-/// A number of the ini file, and the controller's member for it.
-struct NumberKey {
-  const char* key;
-  Range range;
-  Need need;
-  std::optional<double> ControllerSettings::*setting;
-};
-
-// The ranges for a machine are inside those of model::problems_of and of the catalogue of effects,
-// so that messages name the ini file's lines.
-constexpr NumberKey kNumberKeys[] = {
-    {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
-    {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
-    {"motorspacingx", {"mm", 300, 40000}, Need::always, &ControllerSettings::motor_spacing_mm},
-    {"motoroffsety", {"mm", 1, 10000}, Need::always, &ControllerSettings::motor_offset_y_mm},
-    {"chainpitch", {"mm", 1, 50}, Need::always, &ControllerSettings::chain_pitch_mm},
-    {"gearteeth", {"teeth", 3, 100}, Need::always, &ControllerSettings::gear_teeth},
-    {"rotationradius", {"mm", 20, 500}, Need::ring, &ControllerSettings::rotation_radius_mm},
-    {"sledwidth", {"mm", 50, 1500}, Need::brackets, &ControllerSettings::sled_width_mm},
-    {"sledheight", {"mm", 20, 1000}, Need::brackets, &ControllerSettings::sled_height_mm},
-    {"sledcg", {"mm", 5, 1000}, Need::brackets, &ControllerSettings::sled_cg_mm},
-    {"topbeamtilt", {"degrees", -20, 20}, Need::never, &ControllerSettings::top_beam_tilt_deg},
-    {"chainsagcorrection",
-     {"1e-12 / mm^2", -1000, 1000},
-     Need::never,
-     &ControllerSettings::chain_sag_correction},
-    {"leftchaintolerance",
-     {"percent", -5, 5},
-     Need::never,
-     &ControllerSettings::left_chain_tolerance_percent},
-    {"rightchaintolerance",
-     {"percent", -5, 5},
-     Need::never,
-     &ControllerSettings::right_chain_tolerance_percent},
-    {"sledweight", {"N", 1, 2000}, Need::never, &ControllerSettings::sled_weight_n},
-    {"chainelongationfactor",
-     {"1/N", 0, 1e-3},
-     Need::never,
-     &ControllerSettings::chain_elongation_per_n},
-};
 
 /// The numbers of the file by key.
 using SettingValues = std::map<std::string, std::optional<double>>;

@@ -17,20 +17,22 @@
 ///   };
 ///
 ///   constexpr Range kCoordinate{"mm", -20000, 20000};
-///   Record<Hole> hole_record() {
-///     return Record<Hole>("a hole")
-///         .required("name", "Its name.", &Hole::name)
-///         .required("x_mm", "Commanded x.", &Hole::x_mm, kCoordinate)
-///         .required("y_mm", "Commanded y, up.", &Hole::y_mm, kCoordinate)
-///         .optional("sigma_mm", "1 sigma on each axis.", &Hole::sigma_mm, Range{"mm", 0, 50});
+///   auto hole_record() {
+///     RECORD(Hole, "a hole")
+///     REQUIRED(name, "Its name.")
+///     REQUIRED(x_mm, "Commanded x.", kCoordinate)
+///     REQUIRED(y_mm, "Commanded y, up.", kCoordinate)
+///     OPTIONAL(sigma_mm, "1 sigma on each axis.", {"mm", 0, 50});
 ///   }
 ///   const Record<Holes>& holes_record() {  // static: each file is read by the same table
-///     static const auto record = Record<Holes>("a chaintrue_holes file", kHolesFormat)
-///         .sparse("name", "Name in messages.", &Holes::name)
-///         .required("holes", "The holes.", &Holes::holes, list(hole_record(), 2))
-///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
-///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
-///         });
+///     static const auto record = [] {
+///       RECORD(Holes, "a chaintrue_holes file", kHolesFormat)
+///       SPARSE(name, "Name in messages.")
+///       REQUIRED(holes, "The holes.", list(hole_record(), 2))
+///           .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
+///             if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
+///           });
+///     }();
 ///     return record;
 ///   }
 ///   Holes parse_holes(const std::string& text, const std::string& file) {
@@ -141,7 +143,7 @@ class RecordTable {
                                                         void (*reset)(void*));
 
 template <class T>
-class Record : public RecordTable {
+class [[nodiscard]] Record : public RecordTable {
   using Text = std::string_view;
   /// Only the member determines the type, so a range or a record may be given for its value.
   template <class M>
@@ -252,6 +254,13 @@ class Record : public RecordTable {
         [word](const T&) { return word; });
   }
 
+  /// The keys that `add(record)` adds.
+  template <class Add>
+  Record& with(const Add& add) {
+    add(*this);
+    return *this;
+  }
+
   /// Runs after the fields, even if some were wrong; see Cursor::clean.
   Record& check(std::function<void(const Cursor&, T&)> check) {
     add_check([own = std::move(check)](const Cursor& at, void* object) {
@@ -290,12 +299,29 @@ class Record : public RecordTable {
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
+/// A function's table: RECORD begins it, each line that follows adds keys. Where a key has the name of its
+/// member it is said once; FIELD is any other call of a Record, ALSO one of a function that takes the
+/// record. The last line ends in a semicolon.
+#define RECORD(type, ...) \
+  using Own = type;       \
+  return Record<Own>(__VA_ARGS__)
+#define REQUIRED(member, meaning, ...) \
+  .required(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define OPTIONAL(member, meaning, ...) \
+  .optional(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define SPARSE(member, meaning, ...) \
+  .sparse(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define NULLABLE(member, meaning, ...) \
+  .nullable(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define FIELD(call, ...) .call(__VA_ARGS__)
+#define ALSO(add, ...) .with([&](auto& own) { add(own __VA_OPT__(, ) __VA_ARGS__); })
+
 template <class T>
-[[nodiscard]] Value<T> object(const Record<T>& record) {
+Value<T> object(const Record<T>& record) {
   return Value<T>(object_codec(record, [](void* value) { *static_cast<T*>(value) = T{}; }));
 }
 template <class T>
-[[nodiscard]] Value<std::vector<T>> list(const Record<T>& record, std::size_t fewest = 0) {
+Value<std::vector<T>> list(const Record<T>& record, std::size_t fewest = 0) {
   return list(object(record), fewest);
 }
 

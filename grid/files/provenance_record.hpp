@@ -13,7 +13,7 @@
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] Record<Provenance> provenance_record();
+Record<Provenance> provenance_record();
 
 /// The key, for a record whose files are completed by with_made_by.
 template <class T>

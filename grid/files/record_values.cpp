@@ -100,9 +100,9 @@ Value<model::Setting> setting_word() {
 }
 
 Record<ErrorSummary> error_summary_record() {
-  return Record<ErrorSummary>("rms and maximum")
-      .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, kNotNegative)
-      .required("maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, kNotNegative);
+  RECORD(ErrorSummary, "rms and maximum")
+  REQUIRED(rms_mm, "Root mean square.", kNotNegative)
+  REQUIRED(maximum_mm, "Largest value.", kNotNegative);
 }
 
 }  // namespace chaintrue::grid::files
