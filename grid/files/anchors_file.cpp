@@ -19,19 +19,19 @@ constexpr int kMostPlaces = 100000;
 
 auto fitted_coordinate_record() {
   RECORD(AnchorCoordinate, "a coordinate of an anchor")
-  FIELD(required,
+  NAMED(required,
         "coordinate",
+        name,
         "Which coordinate; the bottom left anchor is the origin, and the bottom right "
         "one is on the x axis.",
-        &AnchorCoordinate::name,
         one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
   OPTIONAL(stated_mm, "Value in the settings; null if unknown.", kMillimetres)
   REQUIRED(fitted_mm, "Fitted value.", kMillimetres)
   REQUIRED(sigma_mm, "Its uncertainty, 1 sigma.", kSigmaMm)
-  FIELD(required,
+  NAMED(required,
         "rests_on",
+        variance_share,
         "Share of its variance from each belt's readings.",
-        &AnchorCoordinate::variance_share,
         per_belt_record<double>(number(kAnyNumber)));
 }
 
@@ -39,24 +39,24 @@ auto bad_record() {
   RECORD(BadBeltReading, "a bad reading")
   REQUIRED(point, "Number of the place, from 0.", index_number(0, kMostPlaces))
   REQUIRED(belt, "The belt.", belt_word())
-  FIELD(required,
+  NAMED(required,
         "off_mm",
+        residual_mm,
         "Reading minus the value predicted from all others.",
-        &BadBeltReading::residual_mm,
         kMillimetres);
 }
 
 auto residual_record() {
   RECORD(BeltResidual, "a reading's residual")
-  FIELD(required, "off_mm", "Reading minus fitted value.", &BeltResidual::residual_mm, kMillimetres)
+  NAMED(required, "off_mm", residual_mm, "Reading minus fitted value.", kMillimetres)
   REQUIRED(counts, "False if it was left out.")
   REQUIRED(sigmas,
            "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
            kAnyNumber)
-  FIELD(required,
+  NAMED(required,
         "beside_mm",
+        deleted_residual_mm,
         "Reading minus the value predicted from all others.",
-        &BeltResidual::deleted_residual_mm,
         kMillimetres);
 }
 
@@ -151,10 +151,10 @@ auto fit_record() {
         Eigen::Map<RowMajor>(rows.front().data()) = fit.covariance_mm2;
         return rows;
       })
-  FIELD(required,
+  NAMED(required,
         "spread_mm",
+        residual_sigma_mm,
         "Spread of a reading, with 2N - 5 checks in the denominator.",
-        &BeltsFit::residual_sigma_mm,
         kSigmaMm)
   REQUIRED(checks, "Degrees of freedom: that denominator.", integer(0, 4 * kMostPlaces))
   REQUIRED(rms_mm,

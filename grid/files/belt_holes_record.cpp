@@ -37,61 +37,46 @@ auto belt_hole_record() {
 auto taped_distance_record() {
   RECORD(BeltTapedDistance, "a fitted distance")
   REQUIRED(set, "Number of the file of holes, from 0.", index_number(0, kMostSets))
-  FIELD(required, "between", "Its ends.", &BeltTapedDistance::words)
+  NAMED(required, "between", words, "Its ends.")
   REQUIRED(measured_mm, "Taped distance, without the hook offset.", kMillimetres)
-  FIELD(required, "off_mm", "Taped minus fitted.", &BeltTapedDistance::residual_mm, kMillimetres)
+  NAMED(required, "off_mm", residual_mm, "Taped minus fitted.", kMillimetres)
   REQUIRED(left_out_mm, "Taped minus the prediction of a fit without it.", kMillimetres)
   REQUIRED(left_out_sigma_mm, "Uncertainty of that, 1 sigma.", kSigmaMm)
-  FIELD(required,
-        "set_aside",
-        "It contradicts the others and was not used.",
-        &BeltTapedDistance::rejected);
+  NAMED(required, "set_aside", rejected, "It contradicts the others and was not used.");
 }
-
-struct StatedDisplacement {
-  double size_mm = 0.0;
-  double reach_mm = 1.0;
-  std::vector<std::vector<double>> places;
-};
 
 /// x, y, and the tool's offset in x and y.
-constexpr std::size_t kNumbersOfAPlace = 4;
+using MovedPlace = std::array<double, 4>;
+
+void take_places(DisplacementParts& parts, const std::vector<MovedPlace>& places) {
+  parts.at_mm.resize(2 * as_index(places.size()));
+  for (const auto& [x, y, offset_x, offset_y] : places) {
+    parts.at_mm.segment<2>(2 * as_index(parts.places.size())) << offset_x, offset_y;
+    parts.places.push_back({x, y});
+  }
+}
+
+std::optional<std::vector<MovedPlace>> places_of(const DisplacementParts& parts) {
+  std::vector<MovedPlace> places;
+  for (const model::MarkPoint& at : parts.places) {
+    const auto row = 2 * as_index(places.size());
+    places.push_back({at.x_mm, at.y_mm, parts.at_mm[row], parts.at_mm[row + 1]});
+  }
+  return places;
+}
 
 auto displacement_record() {
-  RECORD(StatedDisplacement, "a displacement of the tool")
+  RECORD(DisplacementParts, "a displacement of the tool")
   REQUIRED(size_mm, "Its prior sigma, on each axis.", kPositiveMm)
   REQUIRED(reach_mm, "Length over which it changes.", kPositiveMm)
-  REQUIRED(places,
-           "For each place x, y, and the displacement of the tool in x and y from the "
-           "position given by its upper two belts; mm.",
-           list(list(kMillimetres, kNumbersOfAPlace), 1))
-      .check([](const Cursor& at, StatedDisplacement& stated) {
-        for (const auto& place : stated.places) {
-          if (place.size() != kNumbersOfAPlace && at.clean())
-            at.child("places").expect("four numbers of each place");
-        }
-      });
-}
-
-DisplacementParts displacement_of(const StatedDisplacement& stated) {
-  DisplacementParts parts{stated.size_mm, stated.reach_mm, {}, {}};
-  parts.at_mm.resize(2 * as_index(stated.places.size()));
-  for (const auto& place : stated.places) {
-    const auto row = 2 * as_index(parts.places.size());
-    parts.places.push_back({place[0], place[1]});
-    parts.at_mm.segment<2>(row) << place[2], place[3];
-  }
-  return parts;
-}
-
-StatedDisplacement stated_of(const DisplacementParts& parts) {
-  StatedDisplacement stated{parts.size_mm, parts.reach_mm, {}};
-  for (std::size_t i = 0; i < parts.places.size(); ++i) {
-    const auto row = 2 * as_index(i);
-    stated.places.push_back(
-        {parts.places[i].x_mm, parts.places[i].y_mm, parts.at_mm[row], parts.at_mm[row + 1]});
-  }
-  return stated;
+  FIELD(computed,
+        "places",
+        "For each place x, y, and the displacement of the tool in x and y from the "
+        "position given by its upper two belts; mm.",
+        true,
+        list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
+        take_places,
+        places_of);
 }
 
 auto stated_sheet_record() {
@@ -137,7 +122,7 @@ Record<HolesWithBelts> holes_with_belts_record() {
   OPTIONAL(displacement,
            "Displacement of the tool from the position given by its upper two belts; absent: "
            "the holes show none.",
-           converted<DisplacementParts>(object(displacement_record()), displacement_of, stated_of))
+           displacement_record())
   OPTIONAL(sheet,
            "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
            converted<Eigen::Vector3d>(

@@ -89,11 +89,7 @@ ReadBelts parse_belts(const std::string& text,
                       const std::string& file,
                       const std::vector<std::size_t>& without) {
   Problems problems(file);
-  const Json json = parse_json(text, problems);
-  auto stated = belts_record().read(Cursor(json, problems), true);
-  problems.throw_if_any();
-  ReadBelts read;
-  read.belts = std::move(stated.value());
+  ReadBelts read{read_document(belts_record(), text, problems), {}};
   if (!without.empty()) {
     check_belt_distances(read.belts, "/distances", problems);
     problems.throw_if_any();

@@ -77,11 +77,8 @@ Json written_anchors(const BeltMachine& machine) {
 
 auto belt_record() {
   RECORD(BeltMachine, "a belt")
-  FIELD(optional,
-        "turn_mm",
-        "Belt length for one turn of the encoder.",
-        &BeltMachine::belt_turn_mm,
-        kMillimetres);
+  NAMED(
+      optional, "turn_mm", belt_turn_mm, "Belt length for one turn of the encoder.", kMillimetres);
 }
 
 constexpr Range kPull{"", 1e-3, 1e6};
@@ -107,7 +104,7 @@ void add_pull(Record<BeltPoint>& record) {
         false,
         number(kPull).expected,
         [own](const Cursor& at, BeltPoint& point) {
-          const auto value = at.number(kPull);
+          const auto value = number(kPull).read(at);
           if (!value) return;
           if (point.pull) at.expect("one of pull_n, pull_ma and pull");
           point.pull = BeltPull{*value, own};
@@ -122,16 +119,16 @@ using ThrownAway = PerBelt<std::vector<double>>;
 
 auto thrown_away_record() {
   RECORD(ThrownAway, "lengths of each belt")
-  FIELD(sparse, "tl_mm", "Top left.", &ThrownAway::tl, list(kBeltLengthMm))
-  FIELD(sparse, "tr_mm", "Top right.", &ThrownAway::tr, list(kBeltLengthMm))
-  FIELD(sparse, "bl_mm", "Bottom left.", &ThrownAway::bl, list(kBeltLengthMm))
-  FIELD(sparse, "br_mm", "Bottom right.", &ThrownAway::br, list(kBeltLengthMm));
+  NAMED(sparse, "tl_mm", tl, "Top left.", list(kLengthMm))
+  NAMED(sparse, "tr_mm", tr, "Top right.", list(kLengthMm))
+  NAMED(sparse, "bl_mm", bl, "Bottom left.", list(kLengthMm))
+  NAMED(sparse, "br_mm", br, "Bottom right.", list(kLengthMm));
 }
 
 void add_lengths(Record<BeltPoint>& record) {
   using Lengths = PerBelt<double>;
   const auto length = [&](const char* key, const char* meaning, double Lengths::*belt) {
-    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), kBeltLengthMm);
+    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), kLengthMm);
   };
   length("tl_mm",
          "Length of the top left belt as the controller prints it; the machine's lengths defines "
@@ -142,20 +139,17 @@ void add_lengths(Record<BeltPoint>& record) {
   length("br_mm", "Length of the bottom right belt.", &Lengths::br);
 }
 
-constexpr Range kSpreadMm{"mm", 0.0, 1e6};
-constexpr Range kMisfitMm{"mm", -1e6, 1e6};
 constexpr int kMostReadings = 400000;
-constexpr Range kCommand{"mm", -20000.0, 20000.0};
 
 void add_command(Record<BeltPoint>& record) {
   record.optional("commanded_x_mm",
                   "Commanded x, from the crossing of the frame's diagonals.",
                   path(&BeltPoint::commanded, &model::BedPoint::x_mm),
-                  kCommand);
+                  kCoordinateMm);
   record.optional("commanded_y_mm",
                   "Commanded y, up from there.",
                   path(&BeltPoint::commanded, &model::BedPoint::y_mm),
-                  kCommand);
+                  kCoordinateMm);
   record.check([](const Cursor& at, BeltPoint&) {
     if (at.has("commanded_x_mm") == at.has("commanded_y_mm")) return;
     const char* lacking = at.has("commanded_x_mm") ? "commanded_y_mm" : "commanded_x_mm";
@@ -185,10 +179,10 @@ auto belt_point_record() {
       },
       [](const BeltPoint& p) { return p.pulled; })
   ALSO(add_pull)
-  FIELD(sparse,
+  NAMED(sparse,
         "thrown_away",
+        thrown_away_mm,
         "Single readings that the controller discarded here.",
-        &BeltPoint::thrown_away_mm,
         thrown_away_record());
 }
 
@@ -197,7 +191,7 @@ auto hole_place_record() {
   FIELD(place,
         "Commanded x, to the right of the crossing of the frame's diagonals.",
         "Commanded y, up from there.",
-        kCommand);
+        kCoordinateMm);
 }
 
 void add_end(Record<BeltDistance>& record,
@@ -220,7 +214,8 @@ void add_end(Record<BeltDistance>& record,
       [member, expected](const Cursor& at, BeltDistance& distance) {
         constexpr int kMostPoints = 100000;
         if (at.json().is_number()) {
-          if (const auto index = at.integer(0, kMostPoints)) distance.*member = as_size(*index);
+          if (const auto index = integer(0, kMostPoints).read(at))
+            distance.*member = as_size(*index);
         } else if (at.json().is_object()) {
           if (const auto hole = hole_place_record().read(at)) distance.*member = CutHole{*hole};
         } else {
@@ -246,7 +241,7 @@ auto belt_distance_record() {
        "A place by its number from 0, an anchor, or a hole cut by the machine.",
        &BeltDistance::from)
   ALSO(add_end, "to", "The other end, in the same form.", &BeltDistance::to)
-  REQUIRED(distance_mm, "The tape reading.", kBeltDistanceMm)
+  REQUIRED(distance_mm, "The tape reading.", kLengthMm)
   OPTIONAL(sigma_mm, "Noise of this reading, 1 sigma.", kTapeSigmaMm);
 }
 
@@ -262,15 +257,15 @@ Record<FirmwareFit> firmware_fit_record() {
 Record<BeltPrediction> prediction_record() {
   RECORD(BeltPrediction, "what was predicted")
   REQUIRED(readings, "Number of predicted readings of lower belts.", index_number(0, kMostReadings))
-  REQUIRED(rms_mm, "Rms of reading minus prediction.", kSpreadMm)
-  REQUIRED(largest_mm, "Largest difference.", kSpreadMm);
+  REQUIRED(rms_mm, "Rms of reading minus prediction.", kSigmaMm)
+  REQUIRED(largest_mm, "Largest difference.", kSigmaMm);
 }
 
 Record<BeltScale> scale_record() {
   RECORD(BeltScale, "a scale")
   REQUIRED(factor, "True length divided by the belts' length.", {"", 0.1, 10.0})
   REQUIRED(sigma, "Its uncertainty, 1 sigma.", {"", 0.0, 10.0})
-  REQUIRED(residuals_mm, "Taped minus fitted, for each distance.", list(kMisfitMm));
+  REQUIRED(residuals_mm, "Taped minus fitted, for each distance.", list(kMillimetres));
 }
 
 Record<BeltMachine> belt_machine_record() {

@@ -11,9 +11,6 @@
 
 namespace chaintrue::grid::files {
 
-inline constexpr Range kBeltLengthMm{"mm", 1.0, 20000.0};
-inline constexpr Range kBeltDistanceMm{"mm", 1.0, 20000.0};
-
 /// Includes the checks of model::problems_of.
 Record<model::BeltMachine> belt_machine_record();
 

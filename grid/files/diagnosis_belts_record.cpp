@@ -9,18 +9,16 @@ namespace {
 using diagnosis::BeltPlacePicture;
 using diagnosis::BeltsFindings;
 using diagnosis::DiagnosedCoordinate;
-using diagnosis::SecondPass;
-using diagnosis::ToolError;
 
 constexpr Range kPerMetre{"mm per metre", 0.0, 1e4};
 constexpr int kMostVisits = 1000000000;
 
 auto diagnosed_coordinate_record() {
   RECORD(DiagnosedCoordinate, "a coordinate of an anchor with causes")
-  FIELD(required,
+  NAMED(required,
         "coordinate",
+        name,
         "Which coordinate of which anchor.",
-        &DiagnosedCoordinate::name,
         one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
   OPTIONAL(stated_mm, "Value in the belts' file.", kMillimetres)
   REQUIRED(before_mm, "Fitted with the anchors alone.", kMillimetres)
@@ -43,7 +41,7 @@ auto belt_place_record() {
 }
 
 auto tool_record() {
-  RECORD(ToolError, "the tool's error")
+  RECORD(diagnosis::ToolError, "the tool's error")
   OPTIONAL(stated_mm,
            "Rms over the measured places with the anchors in force, including the "
            "uncertainty from the readings; 0 if no anchors are in force.",
@@ -56,7 +54,7 @@ auto tool_record() {
 }
 
 auto second_pass_record() {
-  RECORD(SecondPass, "a second pass")
+  RECORD(diagnosis::SecondPass, "a second pass")
   REQUIRED(times, "Tension relative to the first pass.", {"", 1.0, 100.0})
   REQUIRED(raises_probability_to, "Probability of a single right name afterwards.", kShare);
 }
@@ -71,27 +69,23 @@ Record<BeltsFindings> belts_findings_record() {
            "The five free coordinates of the frame.",
            exactly<5>(object(diagnosed_coordinate_record()), "five coordinates"))
   REQUIRED(spread_before_mm, "Rms of one belt's reading over the checks, anchors alone.", kSigmaMm)
-  FIELD(required,
-        "spread_mm",
-        "The same with the causes.",
-        &BeltsFindings::residual_sigma_mm,
-        kSigmaMm)
+  NAMED(required, "spread_mm", residual_sigma_mm, "The same with the causes.", kSigmaMm)
   REQUIRED(rms_before_mm,
            "Rms over all readings, as in the machine's own message; anchors alone.",
            kSigmaMm)
   REQUIRED(rms_mm, "The same with the causes.", kSigmaMm)
   REQUIRED(
       checks, "Readings minus unknowns, which include the sizes of causes.", integer(1, 1000000))
-  FIELD(optional,
+  NAMED(optional,
         "foretold_before",
+        prediction_before,
         "Lower belts predicted from the upper two, each half of the places from the "
         "other; anchors alone.",
-        &BeltsFindings::prediction_before,
         prediction_record())
-  FIELD(optional,
+  NAMED(optional,
         "foretold",
+        prediction,
         "The same with the causes, their sizes fitted to each half.",
-        &BeltsFindings::prediction,
         prediction_record())
   REQUIRED(tool, "Error of the tool, with free position and rotation of the frame.", tool_record())
   OPTIONAL(

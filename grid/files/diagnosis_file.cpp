@@ -15,7 +15,6 @@ namespace {
 using diagnosis::Diagnosis;
 using diagnosis::Observations;
 using diagnosis::Outlier;
-using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
 auto stated_noise_record() {
@@ -46,7 +45,7 @@ auto visiting_order_record() {
 }
 
 auto stated_tape_record() {
-  RECORD(StatedTape, "the noise of holes and a tape as entered")
+  RECORD(diagnosis::StatedTape, "the noise of holes and a tape as entered")
   REQUIRED(tape_sigma_mm, "Noise of a tape reading, 1 sigma.", kNotNegative)
   REQUIRED(hole_sigma_mm, "Error of a hole's position, 1 sigma on each axis.", kNotNegative)
   REQUIRED(dof, "Degrees of freedom with which these are known.", kNotNegative);
@@ -81,7 +80,7 @@ auto shift_record() {
       [](const Outlier& bad) {
         return bad.of == Observations::points ? std::nullopt : std::optional(bad.residual_mm);
       })
-  FIELD(required, "sigmas", "The same in sigmas.", &Outlier::distance, kNotNegative)
+  NAMED(required, "sigmas", distance, "The same in sigmas.", kNotNegative)
   OPTIONAL(belt, "For belts: the belt that is off; absent: the whole place.", belt_word())
   OPTIONAL(or_belt,
            "The belt that may be off instead: on the line between the two other anchors "
@@ -161,7 +160,6 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
   if (object.observations == Observations::distances || of_belts || of_drawing) {
     for (Outlier& bad : object.outliers) bad.of = object.observations;
   }
-  if (of_drawing) take_causes_of_cords(object);
   if (!of_belts && !of_drawing && !at.has("extended_machine"))
     at.child("extended_machine").missing("a chaintrue_machine");
   if (of_belts && !object.belts) at.child("belts").missing("results for four belts");
@@ -221,24 +219,21 @@ const Record<Diagnosis>& diagnosis_record() {
     REQUIRED(settings,
              "The machine's numbers, as in its file and calibrated.",
              calibrated_setting_record())
-    FIELD(optional,
+    NAMED(optional,
           "gain",
+          improvement,
           "Improvement by the cause at points that it was not fitted to.",
-          &Diagnosis::improvement,
           improvement_record())
     REQUIRED(next_measurements,
              "What to measure next, most informative first.",
              next_measurement_record())
     FIELD(
-        custom,
+        computed,
         "extended_machine",
         "The machine with what was found.",
         false,
-        machine_record().expected(),
-        [](const Cursor& at, Diagnosis& object) {
-          if (auto machine = machine_record().read(at))
-            object.extended_machine = *std::move(machine);
-        },
+        object(machine_record()),
+        [](Diagnosis& object, const model::Machine& machine) { object.extended_machine = machine; },
         [](const Diagnosis& object) {
           const bool of_chains = object.observations != Observations::belts &&
                                  object.observations != Observations::drawing;
@@ -261,11 +256,7 @@ const Record<Diagnosis>& diagnosis_record() {
     SPARSE(sessions,
            "Results for each of several sessions; absent if nothing is named.",
            session_record())
-    FIELD(optional,
-          "held_out_grid",
-          "Another grid, predicted.",
-          &Diagnosis::transferred,
-          transfer_record())
+    NAMED(optional, "held_out_grid", transferred, "Another grid, predicted.", transfer_record())
     SPARSE(observations,
            "What was measured; default: points.",
            choice<Observations>({{"points", Observations::points},

@@ -39,14 +39,12 @@ Record<NextMeasurement> next_measurement_record() {
                                     {"reading", MeasurementKind::reading},
                                     {"distance", MeasurementKind::distance}}))
   FIELD(
-      custom,
+      computed,
       "what",
       "The measurement in words.",
       true,
-      text().expected,
-      [](const Cursor& at, NextMeasurement& object) {
-        if (const auto words = text().read(at)) object.words = *words;
-      },
+      text(),
+      [](NextMeasurement& object, const std::string& words) { object.words = words; },
       [](const NextMeasurement& object) {
         return object.reading ? std::string(name(*object.reading)) : object.words;
       })
@@ -87,10 +85,10 @@ Record<HolePicture> hole_picture_record() {
   RECORD(HolePicture, "a hole")
   REQUIRED(name, "Any word; without names the holes are numbered from 0.")
   ALSO(place_keys)
-  FIELD(required,
+  NAMED(required,
         "commanded_mm",
+        commanded,
         "Commanded position, [x, y].",
-        &HolePicture::commanded,
         members_as_pair(pair_of_numbers(kMillimetres), &Place::x_mm, &Place::y_mm));
 }
 
@@ -126,10 +124,10 @@ Record<PointPicture> point_picture_record() {
   REQUIRED(chain_after_mm, "In the chains, after.", pair)
   REQUIRED(best_mm, "Effect of the named cause.", pair)
   REQUIRED(rival_mm, "Effect that the rival would have.", pair)
-  FIELD(required,
+  NAMED(required,
         "lengths_mm",
+        lengths,
         "Lengths of the chains, [left, right].",
-        &PointPicture::lengths,
         members_as_pair(pair, &Lengths::left_mm, &Lengths::right_mm))
   FIELD(custom,
         "angles_rad",

@@ -28,7 +28,6 @@ using diagnosis::Hypothesis;
 using diagnosis::LeftOver;
 using diagnosis::NotTestable;
 using diagnosis::ParameterEstimate;
-using diagnosis::SameCause;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
@@ -45,6 +44,11 @@ Value<const Effect*> effect_word() {
 }
 
 bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sides, side); }
+
+bool is_of_a_drawing(const Json& root) {
+  const auto what = root.find("observations");
+  return what != root.end() && *what == "drawing";
+}
 
 /// The cause of an object, or the object itself.
 template <class T>
@@ -81,14 +85,12 @@ void cause_keys(Record<T>& record) {
         }
       },
       [](const T& object) { return cause_in(object).effect->id; });
-  record.custom(
+  record.computed(
       "side",
       "Where it acts; null for effects without a side.",
       false,
-      side.expected,
-      [side](const Cursor& at, T& object) {
-        if (const auto own = side.read(at)) cause_in(object).side = *own;
-      },
+      side,
+      [](T& object, EffectSide own) { cause_in(object).side = own; },
       [side](const T& object) {
         const EffectSide own = cause_in(object).side;
         return own == EffectSide::none ? Json(nullptr) : side.write(own);
@@ -96,15 +98,17 @@ void cause_keys(Record<T>& record) {
   record.check([](const Cursor& at, T& object) {
     if (!at.child("effect").clean() || !at.child("side").clean()) return;
     CauseId& found = cause_in(object);
-    if (found.effect == nullptr || acts_at(*found.effect, found.side)) return;
-    // Both chains and belts have drift and skips: the side decides which.
-    const Effect* of_belts =
-        model::effects::find_effect(model::belts::belt_effects(), found.effect->id);
-    if (of_belts != nullptr && acts_at(*of_belts, found.side)) {
-      found.effect = of_belts;
-    } else {
+    if (found.effect == nullptr) return;
+    // Chains, belts and cords have drift and skips: a drawing is of cords, and the side decides between
+    // the others.
+    const bool of_cords = is_of_a_drawing(at.root());
+    if (!of_cords && acts_at(*found.effect, found.side)) return;
+    const Effect* other = model::effects::find_effect(
+        of_cords ? model::plotter::plotter_effects() : model::belts::belt_effects(),
+        found.effect->id);
+    if (other != nullptr) found.effect = other;
+    if (!acts_at(*found.effect, found.side))
       at.child("side").expect(fmt::format("a side on which {} acts", found.effect->id));
-    }
   });
 }
 
@@ -168,7 +172,7 @@ void parameter_keys(Record<T>& record) {
 }
 
 auto same_cause_record() {
-  RECORD(SameCause, "a cause of the same class")
+  RECORD(diagnosis::SameCause, "a cause of the same class")
   ALSO(cause_keys)
   ALSO(parameter_keys);
 }
@@ -182,10 +186,10 @@ struct Rival {
 auto rival_record() {
   RECORD(Rival, "a rival")
   ALSO(cause_keys)
-  FIELD(required,
+  NAMED(required,
         "rho",
+        collinearity,
         "Collinearity of its signature with the cause's: 0 different, 1 the same.",
-        &Rival::collinearity,
         kShare);
 }
 
@@ -195,23 +199,21 @@ Record<Cause> cause_record() {
   RECORD(Cause, "a cause")
   ALSO(cause_keys)
   REQUIRED(probability, "Its probability.", kShare)
-  FIELD(required, "delta", "Signal-to-noise ratio.", &Cause::signal_to_noise, kNotNegative)
+  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
   REQUIRED(share_left, "Share of its signature that the settings do not absorb.", kShare)
   REQUIRED(same_as,
            "Causes that such data cannot distinguish from it, with their sizes.",
            same_cause_record())
   ALSO(parameter_keys)
   FIELD(
-      custom,
+      computed,
       "rival",
       "The effect that is hardest to distinguish from it in these data.",
       false,
-      rival_record().expected(),
-      [](const Cursor& at, Cause& object) {
-        const auto rival = rival_record().read(at);
-        if (!rival) return;
-        object.rival = rival->cause;
-        object.rival_collinearity = rival->collinearity;
+      object(rival_record()),
+      [](Cause& object, const Rival& rival) {
+        object.rival = rival.cause;
+        object.rival_collinearity = rival.collinearity;
       },
       [](const Cause& object) {
         return object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
@@ -232,7 +234,7 @@ Record<Hypothesis> hypothesis_record() {
 
 Record<LeftOver> left_over_record() {
   RECORD(LeftOver, "what remains")
-  FIELD(required, "delta", "Signal-to-noise ratio.", &LeftOver::signal_to_noise, kNotNegative)
+  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
   NULLABLE(
       follows,
       "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.")

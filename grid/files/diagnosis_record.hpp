@@ -34,9 +34,6 @@ Record<diagnosis::HolePicture> hole_picture_record();
 Record<diagnosis::DistancePicture> distance_picture_record();
 /// diagnosis_drawing_record.cpp.
 Record<diagnosis::DrawingFindings> drawing_findings_record();
-/// Causes that chains have under the same name become those of cords: a diagnosis of a drawing names
-/// no others.
-void take_causes_of_cords(diagnosis::Diagnosis& diagnosis);
 /// diagnosis_belts_record.cpp.
 Record<diagnosis::BeltsFindings> belts_findings_record();
 /// diagnosis_stability_record.cpp.

@@ -8,15 +8,10 @@ namespace chaintrue::grid::files {
 namespace {
 
 using diagnosis::BudgetLine;
-using diagnosis::CauseGivenLaw;
-using diagnosis::Coordinate;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
 using diagnosis::Law;
 using diagnosis::LawHeldOut;
-using diagnosis::LawResidual;
-using diagnosis::LawShape;
-using diagnosis::ParameterEstimate;
 using diagnosis::Unexplained;
 
 auto budget_line_record() {
@@ -27,24 +22,24 @@ auto budget_line_record() {
   REQUIRED(share, "Share of the total mean square.", kAnyNumber)
   OPTIONAL(
       without_mm, "Rms error of the tool as delivered if only this part is removed.", kNotNegative)
-  FIELD(optional,
+  NAMED(optional,
         "part_of_100_mm",
+        part_mm,
         "Its effect on a part of 100 mm in the worst corner.",
-        &BudgetLine::part_mm,
         kNotNegative)
   REQUIRED(changes_with, "What it depends on.", by_name_to(BudgetLine::ChangesWith::direction));
 }
 
 /// A value with its sigma under its parameter's name.
 auto named_estimate_record() {
-  RECORD(ParameterEstimate, "a size with its sigma")
+  RECORD(diagnosis::ParameterEstimate, "a size with its sigma")
   REQUIRED(parameter, "Name of the parameter.")
   REQUIRED(value, "Its value.", kAnyNumber)
   REQUIRED(sigma, "Its uncertainty, 1 sigma.", kNotNegative);
 }
 
 auto law_point_record() {
-  RECORD(LawResidual, "a point next to a law's curve")
+  RECORD(diagnosis::LawResidual, "a point next to a law's curve")
   REQUIRED(index, "Number of the point, from 0.")
   REQUIRED(at, "Value of the law's variable: mm, rad, N or visits.", kAnyNumber)
   REQUIRED(residual_mm,
@@ -82,14 +77,14 @@ auto law_record() {
            "the distance inwards from the border, the length, angle or tension of a "
            "chain, the number of the visit; for four belts, a coordinate of the anchors' "
            "frame, the length of a belt or its angle against the horizontal.",
-           by_name_to(Coordinate::angle_br))
+           by_name_to(diagnosis::Coordinate::angle_br))
   REQUIRED(shape,
            "With the variable v: linear: size (v - middle) / span, square: size ((v - "
            "place) / half the span)^2, step: size from place on, kink: size max(0, "
            "towards (v - place)) / span, exponential: size exp(-distance from the end / "
            "scale), wave: size sin(w + phase) with w = 2 pi (v - middle) / period, "
            "harmonics: size sin(w + phase) + second size sin(2 w + second phase).",
-           by_name_to(LawShape::harmonics))
+           by_name_to(diagnosis::LawShape::harmonics))
   REQUIRED(enters,
            "Where it enters: a chain, both equally, the tool along x or y, the tool along the "
            "law's own direction, the tool outwards over every border, one of four belts.",
@@ -136,7 +131,7 @@ auto law_record() {
 }
 
 auto cause_given_law_record() {
-  RECORD(CauseGivenLaw, "a cause given a law")
+  RECORD(diagnosis::CauseGivenLaw, "a cause given a law")
   REQUIRED(cause, "The effect, and its side.", cause_id_record())
   REQUIRED(probability, "Probability after the law is removed.", kShare)
   REQUIRED(without_law, "Probability of the same cause without the law.", kShare)
@@ -152,7 +147,7 @@ auto cause_given_law_record() {
 Record<Unexplained> unexplained_record() {
   RECORD(Unexplained, "what remains besides the causes")
   REQUIRED(probability, "Probability that it exists.", kShare)
-  FIELD(required, "delta", "Signal-to-noise ratio.", &Unexplained::signal_to_noise, kNotNegative)
+  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
   REQUIRED(rms_mm, "Rms size.", kNotNegative)
   REQUIRED(share, "Share of the whole.", kShare)
   NULLABLE(
@@ -172,13 +167,13 @@ Record<Unexplained> unexplained_record() {
 
 Record<ErrorBudget> error_budget_record() {
   RECORD(ErrorBudget, "what the error is made of")
-  FIELD(required,
+  NAMED(required,
         "as_delivered_mm",
+        uncalibrated_mm,
         "Rms error of the tool as delivered, at the measured "
         "points; tool_today is over the measured part.",
-        &ErrorBudget::uncalibrated_mm,
         kNotNegative)
-  FIELD(required, "parts", "Parts of the mean square.", &ErrorBudget::lines, budget_line_record());
+  NAMED(required, "parts", lines, "Parts of the mean square.", budget_line_record());
 }
 
 }  // namespace chaintrue::grid::files

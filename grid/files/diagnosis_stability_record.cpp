@@ -33,16 +33,13 @@ constexpr Numbered kNumbered[] = {
 
 /// The number, for the kind that is left out. Lines have none.
 void index_keys(Record<Removal>& record) {
-  static const Value<std::size_t> index = index_number();
   for (const Numbered& numbered : kNumbered) {
-    record.custom(
+    record.computed(
         numbered.key,
         numbered.meaning,
         false,
-        index.expected,
-        [](const Cursor& at, Removal& object) {
-          object.index = index.read(at).value_or(object.index);
-        },
+        index_number(),
+        [](Removal& object, std::size_t index) { object.index = index; },
         [what = numbered.what](const Removal& object) {
           if (object.what == what) return Json(object.index);
           return what == Removal::What::point ? Json(nullptr) : kLeftOut;
@@ -52,14 +49,12 @@ void index_keys(Record<Removal>& record) {
 
 /// The position of a column or row.
 void line_key(Record<Removal>& record) {
-  record.custom(
+  record.computed(
       "at_mm",
       "x of a column, y of a row.",
       false,
-      number(kMillimetres).expected,
-      [](const Cursor& at, Removal& object) {
-        object.at_mm = at.number(kMillimetres).value_or(object.at_mm);
-      },
+      number(kMillimetres),
+      [](Removal& object, double at_mm) { object.at_mm = at_mm; },
       [](const Removal& object) { return is_line(object) ? Json(object.at_mm) : Json(nullptr); });
 }
 

@@ -104,7 +104,7 @@ const Record<DrawingInFile>& drawing_record() {
         [](Drawing& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
         [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
     REQUIRED(crosses, "The crosses of the page.", list(cross_record(), 3))
-    FIELD(required, "measures", "Readings of ruler and string.", &Drawing::lines, measure_record())
+    NAMED(required, "measures", lines, "Readings of ruler and string.", measure_record())
         .check(check_drawing);
   }();
   return record;

@@ -12,14 +12,12 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::effects::ActsOn;
 using model::effects::Declaration;
 using model::effects::DeclarationProblem;
 using model::effects::DeclaredParameter;
 using model::effects::Effect;
 using model::effects::EffectSide;
 using model::effects::ParameterRole;
-using model::effects::RemedyKind;
 
 /// The usual size is one sigma from null; a place may be anywhere, 0 if allowed.
 double assumed_nominal(const DeclaredParameter& p) {
@@ -72,10 +70,10 @@ auto parameter_record() {
       prior_sigma, "Prior sigma: for a size about null, for a place about nominal.", kAnyNumber)
   REQUIRED(lower, "The smallest value.", kAnyNumber)
   REQUIRED(upper, "The largest value.", kAnyNumber)
-  FIELD(optional,
+  NAMED(optional,
         "whole",
-        "It takes whole numbers only; for effects on a reading or a visit.",
-        &DeclaredParameter::integer)
+        integer,
+        "It takes whole numbers only; for effects on a reading or a visit.")
   OPTIONAL(mirror_sign, "-1 if the mirrored machine has the negative value.", {"", -1.0, 1.0})
       .check(check_parameter);
 }
@@ -111,7 +109,7 @@ const Record<Declaration>& declaration_record() {
     REQUIRED(acts_on,
              "paper: where marks are written. chain: the length that is paid out. reading: "
              "what is written down, by visits. visit: a single reading.",
-             by_name_to(ActsOn::visit))
+             by_name_to(model::effects::ActsOn::visit))
     SPARSE(sides,
            "Where it may act, each side tested separately; both: one value for two. "
            "Default: on both equally.",
@@ -127,8 +125,9 @@ const Record<Declaration>& declaration_record() {
            "everything that is added.")
     REQUIRED(cause, "The cause, as a diagnosis words it.")
     SPARSE(signature, "How it shows on the bed.")
-    OPTIONAL(
-        remedy_kind, "Where the remedy is applied.", by_name_to(RemedyKind::compensate_on_its_own))
+    OPTIONAL(remedy_kind,
+             "Where the remedy is applied.",
+             by_name_to(model::effects::RemedyKind::compensate_on_its_own))
     REQUIRED(remedy, "What to do about it.")
     REQUIRED(not_modelled, "What the formula omits.")
     SPARSE(typical, "Its usual size, in words.")
@@ -164,10 +163,9 @@ void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
 
 Json write_declared(const std::vector<const Effect*>& declared) {
   if (declared.empty()) return kLeftOut;
-  Json all = Json::array();
-  for (const Effect* effect : declared)
-    all.push_back(declaration_record().write(*declaration_of(*effect)));
-  return all;
+  return json_list(declared, [](const Effect* effect) {
+    return declaration_record().write(*declaration_of(*effect));
+  });
 }
 
 Expected declared_expected() {

@@ -16,10 +16,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-// Wide enough for any hanging router, narrow enough to catch a misplaced decimal point or another
-// unit.
-constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
-constexpr Range kLength{"mm", 1.0, 20000.0};
 constexpr int kLargestOrder = 1'000'000'000;
 
 /// The content of the file, before the machine is read and the points are checked together.
@@ -46,14 +42,14 @@ auto sheet_uncertainty_record() {
 const Record<StatedPoint>& point_record() {
   static const auto record = [] {
     RECORD(StatedPoint, "a point")
-    REQUIRED(x_mm, "x of the tool. Null in a list that is not filled in yet.", kCoordinate)
-    REQUIRED(y_mm, "y of the tool, up. Null in a list that is not filled in yet.", kCoordinate)
-    OPTIONAL(left_mm, "Length of the left chain, as read or as commanded.", kLength)
-    OPTIONAL(right_mm, "Length of the right chain, as read or as commanded.", kLength)
+    REQUIRED(x_mm, "x of the tool. Null in a list that is not filled in yet.", kCoordinateMm)
+    REQUIRED(y_mm, "y of the tool, up. Null in a list that is not filled in yet.", kCoordinateMm)
+    OPTIONAL(left_mm, "Length of the left chain, as read or as commanded.", kLengthMm)
+    OPTIONAL(right_mm, "Length of the right chain, as read or as commanded.", kLengthMm)
     OPTIONAL(commanded_x_mm,
              "Commanded x; the chain lengths are then those of the controller's kinematics.",
-             kCoordinate)
-    OPTIONAL(commanded_y_mm, "Commanded y, up.", kCoordinate)
+             kCoordinateMm)
+    OPTIONAL(commanded_y_mm, "Commanded y, up.", kCoordinateMm)
     OPTIONAL(order,
              "Number of the visit. Either all points have one, all different, or none has.",
              integer(0, kLargestOrder));
@@ -90,7 +86,7 @@ void read_points(const Cursor& at, StatedGrid& grid) {
     if (is_blank(at.element(i))) {
       point.is_blank = true;
       point.order = at.element(i).has("order")
-                        ? at.element(i).child("order").integer(0, kLargestOrder)
+                        ? integer(0, kLargestOrder).read(at.element(i).child("order"))
                         : std::nullopt;
     } else {
       point = point_record().read(at.element(i)).value_or(StatedPoint{});
@@ -181,7 +177,7 @@ void take_blanks(
   point.is_spoilt = true;
   constexpr const char* kNames[] = {"x_mm", "y_mm", "left_mm", "right_mm"};
   const std::size_t missing = row[first] ? first + 1 : first;
-  const Range& range = commanded ? kCoordinate : kLength;
+  const Range& range = commanded ? kCoordinateMm : kLengthMm;
   problems.add(table.cells[i][missing].place(),
                "",
                ProblemKind::left_blank,
@@ -199,13 +195,13 @@ ReadGrid parse_csv_grid(const std::string& text,
   const bool commanded =
       any_of(header, [](const std::string& name) { return name.rfind("commanded_", 0) == 0; });
   const double unit = options.inches ? input_checks::kMmPerInch : 1.0;
-  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate, true, commanded, unit},
-                                          {"y_mm", kCoordinate, true, commanded, unit},
-                                          {"left_mm", kLength, !commanded, true, unit},
-                                          {"right_mm", kLength, !commanded, true, unit},
+  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinateMm, true, commanded, unit},
+                                          {"y_mm", kCoordinateMm, true, commanded, unit},
+                                          {"left_mm", kLengthMm, !commanded, true, unit},
+                                          {"right_mm", kLengthMm, !commanded, true, unit},
                                           {"order", {"", 0.0, kLargestOrder}, false},
-                                          {"commanded_x_mm", kCoordinate, commanded},
-                                          {"commanded_y_mm", kCoordinate, commanded}};
+                                          {"commanded_x_mm", kCoordinateMm, commanded},
+                                          {"commanded_y_mm", kCoordinateMm, commanded}};
   const CsvTable table = read_csv(text, columns, problems);
   StatedGrid stated;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

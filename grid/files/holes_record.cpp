@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "grid/files/belts_record.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
@@ -14,15 +15,15 @@ auto tape_record() {
   OPTIONAL(sigma_mm,
            "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
            kTapeSigmaMm)
-  FIELD(optional,
+  NAMED(optional,
         "hook_offset_mm",
+        tape_zero_offset_mm,
         "Amount by which each reading exceeds the distance.",
-        &Tape::tape_zero_offset_mm,
         kTapeZeroOffsetMm)
-  FIELD(optional,
+  NAMED(optional,
         "hook_sigma_mm",
+        tape_zero_offset_sigma_mm,
         "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
-        &Tape::tape_zero_offset_sigma_mm,
         kHoleSigmaMm);
 }
 
@@ -40,7 +41,7 @@ Record<Hole> hole_record() {
         &Hole::commanded,
         "Commanded x of the hole.",
         "Commanded y of the hole, up.",
-        kHoleCoordinate);
+        kCoordinateMm);
 }
 
 /// A hole by its name or by its number.
@@ -59,8 +60,9 @@ Record<StatedDistance>& end_of(Record<StatedDistance>& record,
        }},
       [member](const Cursor& at, StatedDistance& distance) {
         if (at.json().is_number()) {
-          if (const auto value = at.integer(0, kMost)) distance.*member = fmt::format("{}", *value);
-        } else if (const auto word = at.text()) {
+          if (const auto value = integer(0, kMost).read(at))
+            distance.*member = fmt::format("{}", *value);
+        } else if (const auto word = text().read(at)) {
           distance.*member = *word;
         }
       },
@@ -127,10 +129,10 @@ const Record<StatedHoles>& holes_record() {
     OPTIONAL(sheet, "Size of the sheet, for distances to its edges.", sheet_record())
     SPARSE(readings, "What was measured besides the distances.", reading_record())
     REQUIRED(holes, "The holes as commanded.", hole_record())
-    FIELD(required,
+    NAMED(required,
           "distances",
+          lines,
           "The distances between them, and to edges.",
-          &StatedHoles::lines,
           distance_record())
         .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
         .check([](const Cursor& at, StatedHoles& stated) {

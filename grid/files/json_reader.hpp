@@ -219,7 +219,7 @@ class [[nodiscard]] Record : public RecordTable {
   }
 
   /// A value that is not a member: `set(object, value)` stores a valid one, `get(object)` returns
-  /// it, or nothing if the key is left out.
+  /// it, or nothing if the key is left out; or it returns what is written.
   template <class V, class Set, class Get>
   Record& computed(
       Text key, Text meaning, bool is_required, const Value<V>& value, Set set, Get get) {
@@ -231,9 +231,14 @@ class [[nodiscard]] Record : public RecordTable {
         [value, set](const Cursor& at, T& object) {
           if (auto read = value.read(at); read && at.clean()) set(object, *std::move(read));
         },
-        [value, get](const T& object) {
-          const std::optional<V> own = get(object);
-          return own ? value.write(*own) : kLeftOut;
+        [value, get](const T& object) -> Json {
+          const auto own = get(object);
+          if constexpr (std::is_same_v<decltype(own), const Json>) {
+            return own;
+          } else {
+            const std::optional<V> held = own;
+            return held ? value.write(*held) : kLeftOut;
+          }
         });
   }
 
@@ -299,9 +304,9 @@ class [[nodiscard]] Record : public RecordTable {
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
-/// A function's table: RECORD begins it, each line that follows adds keys. Where a key has the name of its
-/// member it is said once; FIELD is any other call of a Record, ALSO one of a function that takes the
-/// record. The last line ends in a semicolon.
+/// A function's table: RECORD begins it, each line that follows adds keys, the last one ends in a
+/// semicolon. A key that has the name of its member is said once; NAMED has both. FIELD is any other
+/// call of a Record, ALSO that of a function that takes the record.
 #define RECORD(type, ...) \
   using Own = type;       \
   return Record<Own>(__VA_ARGS__)
@@ -313,6 +318,8 @@ class [[nodiscard]] Record : public RecordTable {
   .sparse(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
 #define NULLABLE(member, meaning, ...) \
   .nullable(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define NAMED(kind, key, member, meaning, ...) \
+  .kind(key, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
 #define FIELD(call, ...) .call(__VA_ARGS__)
 #define ALSO(add, ...) .with([&](auto& own) { add(own __VA_OPT__(, ) __VA_ARGS__); })
 

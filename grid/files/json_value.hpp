@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -52,12 +53,6 @@ class Cursor {
   }
   /// Adds a warning, a complete sentence, about this place; reading continues.
   void warn(std::string sentence) const { problems_->warn(pointer(), std::move(sentence)); }
-
-  /// The value if it has the type and range; otherwise reports it and returns nothing.
-  [[nodiscard]] std::optional<double> number(const Range& range) const;
-  [[nodiscard]] std::optional<int> integer(int least, int most) const;
-  [[nodiscard]] std::optional<std::string> text() const;
-  [[nodiscard]] std::optional<bool> boolean() const;
 
  private:
   Cursor(const Json& json, const Cursor* parent, std::string_view key, std::size_t index)
@@ -130,6 +125,8 @@ struct [[nodiscard]] Value;
 Value<double> number(Range range);
 Value<bool> boolean();
 Value<std::string> text();
+/// A seed of random numbers.
+Value<std::uint64_t> seed_number();
 
 /// A codec with its type. `expected` may be replaced for a custom field. Ranges and records
 /// (json_reader.hpp) may be given for the values that they describe.

@@ -15,23 +15,14 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Bed;
 using model::Brackets;
-using model::Chain;
-using model::ChainLengths;
-using model::Controller;
-using model::Feed;
-using model::Frame;
 using model::Machine;
 using model::MotorPosition;
-using model::PerSide;
 using model::Ring;
-using model::Sled;
-using model::Sprocket;
 using model::Uncertainty;
 
 auto bed_record() {
-  RECORD(Bed, "a bed")
+  RECORD(model::Bed, "a bed")
   REQUIRED(width_mm, "Width of the sheet that the machine can cut.", kMillimetres)
   REQUIRED(height_mm,
            "Height of that sheet. The origin of all coordinates is "
@@ -48,13 +39,13 @@ auto motor_record() {
 }
 
 auto motors_record() {
-  RECORD(PerSide<MotorPosition>, "the motors")
+  RECORD(model::PerSide<MotorPosition>, "the motors")
   REQUIRED(left, "The left motor.", motor_record())
   REQUIRED(right, "The right motor.", motor_record());
 }
 
 auto sprocket_record() {
-  RECORD(Sprocket, "a sprocket")
+  RECORD(model::Sprocket, "a sprocket")
   REQUIRED(teeth, "Number of teeth of a sprocket.", integer(1, 1000))
   REQUIRED(pitch_mm, "The chain's pitch, one link.", kMillimetres)
   OPTIONAL(radius_mm,
@@ -98,24 +89,24 @@ Json write_attachment(const Machine& machine) {
 }
 
 auto chain_record() {
-  RECORD(Chain, "a chain")
+  RECORD(model::Chain, "a chain")
   REQUIRED(mass_kg_per_m, "Mass of a metre of chain.", number_in("kg/m"))
   REQUIRED(compliance_per_n, "Strain of the chain per newton; 0: none.", number_in("1/N"));
 }
 
 auto chain_zero_record() {
-  RECORD(ChainLengths, "the chain zeros")
+  RECORD(model::ChainLengths, "the chain zeros")
   OPTIONAL(left_mm, "Added to every reading of the left chain.", kMillimetres)
   OPTIONAL(right_mm, "Added to every reading of the right chain.", kMillimetres);
 }
 
 auto sled_record() {
-  RECORD(Sled, "a sled")
+  RECORD(model::Sled, "a sled")
   REQUIRED(mass_kg, "Mass of the sled with its router.", number_in("kg"));
 }
 
 auto frame_record() {
-  RECORD(Frame, "a frame")
+  RECORD(model::Frame, "a frame")
   REQUIRED(tilt_from_vertical_deg,
            "Angle by which the frame leans back; 0: upright.",
            number_in("degrees"));
@@ -135,7 +126,7 @@ auto uncertainty_record() {
 }
 
 auto controller_record() {
-  RECORD(Controller, "a controller")
+  RECORD(model::Controller, "a controller")
   REQUIRED(kind,
            "The firmware, whose kinematics converts commands into chain lengths. ideal "
            "uses the machine file as it is.",

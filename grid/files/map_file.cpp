@@ -67,15 +67,6 @@ auto accuracy_record() {
   REQUIRED(expected_worst_at, "Where it is largest.", mark_record());
 }
 
-auto setting_record() {
-  RECORD(SettingResult, "a setting")
-  REQUIRED(setting, "Name of the setting.", setting_word())
-  REQUIRED(stated, "Value in the machine file.", kAnyNumber)
-  REQUIRED(calibrated, "Calibrated value.", kAnyNumber)
-  REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
-  REQUIRED(off, "True if it differs by more than its uncertainty allows.");
-}
-
 auto map_point_record() {
   const auto pair = pair_of_numbers(kErrorMm);
   RECORD(MapPoint, "a measured point")
@@ -119,7 +110,7 @@ auto distances_record() {
   const auto count = integer(0, kMostNumbered);
   RECORD(DistancesUsed, "the distances between holes")
   REQUIRED(used, "Number of distances used.", count)
-  FIELD(required, "set_aside", "Number of distances left out.", &DistancesUsed::rejected, count)
+  NAMED(required, "set_aside", rejected, "Number of distances left out.", count)
   REQUIRED(tape_sigma_mm, "Noise of the tape in the fit, 1 sigma.", kNotNegative)
   REQUIRED(
       left_out_all, "Errors of distances predicted by a map without them.", error_summary_record())
@@ -149,11 +140,7 @@ const Record<MapContents>& map_record() {
     RECORD(MapContents, "a chaintrue_map file", kMapFormat)
     OPTIONAL(name, "Name of the grid.")
     ALSO(add_surface)
-    FIELD(required,
-          "domain_mm",
-          "Where the map can be evaluated.",
-          &MapContents::domain,
-          rectangle_record())
+    NAMED(required, "domain_mm", domain, "Where the map can be evaluated.", rectangle_record())
     REQUIRED(hull, "Corners of the measured part, counter-clockwise.", list(mark_record(), 3))
     REQUIRED(edge_mm, "Places closer to the hull than this count as on its edge.", kNotNegative)
     SPARSE(outside, "Behaviour outside the hull.", outside_record())
@@ -178,6 +165,15 @@ const Record<MapContents>& map_record() {
 }
 
 }  // namespace
+
+Record<SettingResult> setting_record() {
+  RECORD(SettingResult, "a setting")
+  REQUIRED(setting, "Name of the setting.", setting_word())
+  REQUIRED(stated, "Value in the machine file.", kAnyNumber)
+  REQUIRED(calibrated, "Calibrated value.", kAnyNumber)
+  REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
+  REQUIRED(off, "True if it differs by more than its uncertainty allows.");
+}
 
 CompensationMap parse_map(const std::string& text, const std::string& file) {
   return CompensationMap(read_document(map_record(), text, file));

@@ -60,11 +60,7 @@ auto sheet_placement_record() {
 
 auto spline_record() {
   RECORD(SplinePart, "a residual surface")
-  FIELD(required,
-        "rectangle_mm",
-        "Where the splines are defined.",
-        &SplinePart::rectangle,
-        rectangle_record())
+  NAMED(required, "rectangle_mm", rectangle, "Where the splines are defined.", rectangle_record())
   REQUIRED(x_intervals, "Equal intervals along x.", integer(1, 1000))
   REQUIRED(y_intervals, "Equal intervals along y.", integer(1, 1000))
   FIELD(required,
@@ -193,10 +189,10 @@ auto model_part_record() {
   RECORD(ModelPart, "a surface on a machine")
   REQUIRED(machine, "The calibrated machine.", machine_record())
   REQUIRED(sheet, "Placement of the marks' sheet.", sheet_placement_record())
-  FIELD(required,
+  NAMED(required,
         "unknown_settings",
+        settings,
         "The settings that were calibrated, in the order of the covariance.",
-        &ModelPart::settings,
         list(setting_word()))
   REQUIRED(residual, "Correction added to the machine's lengths.", spline_record())
   REQUIRED(covariance_factor,

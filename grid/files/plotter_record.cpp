@@ -8,16 +8,11 @@ namespace chaintrue::grid::files {
 namespace {
 
 using model::ChainLengths;
-using model::Cord;
-using model::DrawingArea;
-using model::Gondola;
-using model::MotorPlace;
 using model::PlotterFirmware;
 using model::PlotterMachine;
-using model::PlotterUncertainty;
 
 auto gondola_record() {
-  RECORD(Gondola, "a gondola")
+  RECORD(model::Gondola, "a gondola")
   OPTIONAL(spacing_mm,
            "Between the two points where the cords hold it; 0: both cords end at the pen.",
            kMillimetres)
@@ -36,7 +31,7 @@ auto gondola_record() {
 }
 
 auto cord_record() {
-  RECORD(Cord, "a cord")
+  RECORD(model::Cord, "a cord")
   OPTIONAL(mass_kg_per_m, "Mass of a metre of cord.", number_in("kg/m"))
   OPTIONAL(compliance_per_n, "Strain of a cord per newton; 0: none.", number_in("1/N"))
   OPTIONAL(tooth_mm,
@@ -45,7 +40,7 @@ auto cord_record() {
 }
 
 auto area_record() {
-  RECORD(DrawingArea, "a drawing area")
+  RECORD(model::DrawingArea, "a drawing area")
   REQUIRED(left_mm, "Left limit of the pen.", kMillimetres)
   REQUIRED(right_mm, "Right limit of the pen.", kMillimetres)
   REQUIRED(top_mm, "Upper limit of the pen; the pins are at 0.", kMillimetres)
@@ -60,20 +55,20 @@ auto cord_zero_record() {
 
 auto cord_scale_record() {
   RECORD(ChainLengths, "the scales of the cords")
-  FIELD(optional,
+  NAMED(optional,
         "left_mm_per_m",
+        left_mm,
         "Excess of the controller's length per metre of the left cord.",
-        &ChainLengths::left_mm,
         number_in("mm/m"))
-  FIELD(optional,
+  NAMED(optional,
         "right_mm_per_m",
+        right_mm,
         "Excess of the controller's length per metre of the right cord.",
-        &ChainLengths::right_mm,
         number_in("mm/m"));
 }
 
 auto uncertainty_of_plotter_record() {
-  RECORD(PlotterUncertainty, "the uncertainties of a V-plotter")
+  RECORD(model::PlotterUncertainty, "the uncertainties of a V-plotter")
   OPTIONAL(pin_spacing_mm, "Uncertainty of the distance between the pins, 1 sigma.", kMillimetres)
   OPTIONAL(
       pin_rise_mm, "Uncertainty of the right pin's height above the left, 1 sigma.", kMillimetres)
@@ -98,18 +93,18 @@ auto plotter_machine_record() {
   OPTIONAL(pin_rise_mm, "Height of the right point above the left.", kMillimetres)
   REQUIRED(motors,
            "Location of the motors with the pulleys or spools that count.",
-           by_name_to(MotorPlace::gondola))
+           by_name_to(model::MotorPlace::gondola))
   OPTIONAL(feed, "Side of its pulley over which a cord leaves.", choice(kFeeds))
   OPTIONAL(
       pulley_radius_mm, "Radius of the cord on its pulley; 0: straight to the pin.", kMillimetres)
   REQUIRED(gondola, "What hangs on the cords.", gondola_record())
   OPTIONAL(cord, "The cords, or belts.", cord_record())
-  FIELD(optional,
+  NAMED(optional,
         "zero",
+        zero_mm,
         "Known excess of the controller's length of each cord, which is corrected.",
-        &Plotter::zero_mm,
         cord_zero_record())
-  FIELD(optional, "scale", "The same per metre.", &Plotter::scale_mm_per_m, cord_scale_record())
+  NAMED(optional, "scale", scale_mm_per_m, "The same per metre.", cord_scale_record())
   REQUIRED(area, "Allowed positions of the pen, from the middle between the pins.", area_record())
   OPTIONAL(uncertainty, "Uncertainties of the settings, 1 sigma.", uncertainty_of_plotter_record())
       .check(check_plotter_machine);

@@ -53,7 +53,7 @@ Record<T>& add_content_hash(Record<T>& record, std::string_view meaning) {
       meaning,
       true,
       {"the hash of this file's content", text().expected.schema},
-      [](const Cursor& at, T&) { (void)at.text(); },
+      [](const Cursor& at, T&) { (void)text().read(at); },
       [](const T&) { return kLeftOut; });
 }
 

@@ -36,7 +36,7 @@ void check_reading(const Cursor& at, ExtraReading& reading) {
   if (!at.json().contains("what") || !at.child("what").clean()) return;
   for (const ReadingKind& kind : reading_kinds()) {
     if (reading.what != kind.what) continue;
-    if (at.child("value").clean()) (void)at.child("value").number(kind.value);
+    if (at.child("value").clean()) (void)number(kind.value).read(at.child("value"));
     const auto& sides = kind.sides;
     if (reading.side.empty() || !at.child("side").clean()) continue;
     if (sides.empty())

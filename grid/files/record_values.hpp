@@ -23,8 +23,6 @@ inline constexpr Range kShare{"", 0.0, 1.0};
 inline constexpr Range kMillimetres{"mm", -1e6, 1e6};
 inline constexpr Range kSigmaMm{"mm", 0.0, 1e6};
 inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
-/// A seed of random numbers.
-Value<std::uint64_t> seed_number();
 
 /// A vector in the plane, or a number for each chain, as a pair of numbers; `in_order`: the lower
 /// one first.

@@ -51,6 +51,8 @@ Value<ReadingOf> reading_name();
 Record<SetPlotter> set_plotter_record();
 
 Record<interp::Rectangle> rectangle_record();
+/// A setting of a map: stated and calibrated.
+Record<SettingResult> setting_record();
 /// The keys on_machine and direct of a map, which has one of them.
 void add_surface(Record<MapContents>& record);
 

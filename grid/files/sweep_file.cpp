@@ -13,11 +13,11 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::files {
@@ -25,12 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using model::Model;
-using sweep::EffectsLevel;
 using sweep::GridLevel;
 using sweep::NoiseLevel;
 using sweep::SurfaceLevel;
 using sweep::SweepSpec;
-using sweep::UseLevel;
 using synthetic::DesignKind;
 
 struct StatedMachine {
@@ -44,7 +42,7 @@ struct StatedMachine {
 Value<GridLevel> grid_size(int least) {
   const std::string expected = fmt::format("columns x rows, each {} to 1000, as in \"7x4\"", least);
   return {[expected, least](const Cursor& at) -> std::optional<GridLevel> {
-            const auto word = at.text();
+            const auto word = text().read(at);
             if (!word) return std::nullopt;
             constexpr int kMost = 1000;
             const auto size = pair_of(*word, 'x', least, kMost);
@@ -60,8 +58,8 @@ Value<GridLevel> grid_size(int least) {
 
 auto noise_level_record() {
   RECORD(NoiseLevel, "a noise")
-  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", {"mm", 0.0, 100.0})
-  REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", {"mm", 0.0, 100.0});
+  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNoiseMm)
+  REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNoiseMm);
 }
 
 auto stated_machine_record() {
@@ -70,17 +68,17 @@ auto stated_machine_record() {
   REQUIRED(machine_file, "Path of the true machine, from this file.")
   SPARSE(stated_file, "Path of the machine that the owner assumes; default: the true one.")
   OPTIONAL(model, "The physics used to simulate readings.", choice(kModels))
-  OPTIONAL(unmodelled_mm, "Size of smooth errors outside every model.", {"mm", 0.0, 100.0});
+  OPTIONAL(unmodelled_mm, "Size of smooth errors outside every model.", kNoiseMm);
 }
 
 auto effects_record() {
-  RECORD(EffectsLevel, "hidden effects")
+  RECORD(sweep::EffectsLevel, "hidden effects")
   REQUIRED(name, "Name of this level in results.")
   REQUIRED(effects, "Effects of the true machine that are hidden from the fit.", effect_record());
 }
 
 auto use_record() {
-  RECORD(UseLevel, "a machine that the map is used on")
+  RECORD(sweep::UseLevel, "a machine that the map is used on")
   REQUIRED(name, "Name of this level in results.")
   SPARSE(effects, "Effects in addition to those of the measured machine.", effect_record())
   OPTIONAL(another_of_the_build,
@@ -138,16 +136,16 @@ const Record<StatedSweep>& sweep_record() {
              "Largest distance of the sled from its mark; a factor.",
              list(number({"mm", 0.0, 1000.0}), 1))
     OPTIONAL(surfaces, "Kind of map; a factor.", list(surface, 1))
-    FIELD(required,
+    NAMED(required,
           "machines",
+          machine_files,
           "The machines; a factor.",
-          &Own::machine_files,
           list(stated_machine_record(), 1))
     OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
-    FIELD(optional,
+    NAMED(optional,
           "used_on",
+          uses,
           "The machine that the map is used on; a factor.",
-          &Own::uses,
           list(use_record(), 1));
   }();
   return record;
@@ -224,13 +222,6 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
                  id);
 }
 
-Json median_and_worst(const std::vector<sweep::CellResult>& done,
-                      double sweep::CellResult::*member) {
-  std::vector<double> values;
-  for (const sweep::CellResult& result : done) values.push_back(result.*member);
-  return {{"median", median(values)}, {"worst", *max_element(values)}};
-}
-
 }  // namespace
 
 ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effects) {
@@ -250,43 +241,6 @@ ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effec
   }
   return {stated, hash.text(), problems.warnings()};
 }
-
-std::string sweep_summary_head(const SweepSpec& spec) {
-  return fmt::format(
-      "{{\n  \"file_type\": \"{}\",\n  \"format_version\": \"{}\",\n  \"name\": {},\n"
-      "  \"question\": {},\n  \"repetitions\": {},\n  \"combinations\": [\n",
-      kSweepSummaryFormat.file_type,
-      kSweepSummaryFormat.version,
-      compact_json(spec.name),
-      compact_json(spec.question),
-      spec.repetitions);
-}
-
-std::string sweep_summary_line(const SweepSpec& spec,
-                               const sweep::Levels& levels,
-                               const std::vector<sweep::CellResult>& repetitions) {
-  Json line = Json::object();
-  for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
-    line[std::string(sweep::kFactorNames[factor])] = level_name(spec, factor, levels[factor]);
-  }
-  const GridLevel& grid = spec.grids[levels[sweep::kFactors - 1]];
-  line["points"] = grid.columns * grid.rows;
-  std::vector<sweep::CellResult> done;
-  for (const sweep::CellResult& result : repetitions) {
-    if (result.status == sweep::CellStatus::done) done.push_back(result);
-  }
-  line["done"] = done.size();
-  if (!done.empty()) {
-    line["chain_rms_mm"] = median_and_worst(done, &sweep::CellResult::chain_rms_mm);
-    line["chain_max_mm"] = median_and_worst(done, &sweep::CellResult::chain_max_mm);
-    line["tool_rms_mm"] = median_and_worst(done, &sweep::CellResult::tool_rms_mm);
-    line["tool_max_mm"] = median_and_worst(done, &sweep::CellResult::tool_max_mm);
-    line["expected_tool_rms_mm"] = median_and_worst(done, &sweep::CellResult::expected_tool_rms_mm);
-  }
-  return "    " + compact_json(line);
-}
-
-std::string sweep_summary_tail() { return "  ]\n}\n"; }
 
 Json sweep_schema() { return sweep_record().schema(); }
 
