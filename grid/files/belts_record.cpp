@@ -194,53 +194,41 @@ auto hole_place_record() {
         kCoordinateMm);
 }
 
-void add_end(Record<BeltDistance>& record,
-             const char* key,
-             const char* meaning,
-             BeltEnd BeltDistance::*member) {
+Value<BeltEnd> end_of_distance() {
   const std::string expected =
       "a point's number, an anchor (tl, tr, bl, br), or a hole as {\"x_mm\": .., \"y_mm\": ..}";
-  record.custom(
-      key,
-      meaning,
-      true,
-      {expected,
-       [] {
-         return Json{{"oneOf",
-                      {{{"type", "integer"}, {"minimum", 0}},
-                       belt_word().expected.schema(),
-                       hole_place_record().schema()}}};
-       }},
-      [member, expected](const Cursor& at, BeltDistance& distance) {
-        constexpr int kMostPoints = 100000;
-        if (at.json().is_number()) {
-          if (const auto index = integer(0, kMostPoints).read(at))
-            distance.*member = as_size(*index);
-        } else if (at.json().is_object()) {
-          if (const auto hole = hole_place_record().read(at)) distance.*member = CutHole{*hole};
-        } else {
-          const auto belt = at.json().is_string()
-                                ? model::belt_of(at.json().get_ref<const std::string&>())
-                                : std::nullopt;
-          if (!belt) return at.expect(expected);
-          distance.*member = *belt;
-        }
-      },
-      [member](const BeltDistance& distance) -> Json {
-        const BeltEnd& end = distance.*member;
-        if (const auto* index = std::get_if<std::size_t>(&end)) return *index;
-        if (const auto* belt = std::get_if<Belt>(&end)) return name(*belt);
-        return hole_place_record().write(std::get<CutHole>(end).commanded);
-      });
+  return {[expected](const Cursor& at) -> std::optional<BeltEnd> {
+            constexpr int kMostPoints = 100000;
+            if (at.json().is_number()) return index_number(0, kMostPoints).read(at);
+            if (at.json().is_object()) {
+              const auto hole = hole_place_record().read(at);
+              return hole ? std::optional<BeltEnd>(CutHole{*hole}) : std::nullopt;
+            }
+            const auto belt = at.json().is_string()
+                                  ? model::belt_of(at.json().get_ref<const std::string&>())
+                                  : std::nullopt;
+            if (!belt) at.expect(expected);
+            return belt;
+          },
+          [](const BeltEnd& end) -> Json {
+            if (const auto* index = std::get_if<std::size_t>(&end)) return *index;
+            if (const auto* belt = std::get_if<Belt>(&end)) return name(*belt);
+            return hole_place_record().write(std::get<CutHole>(end).commanded);
+          },
+          {expected, [] {
+             return Json{{"oneOf",
+                          {{{"type", "integer"}, {"minimum", 0}},
+                           belt_word().expected.schema(),
+                           hole_place_record().schema()}}};
+           }}};
 }
 
 auto belt_distance_record() {
   RECORD(BeltDistance, "a taped distance")
-  ALSO(add_end,
-       "from",
-       "A place by its number from 0, an anchor, or a hole cut by the machine.",
-       &BeltDistance::from)
-  ALSO(add_end, "to", "The other end, in the same form.", &BeltDistance::to)
+  REQUIRED(from,
+           "A place by its number from 0, an anchor, or a hole cut by the machine.",
+           end_of_distance())
+  REQUIRED(to, "The other end, in the same form.", end_of_distance())
   REQUIRED(distance_mm, "The tape reading.", kLengthMm)
   OPTIONAL(sigma_mm, "Noise of this reading, 1 sigma.", kTapeSigmaMm);
 }

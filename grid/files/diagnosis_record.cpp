@@ -31,7 +31,8 @@ using diagnosis::ParameterEstimate;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
-/// An effect of chains, or of belts or cords if chains have none of that name.
+/// An effect that the extended machine declares, or one of chains, or of belts or cords if chains have
+/// none of that name.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
@@ -40,7 +41,18 @@ Value<const Effect*> effect_word() {
       if (model::effects::find_effect(effect->id) == nullptr)
         names.emplace_back(effect->id, effect);
   }
-  return choice_of<const Effect*>(std::move(names));
+  const auto known = choice_of<const Effect*>(std::move(names));
+  return {[known](const Cursor& at) -> std::optional<const Effect*> {
+            const Effect* declared = at.json().is_string()
+                                         ? declared_in_document(at, at.json().get<std::string>())
+                                         : nullptr;
+            return declared != nullptr ? std::optional(declared) : known.read(at);
+          },
+          [](const Effect* const& effect) { return effect->id; },
+          // Declared effects have their own names.
+          {known.expected.words, [schema = known.expected.schema]() -> Json {
+             return {{"type", "string"}, {"examples", schema()["enum"]}};
+           }}};
 }
 
 bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sides, side); }
@@ -63,28 +75,14 @@ auto& cause_in(T& object) {
 /// The keys of an effect and its side.
 template <class T>
 void cause_keys(Record<T>& record) {
-  Value<const Effect*> effect = effect_word();
-  // Effects that the extended machine declares have their own names.
-  effect.expected.schema = [names = effect.expected.schema]() -> Json {
-    return {{"type", "string"}, {"examples", names()["enum"]}};
-  };
   const Value<EffectSide> side = by_name_to(EffectSide::all, EffectSide::left);
-  record.custom(
+  record.computed(
       "effect",
       "The effect's name, as chaintrue effects lists them.",
       true,
-      effect.expected,
-      [effect](const Cursor& at, T& object) {
-        const Effect* declared = at.json().is_string()
-                                     ? declared_in_document(at, at.json().get<std::string>())
-                                     : nullptr;
-        if (declared != nullptr) {
-          cause_in(object).effect = declared;
-        } else if (const auto found = effect.read(at)) {
-          cause_in(object).effect = *found;
-        }
-      },
-      [](const T& object) { return cause_in(object).effect->id; });
+      effect_word(),
+      [](T& object, const Effect* effect) { cause_in(object).effect = effect; },
+      [](const T& object) { return cause_in(object).effect; });
   record.computed(
       "side",
       "Where it acts; null for effects without a side.",

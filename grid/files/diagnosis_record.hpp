@@ -32,9 +32,8 @@ Record<diagnosis::DeclaredAnswer> declared_answer_record();
 Record<diagnosis::CalibratedSetting> calibrated_setting_record();
 Record<diagnosis::HolePicture> hole_picture_record();
 Record<diagnosis::DistancePicture> distance_picture_record();
-/// diagnosis_drawing_record.cpp.
+/// diagnosis_mechanisms_record.cpp.
 Record<diagnosis::DrawingFindings> drawing_findings_record();
-/// diagnosis_belts_record.cpp.
 Record<diagnosis::BeltsFindings> belts_findings_record();
 /// diagnosis_stability_record.cpp.
 Record<diagnosis::Stability> stability_record();

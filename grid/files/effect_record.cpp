@@ -136,42 +136,42 @@ const Record<Declaration>& declaration_record() {
   return record;
 }
 
-void read_declared(const Cursor& at, std::vector<const Effect*>& declared) {
-  if (at.json().is_null()) return;
-  if (!at.json().is_array()) return at.expect("a list of declared effects");
-  for (std::size_t i = 0; i < at.json().size(); ++i) {
-    const Cursor own = at.element(i);
-    const auto declaration = declaration_record().read(own);
-    if (!declaration || !own.clean()) continue;
-    add_problems(own, problems_of(*declaration));
-    if (!own.clean()) continue;
-    const Effect* effect = &declared_effect(*declaration);
-    const bool twice =
-        any_of(declared, [&](const Effect* other) { return other->id == effect->id; });
-    if (twice) {
-      own.child("id").expect("a name that no other effect of this machine has");
-    } else {
-      declared.push_back(effect);
-    }
-  }
+Value<std::vector<const Effect*>> declared_value() {
+  using All = std::vector<const Effect*>;
+  return {[](const Cursor& at) -> std::optional<All> {
+            if (!at.json().is_array()) {
+              at.expect("a list of declared effects");
+              return std::nullopt;
+            }
+            All declared;
+            for (std::size_t i = 0; i < at.json().size(); ++i) {
+              const Cursor own = at.element(i);
+              const auto declaration = declaration_record().read(own);
+              if (!declaration || !own.clean()) continue;
+              add_problems(own, problems_of(*declaration));
+              if (!own.clean()) continue;
+              const Effect* effect = &declared_effect(*declaration);
+              const bool is_twice =
+                  any_of(declared, [&](const Effect* other) { return other->id == effect->id; });
+              if (is_twice)
+                own.child("id").expect("a name that no other effect of this machine has");
+              if (!is_twice) declared.push_back(effect);
+            }
+            return declared;
+          },
+          [](const All& declared) {
+            return json_list(declared, [](const Effect* effect) {
+              return declaration_record().write(*declaration_of(*effect));
+            });
+          },
+          {"a list of declared effects", [] {
+             return Json{{"type", "array"}, {"items", declaration_record().expected().schema()}};
+           }}};
 }
 
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
   for (std::size_t i = 0; i < machine.declared.size(); ++i)
     add_problems(at.element(i), problems_on_bed(*declaration_of(*machine.declared[i]), machine));
-}
-
-Json write_declared(const std::vector<const Effect*>& declared) {
-  if (declared.empty()) return kLeftOut;
-  return json_list(declared, [](const Effect* effect) {
-    return declaration_record().write(*declaration_of(*effect));
-  });
-}
-
-Expected declared_expected() {
-  return {"a list of declared effects", [] {
-            return Json{{"type", "array"}, {"items", declaration_record().expected().schema()}};
-          }};
 }
 
 const Effect* declared_in_document(const Cursor& at, std::string_view id) {
@@ -182,9 +182,9 @@ const Effect* declared_in_document(const Cursor& at, std::string_view id) {
   if (all == machine->end()) return nullptr;
   // The machine's record reports their problems.
   Problems unsaid(at.problems().file());
-  std::vector<const Effect*> declared;
-  read_declared(Cursor(*all, unsaid), declared);
-  const auto* found = find_where(declared, [&](const Effect* effect) { return effect->id == id; });
+  const auto declared = declared_value().read(Cursor(*all, unsaid));
+  if (!declared) return nullptr;
+  const auto* found = find_where(*declared, [&](const Effect* effect) { return effect->id == id; });
   return found != nullptr ? *found : nullptr;
 }
 

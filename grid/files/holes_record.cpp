@@ -45,37 +45,23 @@ Record<Hole> hole_record() {
 }
 
 /// A hole by its name or by its number.
-Record<StatedDistance>& end_of(Record<StatedDistance>& record,
-                               const char* key,
-                               const char* meaning,
-                               std::string StatedDistance::*member) {
+Value<std::string> hole_word() {
   static constexpr int kMost = 100000;
-  return record.custom(
-      key,
-      meaning,
-      true,
-      {"a hole's name or number",
-       [] {
-         return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
-       }},
-      [member](const Cursor& at, StatedDistance& distance) {
-        if (at.json().is_number()) {
-          if (const auto value = integer(0, kMost).read(at))
-            distance.*member = fmt::format("{}", *value);
-        } else if (const auto word = text().read(at)) {
-          distance.*member = *word;
-        }
-      },
-      [member](const StatedDistance& distance) { return distance.*member; });
+  return {[](const Cursor& at) -> std::optional<std::string> {
+            if (!at.json().is_number()) return text().read(at);
+            const auto number = integer(0, kMost).read(at);
+            return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+          },
+          [](const std::string& word) { return word; },
+          {"a hole's name or number", [] {
+             return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
+           }}};
 }
 
 auto distance_record() {
   RECORD(StatedDistance, "a distance")
-  ALSO(end_of, "from", "A hole's name or number.", &StatedDistance::from)
-  ALSO(end_of,
-       "to",
-       "A hole's name or number, or an edge: left, right, top, bottom.",
-       &StatedDistance::to)
+  REQUIRED(from, "A hole's name or number.", hole_word())
+  REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.", hole_word())
   REQUIRED(distance_mm,
            "The tape reading between the holes' centres. Null if not measured yet.",
            kTapeDistance)

@@ -247,16 +247,25 @@ class [[nodiscard]] Record : public RecordTable {
     return custom(key, meaning, is_required, Value<T>(object_codec(fields, nullptr)));
   }
 
-  /// A key with a constant value, such as the kind in a variant.
-  Record& constant(Text key, Text meaning, const std::string& word) {
-    const Value<std::string> value = one_of({word});
+  /// A key of the file, not of the object: read and checked, and `written` whatever the object is.
+  template <class V>
+  Record& beside(Text key,
+                 Text meaning,
+                 bool is_required,
+                 const Value<V>& value,
+                 const Json& written = kLeftOut) {
     return custom(
         key,
         meaning,
-        true,
+        is_required,
         value.expected,
         [value](const Cursor& at, T&) { (void)value.read(at); },
-        [word](const T&) { return word; });
+        [written](const T&) { return written; });
+  }
+
+  /// A key with a constant value, such as the kind in a variant.
+  Record& constant(Text key, Text meaning, const std::string& word) {
+    return beside(key, meaning, true, one_of({word}), word);
   }
 
   /// The keys that `add(record)` adds.

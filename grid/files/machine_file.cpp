@@ -71,21 +71,31 @@ auto brackets_record() {
       cg_below_bit_mm, "Distance of the sled's centre of gravity below the bit.", kMillimetres);
 }
 
-void read_attachment(const Cursor& at, Machine& machine) {
-  if (!at.json().is_object()) return at.expect(R"(an object with "kind": "ring" or "brackets")");
-  const Cursor kind = at.child("kind");
-  if (!at.has("kind")) return kind.missing(R"("ring" or "brackets")");
-  const auto name = one_of({"ring", "brackets"}).read(kind);
-  if (name == "ring") {
-    if (const auto ring = ring_record().read(at)) machine.attachment = *ring;
-  } else if (name) {
-    if (const auto brackets = brackets_record().read(at)) machine.attachment = *brackets;
+using Attachment = decltype(Machine::attachment);
+
+std::optional<Attachment> read_attachment(const Cursor& at) {
+  if (!at.json().is_object()) {
+    at.expect(R"(an object with "kind": "ring" or "brackets")");
+  } else if (!at.has("kind")) {
+    at.child("kind").missing(R"("ring" or "brackets")");
+  } else if (const auto kind = one_of({"ring", "brackets"}).read(at.child("kind"))) {
+    if (*kind == "ring") return ring_record().read(at);
+    return brackets_record().read(at);
   }
+  return std::nullopt;
 }
 
-Json write_attachment(const Machine& machine) {
-  if (const auto* ring = std::get_if<Ring>(&machine.attachment)) return ring_record().write(*ring);
-  return brackets_record().write(std::get<Brackets>(machine.attachment));
+Json write_attachment(const Attachment& attachment) {
+  if (const auto* ring = std::get_if<Ring>(&attachment)) return ring_record().write(*ring);
+  return brackets_record().write(std::get<Brackets>(attachment));
+}
+
+Value<Attachment> attachment_value() {
+  return {read_attachment,
+          write_attachment,
+          {"a ring or brackets", [] {
+             return Json{{"oneOf", {ring_record().schema(), brackets_record().schema()}}};
+           }}};
 }
 
 auto chain_record() {
@@ -235,16 +245,7 @@ const Record<Machine>& machine_record() {
     REQUIRED(motors, "Positions of the motors' axes.", motors_record())
     REQUIRED(sprocket, "The sprocket on a motor.", sprocket_record())
     REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
-    FIELD(custom,
-          "attachment",
-          "How the chains are attached to the sled.",
-          true,
-          {"a ring or brackets",
-           [] {
-             return Json{{"oneOf", {ring_record().schema(), brackets_record().schema()}}};
-           }},
-          read_attachment,
-          write_attachment)
+    REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
     REQUIRED(chain, "The chain's mass and stretch.", chain_record())
     OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())
     REQUIRED(sled, "The sled.", sled_record())
@@ -257,15 +258,12 @@ const Record<Machine>& machine_record() {
            "The firmware and its settings; default: an ideal one that uses the machine file as "
            "it is.",
            controller_record())
-    FIELD(
-        custom,
-        "declared_effects",
-        "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
-        "file.",
-        false,
-        declared_expected(),
-        [](const Cursor& at, Machine& machine) { read_declared(at, machine.declared); },
-        [](const Machine& machine) { return write_declared(machine.declared); })
+    NAMED(sparse,
+          "declared_effects",
+          declared,
+          "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
+          "file.",
+          declared_value())
     SPARSE(effects, "Known causes of error, part of the machine.", effect_record())
         .check(check_machine);
   }();

@@ -11,6 +11,7 @@
 #include "grid/belts/two_frames.hpp"
 #include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
+#include "grid/files/measured_entries.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
@@ -102,15 +103,12 @@ void leave_out(const std::vector<LeftOutPlace>& places,
                         fmt::format("this reading is left out: {}", own.why)});
   }
   warn_of(left_out, rest, problems);
-  std::vector<BeltPoint> kept;
-  std::vector<std::size_t> kept_lines;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (is_out[i]) continue;
-    kept.push_back(std::move(belts.points[i]));
-    kept_lines.push_back(lines[i]);
+    if (!is_out[i]) kept.push_back(i);
   }
-  belts.points = std::move(kept);
-  lines = std::move(kept_lines);
+  keep_only(kept, belts.points);
+  keep_only(kept, lines);
 }
 
 /// Runs with places in two frames are split.

@@ -31,9 +31,7 @@ Record<model::ControllerSettings> controller_settings_record();
 /// A chaintrue_effect, without the checks of model::effects::problems_of.
 [[nodiscard]] const Record<model::effects::Declaration>& declaration_record();
 /// A machine's "declared_effects": each is read, checked and declared.
-void read_declared(const Cursor& at, std::vector<const model::effects::Effect*>& declared);
-[[nodiscard]] Json write_declared(const std::vector<const model::effects::Effect*>& declared);
-[[nodiscard]] Expected declared_expected();
+Value<std::vector<const model::effects::Effect*>> declared_value();
 /// Whether a machine's declared effects are finite on its bed and 0 at null.
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine);
 /// The effect of this name that the document's own machine declares, for a record that is read

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What a diagnosis found on four belts, and on a drawing.
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -59,6 +60,25 @@ auto second_pass_record() {
   REQUIRED(raises_probability_to, "Probability of a single right name afterwards.", kShare);
 }
 
+auto drawn_setting_record() {
+  RECORD(diagnosis::DrawnSetting, "a setting of a plotter")
+  REQUIRED(name, "Name of the parameter, with its unit.")
+  REQUIRED(set, "Value in the controller.", kAnyNumber)
+  REQUIRED(found, "Value estimated from the drawing together with the named causes.", kAnyNumber)
+  REQUIRED(sigma, "Uncertainty of that, 1 sigma.", kNotNegative)
+  REQUIRED(off, "True if the two differ by more than three sigmas.");
+}
+
+auto drawn_value_record() {
+  RECORD(diagnosis::DrawnValue, "a measure of a drawing")
+  REQUIRED(name, "The length or the bow, by its crosses.")
+  REQUIRED(measured_mm, "The reading.", kAnyNumber)
+  REQUIRED(explained_mm,
+           "The value predicted by the estimated settings and the named causes.",
+           kAnyNumber)
+  REQUIRED(rejected, "True if it contradicts the others and was left out.");
+}
+
 }  // namespace
 
 Record<BeltsFindings> belts_findings_record() {
@@ -95,6 +115,13 @@ Record<BeltsFindings> belts_findings_record() {
            "All places measured again with more tension, if nothing less separates the causes.",
            second_pass_record())
   REQUIRED(places, "Each place, in the order of the file.", belt_place_record());
+}
+
+Record<diagnosis::DrawingFindings> drawing_findings_record() {
+  RECORD(diagnosis::DrawingFindings, "results for a drawing")
+  REQUIRED(plotter, "Name of the plotter.")
+  REQUIRED(settings, "All settings of the controller.", drawn_setting_record())
+  REQUIRED(measures, "The measures of the drawing, in order.", drawn_value_record());
 }
 
 }  // namespace chaintrue::grid::files
