@@ -48,7 +48,7 @@ auto taped_distance_record() {
 /// x, y, and the tool's offset in x and y.
 using MovedPlace = std::array<double, 4>;
 
-void take_places(DisplacementParts& parts, const std::vector<MovedPlace>& places) {
+void take_moved_places(DisplacementParts& parts, const std::vector<MovedPlace>& places) {
   parts.at_mm.resize(2 * as_index(places.size()));
   for (const auto& [x, y, offset_x, offset_y] : places) {
     parts.at_mm.segment<2>(2 * as_index(parts.places.size())) << offset_x, offset_y;
@@ -56,7 +56,7 @@ void take_places(DisplacementParts& parts, const std::vector<MovedPlace>& places
   }
 }
 
-std::optional<std::vector<MovedPlace>> places_of(const DisplacementParts& parts) {
+std::optional<std::vector<MovedPlace>> moved_places(const DisplacementParts& parts) {
   std::vector<MovedPlace> places;
   for (const model::MarkPoint& at : parts.places) {
     const auto row = 2 * as_index(places.size());
@@ -75,8 +75,8 @@ auto displacement_record() {
         "position given by its upper two belts; mm.",
         true,
         list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
-        take_places,
-        places_of);
+        take_moved_places,
+        moved_places);
 }
 
 auto stated_sheet_record() {

@@ -46,13 +46,15 @@ std::vector<CsvColumn> columns_below(std::string_view first, double tape_unit) {
   return columns;
 }
 
-/// The rows below this header, as long as it is: cells that a line lacks at its end are blank, what it
-/// has beyond is ignored.
-std::vector<CsvRow> below_header(std::vector<CsvRow> rows) {
-  while (rows[0].size() > 1 && rows[0].back().text.empty()) rows[0].pop_back();
-  for (CsvCell& cell : rows[0])
+/// The rows of a table, as long as its header: cells that a line lacks at its end are blank, what it
+/// has beyond is ignored. The cell behind a distance is its sigma, headed or not.
+std::vector<CsvRow> filled_rows(std::vector<CsvRow> rows) {
+  CsvRow& header = rows[0];
+  while (header.size() > 1 && header.back().text.empty()) header.pop_back();
+  for (CsvCell& cell : header)
     if (cell.text == "measured_mm") cell.text = "distance_mm";
-  for (CsvRow& row : rows) row.resize(rows[0].size(), {"", row[0].line, row[0].column});
+  if (header.back().text == "distance_mm") header.push_back({"sigma_mm"});
+  for (CsvRow& row : rows) row.resize(header.size(), {"", row[0].line, row[0].column});
   return rows;
 }
 
@@ -92,7 +94,7 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
     const std::string& first = begin->front().text;
     const auto end = std::find_if(std::next(begin), rows.end(), is_header);
     const CsvTable table =
-        read_table(below_header({begin, end}), columns_below(first, tape_unit), problems);
+        read_table(filled_rows({begin, end}), columns_below(first, tape_unit), problems);
     begin = end;
     any_distances = any_distances || first != kHoles;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
