@@ -8,7 +8,7 @@
 #include "grid/files/json_reader.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::files {
@@ -18,58 +18,69 @@ constexpr Range kSquare{"mm^2", -1e12, 1e12};
 constexpr int kMostPlaces = 100000;
 
 auto fitted_coordinate_record() {
-  return Record<AnchorCoordinate>("a coordinate of an anchor")
-      .required("coordinate",
-                "Which coordinate; the bottom left anchor is the origin, and the bottom right "
-                "one is on the x axis.",
-                &AnchorCoordinate::name,
-                one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
-      .optional("stated_mm",
-                "Value in the settings; null if unknown.",
-                &AnchorCoordinate::stated_mm,
-                kMillimetres)
-      .required("fitted_mm", "Fitted value.", &AnchorCoordinate::fitted_mm, kMillimetres)
-      .required("sigma_mm", "Its uncertainty, 1 sigma.", &AnchorCoordinate::sigma_mm, kSigmaMm)
-      .required("rests_on",
-                "Share of its variance from each belt's readings.",
-                &AnchorCoordinate::variance_share,
-                per_belt_record<double>(number(kAnyNumber)));
+  RECORD(AnchorCoordinate, "a coordinate of an anchor")
+  NAMED(required,
+        "coordinate",
+        name,
+        "Which coordinate; the bottom left anchor is the origin, and the bottom right "
+        "one is on the x axis.",
+        one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
+  OPTIONAL(stated_mm, "Value in the settings; null if unknown.", kMillimetres)
+  REQUIRED(fitted_mm, "Fitted value.", kMillimetres)
+  REQUIRED(sigma_mm, "Its uncertainty, 1 sigma.", kSigmaMm)
+  NAMED(required,
+        "rests_on",
+        variance_share,
+        "Share of its variance from each belt's readings.",
+        per_belt_record<double>(number(kAnyNumber)));
 }
 
 auto bad_record() {
-  return Record<BadBeltReading>("a bad reading")
-      .required("point",
-                "Number of the place, from 0.",
-                &BadBeltReading::point,
-                index_number(0, kMostPlaces))
-      .required("belt", "The belt.", &BadBeltReading::belt, belt_word())
-      .required("off_mm",
-                "Reading minus the value predicted from all others.",
-                &BadBeltReading::residual_mm,
-                kMillimetres);
+  RECORD(BadBeltReading, "a bad reading")
+  REQUIRED(point, "Number of the place, from 0.", index_number(0, kMostPlaces))
+  REQUIRED(belt, "The belt.", belt_word())
+  NAMED(required,
+        "off_mm",
+        residual_mm,
+        "Reading minus the value predicted from all others.",
+        kMillimetres);
 }
 
 auto residual_record() {
-  return Record<BeltResidual>("a reading's residual")
-      .required("off_mm", "Reading minus fitted value.", &BeltResidual::residual_mm, kMillimetres)
-      .required("counts", "False if it was left out.", &BeltResidual::counts)
-      .required("sigmas",
-                "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
-                &BeltResidual::sigmas,
-                kAnyNumber)
-      .required("beside_mm",
-                "Reading minus the value predicted from all others.",
-                &BeltResidual::deleted_residual_mm,
-                kMillimetres);
+  RECORD(BeltResidual, "a reading's residual")
+  NAMED(required, "off_mm", residual_mm, "Reading minus fitted value.", kMillimetres)
+  REQUIRED(counts, "False if it was left out.")
+  REQUIRED(sigmas,
+           "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
+           kAnyNumber)
+  NAMED(required,
+        "beside_mm",
+        deleted_residual_mm,
+        "Reading minus the value predicted from all others.",
+        kMillimetres);
+}
+
+void residual_keys(Record<FittedPlace>& place) {
+  for (const model::Belt belt : model::kBelts) {
+    place.computed(
+        name(belt),
+        fmt::format("Residual of the {} belt.", words(belt)),
+        true,
+        object(residual_record()),
+        [belt](FittedPlace& p, const BeltResidual& own) { p.belts[belt] = own; },
+        [belt](const FittedPlace& p) { return p.belts[belt]; });
+  }
 }
 
 auto fitted_place_record() {
-  Record<FittedPlace> place("a fitted place");
-  place.place(&FittedPlace::at,
-              "x of the tool, to the right of the bottom left anchor.",
-              "y of the tool, up from the bottom left anchor.",
-              kMillimetres);
-  place.computed(
+  RECORD(FittedPlace, "a fitted place")
+  FIELD(place,
+        &FittedPlace::at,
+        "x of the tool, to the right of the bottom left anchor.",
+        "y of the tool, up from the bottom left anchor.",
+        kMillimetres)
+  FIELD(
+      computed,
       "covariance_mm2",
       "Covariance of x and y: xx, xy, yy.",
       true,
@@ -80,17 +91,8 @@ auto fitted_place_record() {
       [](const FittedPlace& p) {
         const auto& c = p.covariance_mm2;
         return std::array{c(0, 0), c(0, 1), c(1, 1)};
-      });
-  for (const model::Belt belt : model::kBelts) {
-    place.computed(
-        name(belt),
-        fmt::format("Residual of the {} belt.", words(belt)),
-        true,
-        object(residual_record()),
-        [belt](FittedPlace& p, const BeltResidual& own) { p.belts[belt] = own; },
-        [belt](const FittedPlace& p) { return p.belts[belt]; });
-  }
-  return place;
+      })
+  ALSO(residual_keys);
 }
 
 using Row = std::array<double, 5>;
@@ -98,16 +100,12 @@ using Rows = std::array<Row, 5>;
 using RowMajor = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
 auto both_predictions_record() {
-  return Record<BeltsFit>("what was predicted")
-      .required("one_left_out",
-                "Each place predicted from all others.",
-                &BeltsFit::one_left_out,
-                prediction_record())
-      .optional("half_left_out",
-                "Each half predicted from the other; null for fewer than "
-                "ten places.",
-                &BeltsFit::half_left_out,
-                prediction_record());
+  RECORD(BeltsFit, "what was predicted")
+  REQUIRED(one_left_out, "Each place predicted from all others.", prediction_record())
+  OPTIONAL(half_left_out,
+           "Each half predicted from the other; null for fewer than "
+           "ten places.",
+           prediction_record());
 }
 
 /// For the belts' table, with values that it may have.
@@ -119,98 +117,82 @@ void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
 }
 
 auto cause_in_fit_record() {
-  return Record<CauseInAnchorFit>("a cause with the anchors")
-      .required("effect", "The cause, by its id in docs/maslow4.md.", &CauseInAnchorFit::effect)
-      .sparse("side",
-              "The belt, or all four.",
-              &CauseInAnchorFit::side,
-              one_of({"tl", "tr", "bl", "br", "all"}))
-      .required("parameters",
-                "Its size and onset, averaged over the models that the readings leave possible.",
-                &CauseInAnchorFit::parameters,
-                dictionary(number(kAnyNumber)))
-      .required("sigma", "Uncertainty of its size, 1 sigma.", &CauseInAnchorFit::sigma, kAnyNumber)
-      .required("probability",
-                "Its probability under the prior used for sigmas, which assumes causes to be "
-                "common; not a verdict.",
-                &CauseInAnchorFit::probability,
-                kShare)
+  RECORD(CauseInAnchorFit, "a cause with the anchors")
+  REQUIRED(effect, "The cause, by its id in docs/maslow4.md.")
+  SPARSE(side, "The belt, or all four.", one_of({"tl", "tr", "bl", "br", "all"}))
+  REQUIRED(parameters,
+           "Its size and onset, averaged over the models that the readings leave possible.",
+           dictionary(number(kAnyNumber)))
+  REQUIRED(sigma, "Uncertainty of its size, 1 sigma.", kAnyNumber)
+  REQUIRED(probability,
+           "Its probability under the prior used for sigmas, which assumes causes to be "
+           "common; not a verdict.",
+           kShare)
       .check(check_cause);
 }
 
 auto fit_record() {
-  return Record<BeltsFit>("a fit of four belts")
-      .required("machine",
-                "The machine with the anchors fitted.",
-                &BeltsFit::machine,
-                belt_machine_record())
-      .required("coordinates",
-                "The five coordinates that belts determine.",
-                &BeltsFit::coordinates,
-                exactly<5>(object(fitted_coordinate_record()), "five coordinates"))
-      .computed(
-          "covariance_mm2",
-          "Of the five, in their order.",
-          true,
-          exactly<5>(exactly<5>(number(kSquare), "5 numbers"), "five rows of five numbers"),
-          [](BeltsFit& fit, const Rows& rows) {
-            fit.covariance_mm2 = Eigen::Map<const RowMajor>(rows.front().data());
-          },
-          [](const BeltsFit& fit) {
-            Rows rows{};
-            Eigen::Map<RowMajor>(rows.front().data()) = fit.covariance_mm2;
-            return rows;
-          })
-      .required("spread_mm",
-                "Spread of a reading, with 2N - 5 checks in the denominator.",
-                &BeltsFit::residual_sigma_mm,
-                kSigmaMm)
-      .required("checks",
-                "Degrees of freedom: that denominator.",
-                &BeltsFit::checks,
-                integer(0, 4 * kMostPlaces))
-      .required("rms_mm",
-                "Rms over all readings, rejected ones included, as in the machine's message.",
-                &BeltsFit::rms_mm,
-                kSigmaMm)
-      .required("rms_of_mm",
-                "Rms of each belt's readings without the rejected ones.",
-                &BeltsFit::rms_of_mm,
-                per_belt_record<double>(number(kAnyNumber)))
-      .part("foretold",
-            "Lower belts predicted from the upper two at places left out of the fit.",
-            true,
-            both_predictions_record())
-      .optional(
-          "scale", "From taped distances; absent: not known.", &BeltsFit::scale, scale_record())
-      .sparse("causes",
-              "Causes besides the anchors: the stretch of the belts, and others that are more "
-              "likely than not. Places and residuals are corrected for them.",
-              &BeltsFit::causes,
-              cause_in_fit_record())
-      .sparse("bad", "Readings left out, the worst first.", &BeltsFit::bad, bad_record())
-      .sparse("bad_points",
-              "Places where fewer than three readings agree.",
-              &BeltsFit::bad_points,
-              list(index_number(0, kMostPlaces)))
-      .required("places", "The fitted places.", &BeltsFit::places, fitted_place_record());
+  RECORD(BeltsFit, "a fit of four belts")
+  REQUIRED(machine, "The machine with the anchors fitted.", belt_machine_record())
+  REQUIRED(coordinates,
+           "The five coordinates that belts determine.",
+           exactly<5>(object(fitted_coordinate_record()), "five coordinates"))
+  FIELD(
+      computed,
+      "covariance_mm2",
+      "Of the five, in their order.",
+      true,
+      exactly<5>(exactly<5>(number(kSquare), "5 numbers"), "five rows of five numbers"),
+      [](BeltsFit& fit, const Rows& rows) {
+        fit.covariance_mm2 = Eigen::Map<const RowMajor>(rows.front().data());
+      },
+      [](const BeltsFit& fit) {
+        Rows rows{};
+        Eigen::Map<RowMajor>(rows.front().data()) = fit.covariance_mm2;
+        return rows;
+      })
+  NAMED(required,
+        "spread_mm",
+        residual_sigma_mm,
+        "Spread of a reading, with 2N - 5 checks in the denominator.",
+        kSigmaMm)
+  REQUIRED(checks, "Degrees of freedom: that denominator.", integer(0, 4 * kMostPlaces))
+  REQUIRED(rms_mm,
+           "Rms over all readings, rejected ones included, as in the machine's message.",
+           kSigmaMm)
+  REQUIRED(rms_of_mm,
+           "Rms of each belt's readings without the rejected ones.",
+           per_belt_record<double>(number(kAnyNumber)))
+  FIELD(part,
+        "foretold",
+        "Lower belts predicted from the upper two at places left out of the fit.",
+        true,
+        both_predictions_record())
+  OPTIONAL(scale, "From taped distances; absent: not known.", scale_record())
+  SPARSE(causes,
+         "Causes besides the anchors: the stretch of the belts, and others that are more "
+         "likely than not. Places and residuals are corrected for them.",
+         cause_in_fit_record())
+  SPARSE(bad, "Readings left out, the worst first.", bad_record())
+  SPARSE(bad_points,
+         "Places where fewer than three readings agree.",
+         list(index_number(0, kMostPlaces)))
+  REQUIRED(places, "The fitted places.", fitted_place_record());
 }
 
 const Record<FittedAnchors>& fitted_anchors_record() {
   static const auto record = [] {
-    Record<FittedAnchors> anchors("a chaintrue_anchors file", kAnchorsFormat);
-    anchors.sparse("name", "Name of the set.", &FittedAnchors::name)
-        .required("fit", "The fit.", &FittedAnchors::fit, fit_record())
-        .optional("holes",
-                  "Results from cut and taped holes; absent: none were given.",
-                  &FittedAnchors::holes,
-                  holes_with_belts_record());
-    add_content_hash(add_made_by_key(anchors),
-                     "Hash of everything else; edited anchors are refused.")
+    RECORD(FittedAnchors, "a chaintrue_anchors file", kAnchorsFormat)
+    SPARSE(name, "Name of the set.")
+    REQUIRED(fit, "The fit.", fit_record())
+    OPTIONAL(holes,
+             "Results from cut and taped holes; absent: none were given.",
+             holes_with_belts_record())
+    ALSO(add_made_by_key)
+    ALSO(add_content_hash, "Hash of everything else; edited anchors are refused.")
         .check([](const Cursor& at, FittedAnchors&) {
           if (at.clean()) check_content(at);
         });
-    return anchors;
   }();
   return record;
 }

@@ -2,7 +2,7 @@
 #include "grid/files/answer_file.hpp"
 
 #include "grid/files/json_text.hpp"
-#include "grid/files/machine_record.hpp"
+#include "grid/files/records.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
@@ -34,18 +34,12 @@ struct Hidden {
 };
 
 std::string written(Hidden hidden) {
-  Json effects = Json::array();
-  for (const model::AppliedEffect& effect : hidden.effects)
-    effects.push_back(effect_record().write(effect));
-  Json settings = Json::array();
-  for (const synthetic::SettingOffset& offset : hidden.offsets) {
-    settings.push_back(
-        {{"setting", std::string(model::name(offset.setting))}, {"offset", offset.offset}});
-  }
   Json file = headed(kAnswerFormat);
   file["seed"] = hidden.seed;
-  file["effects"] = std::move(effects);
-  file["settings"] = std::move(settings);
+  file["effects"] = list(effect_record()).write(hidden.effects);
+  file["settings"] = json_list(hidden.offsets, [](const synthetic::SettingOffset& offset) {
+    return Json{{"setting", std::string(model::name(offset.setting))}, {"offset", offset.offset}};
+  });
   file["sheet"] = {{"x_mm", hidden.sheet.x_mm},
                    {"y_mm", hidden.sheet.y_mm},
                    {"rotation_rad", hidden.sheet.rotation_rad}};
@@ -93,14 +87,13 @@ std::string write_answer(const synthetic::SyntheticHoles& made, const synthetic:
 namespace {
 
 using model::effects::Effect;
-using model::effects::EffectParameter;
 using model::effects::EffectSide;
 
 Json side_json(EffectSide side) {
   return side == EffectSide::none ? Json(nullptr) : Json(std::string(name(side)));
 }
 
-Json parameter_json(const EffectParameter& parameter) {
+Json parameter_json(const model::effects::EffectParameter& parameter) {
   return {{"name", parameter.name},
           {"symbol", parameter.symbol},
           {"meaning", parameter.meaning},
@@ -113,16 +106,12 @@ Json parameter_json(const EffectParameter& parameter) {
           {"whole", parameter.integer}};
 }
 
-Json effect_json(const Effect& effect) {
-  Json sides = Json::array();
-  for (const EffectSide side : effect.sides) sides.push_back(side_json(side));
-  Json parameters = Json::array();
-  for (const EffectParameter& parameter : effect.parameters)
-    parameters.push_back(parameter_json(parameter));
+Json effect_json(const Effect* given) {
+  const Effect& effect = *given;
   return {{"effect", effect.id},
           {"station", name(effect.station)},
-          {"sides", sides},
-          {"parameters", parameters},
+          {"sides", json_list(effect.sides, side_json)},
+          {"parameters", json_list(effect.parameters, parameter_json)},
           {"cause", effect.cause},
           {"signature", effect.signature},
           {"equation", effect.equation},
@@ -141,25 +130,29 @@ Json rival_json(const synthetic::Rival& rival) {
 
 Json strength_json(const synthetic::StrengthAt& at) {
   const synthetic::EffectStrength& s = at.strength;
-  Json inseparable = Json::array();
-  for (const synthetic::Rival& rival : s.inseparable) inseparable.push_back(rival_json(rival));
   return {{"points", at.columns * at.rows},
           {"delta_at_usual_size", s.signal_to_noise},
           {"share_left_by_calibration", s.share_left},
           {"seen_from", s.detectable_size},
           {"named_from", s.named_size ? Json(*s.named_size) : Json(nullptr)},
           {"nearest_rival", s.nearest ? rival_json(*s.nearest) : Json(nullptr)},
-          {"same_as", inseparable}};
+          {"same_as", json_list(s.inseparable, rival_json)}};
+}
+
+Json vector_json(const Eigen::Vector2d& shift) { return Json::array({shift.x(), shift.y()}); }
+
+Json mark_json(const synthetic::ShiftedMark& mark) {
+  return {{"x_mm", mark.mark.x_mm},
+          {"y_mm", mark.mark.y_mm},
+          {"as_stated_mm", vector_json(mark.as_stated_mm)},
+          {"calibrated_mm", vector_json(mark.calibrated_mm)}};
 }
 
 Json square_json(const synthetic::ShiftedSquare& square) {
-  Json corners = Json::array();
-  for (const Eigen::Vector2d& shift : square.corner_shift_mm)
-    corners.push_back({shift.x(), shift.y()});
   return {{"centre_x_mm", square.centre.x_mm},
           {"centre_y_mm", square.centre.y_mm},
           {"size_mm", square.size_mm},
-          {"corner_shift_mm", corners},
+          {"corner_shift_mm", json_list(square.corner_shift_mm, vector_json)},
           {"side_mm", square.side_mm},
           {"diagonal_mm", square.diagonal_mm}};
 }
@@ -168,8 +161,7 @@ Json square_json(const synthetic::ShiftedSquare& square) {
 
 std::string write_catalogue(const std::vector<const Effect*>& effects) {
   Json file = headed(kEffectsFormat);
-  file["effects"] = Json::array();
-  for (const Effect* effect : effects) file["effects"].push_back(effect_json(*effect));
+  file["effects"] = json_list(effects, effect_json);
   return print_json(file);
 }
 
@@ -178,19 +170,9 @@ std::string write_effect_picture(const synthetic::EffectPicture& picture) {
   file["effect"] = effect_record().write(picture.applied);
   file["noise"] = {{"length_mm", picture.noise.length_mm},
                    {"position_mm", picture.noise.position_mm}};
-  file["marks"] = Json::array();
-  for (const synthetic::ShiftedMark& mark : picture.marks) {
-    file["marks"].push_back({{"x_mm", mark.mark.x_mm},
-                             {"y_mm", mark.mark.y_mm},
-                             {"as_stated_mm", {mark.as_stated_mm.x(), mark.as_stated_mm.y()}},
-                             {"calibrated_mm", {mark.calibrated_mm.x(), mark.calibrated_mm.y()}}});
-  }
-  file["squares"] = Json::array();
-  for (const synthetic::ShiftedSquare& square : picture.squares)
-    file["squares"].push_back(square_json(square));
-  file["strength"] = Json::array();
-  for (const synthetic::StrengthAt& at : picture.strengths)
-    file["strength"].push_back(strength_json(at));
+  file["marks"] = json_list(picture.marks, mark_json);
+  file["squares"] = json_list(picture.squares, square_json);
+  file["strength"] = json_list(picture.strengths, strength_json);
   return print_json(file);
 }
 

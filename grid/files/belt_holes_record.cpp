@@ -19,100 +19,73 @@ constexpr Range kAngle{"rad", -1.0, 1.0};
 constexpr int kMostSets = 1000;
 
 auto belt_hole_record() {
-  return Record<BeltHole>("a fitted hole")
-      .required("name", "Its name.", &BeltHole::name)
-      .place(&BeltHole::commanded, "Commanded x.", "Commanded y, up.", kMillimetres)
-      .required(
-          "mark_x_mm",
-          "x from the fitted anchors, in the frame of the commands; the sheet may be elsewhere.",
-          path(&BeltHole::mark, &model::MarkPoint::x_mm),
-          kMillimetres)
-      .required("mark_y_mm",
-                "y from the fitted anchors, up.",
-                path(&BeltHole::mark, &model::MarkPoint::y_mm),
-                kMillimetres);
+  RECORD(BeltHole, "a fitted hole")
+  REQUIRED(name, "Its name.")
+  FIELD(place, &BeltHole::commanded, "Commanded x.", "Commanded y, up.", kMillimetres)
+  FIELD(required,
+        "mark_x_mm",
+        "x from the fitted anchors, in the frame of the commands; the sheet may be elsewhere.",
+        path(&BeltHole::mark, &model::MarkPoint::x_mm),
+        kMillimetres)
+  FIELD(required,
+        "mark_y_mm",
+        "y from the fitted anchors, up.",
+        path(&BeltHole::mark, &model::MarkPoint::y_mm),
+        kMillimetres);
 }
 
 auto taped_distance_record() {
-  return Record<BeltTapedDistance>("a fitted distance")
-      .required("set",
-                "Number of the file of holes, from 0.",
-                &BeltTapedDistance::set,
-                index_number(0, kMostSets))
-      .required("between", "Its ends.", &BeltTapedDistance::words)
-      .required("measured_mm",
-                "Taped distance, without the hook offset.",
-                &BeltTapedDistance::measured_mm,
-                kMillimetres)
-      .required("off_mm", "Taped minus fitted.", &BeltTapedDistance::residual_mm, kMillimetres)
-      .required("left_out_mm",
-                "Taped minus the prediction of a fit without it.",
-                &BeltTapedDistance::left_out_mm,
-                kMillimetres)
-      .required("left_out_sigma_mm",
-                "Uncertainty of that, 1 sigma.",
-                &BeltTapedDistance::left_out_sigma_mm,
-                kSigmaMm)
-      .required(
-          "set_aside", "It contradicts the others and was not used.", &BeltTapedDistance::rejected);
+  RECORD(BeltTapedDistance, "a fitted distance")
+  REQUIRED(set, "Number of the file of holes, from 0.", index_number(0, kMostSets))
+  NAMED(required, "between", words, "Its ends.")
+  REQUIRED(measured_mm, "Taped distance, without the hook offset.", kMillimetres)
+  NAMED(required, "off_mm", residual_mm, "Taped minus fitted.", kMillimetres)
+  REQUIRED(left_out_mm, "Taped minus the prediction of a fit without it.", kMillimetres)
+  REQUIRED(left_out_sigma_mm, "Uncertainty of that, 1 sigma.", kSigmaMm)
+  NAMED(required, "set_aside", rejected, "It contradicts the others and was not used.");
 }
-
-struct StatedDisplacement {
-  double size_mm = 0.0;
-  double reach_mm = 1.0;
-  std::vector<std::vector<double>> places;
-};
 
 /// x, y, and the tool's offset in x and y.
-constexpr std::size_t kNumbersOfAPlace = 4;
+using MovedPlace = std::array<double, 4>;
+
+void take_moved_places(DisplacementParts& parts, const std::vector<MovedPlace>& places) {
+  parts.at_mm.resize(2 * as_index(places.size()));
+  for (const auto& [x, y, offset_x, offset_y] : places) {
+    parts.at_mm.segment<2>(2 * as_index(parts.places.size())) << offset_x, offset_y;
+    parts.places.push_back({x, y});
+  }
+}
+
+std::optional<std::vector<MovedPlace>> moved_places(const DisplacementParts& parts) {
+  std::vector<MovedPlace> places;
+  for (const model::MarkPoint& at : parts.places) {
+    const auto row = 2 * as_index(places.size());
+    places.push_back({at.x_mm, at.y_mm, parts.at_mm[row], parts.at_mm[row + 1]});
+  }
+  return places;
+}
 
 auto displacement_record() {
-  return Record<StatedDisplacement>("a displacement of the tool")
-      .required(
-          "size_mm", "Its prior sigma, on each axis.", &StatedDisplacement::size_mm, kPositiveMm)
-      .required(
-          "reach_mm", "Length over which it changes.", &StatedDisplacement::reach_mm, kPositiveMm)
-      .required("places",
-                "For each place x, y, and the displacement of the tool in x and y from the "
-                "position given by its upper two belts; mm.",
-                &StatedDisplacement::places,
-                list(list(kMillimetres, kNumbersOfAPlace), 1))
-      .check([](const Cursor& at, StatedDisplacement& stated) {
-        for (const auto& place : stated.places) {
-          if (place.size() != kNumbersOfAPlace && at.clean())
-            at.child("places").expect("four numbers of each place");
-        }
-      });
-}
-
-DisplacementParts displacement_of(const StatedDisplacement& stated) {
-  DisplacementParts parts{stated.size_mm, stated.reach_mm, {}, {}};
-  parts.at_mm.resize(2 * as_index(stated.places.size()));
-  for (const auto& place : stated.places) {
-    const auto row = 2 * as_index(parts.places.size());
-    parts.places.push_back({place[0], place[1]});
-    parts.at_mm.segment<2>(row) << place[2], place[3];
-  }
-  return parts;
-}
-
-StatedDisplacement stated_of(const DisplacementParts& parts) {
-  StatedDisplacement stated{parts.size_mm, parts.reach_mm, {}};
-  for (std::size_t i = 0; i < parts.places.size(); ++i) {
-    const auto row = 2 * as_index(i);
-    stated.places.push_back(
-        {parts.places[i].x_mm, parts.places[i].y_mm, parts.at_mm[row], parts.at_mm[row + 1]});
-  }
-  return stated;
+  RECORD(DisplacementParts, "a displacement of the tool")
+  REQUIRED(size_mm, "Its prior sigma, on each axis.", kPositiveMm)
+  REQUIRED(reach_mm, "Length over which it changes.", kPositiveMm)
+  FIELD(computed,
+        "places",
+        "For each place x, y, and the displacement of the tool in x and y from the "
+        "position given by its upper two belts; mm.",
+        true,
+        list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
+        take_moved_places,
+        moved_places);
 }
 
 auto stated_sheet_record() {
-  return Record<SheetPlacement>("where the sheet lies")
-      .place("x of the sheet, to the right of the origin of commands.",
-             "y of the sheet, up from there.",
-             kMillimetres)
-      .required(
-          "rotation_rad", "Rotation, counter-clockwise.", &SheetPlacement::rotation_rad, kAngle);
+  RECORD(SheetPlacement, "where the sheet lies")
+  FIELD(place,
+        "x of the sheet, to the right of the origin of commands.",
+        "y of the sheet, up from there.",
+        kMillimetres)
+  REQUIRED(rotation_rad, "Rotation, counter-clockwise.", kAngle);
 }
 
 void check_together(const Cursor& at, const HolesWithBelts& holes) {
@@ -134,48 +107,36 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
 }  // namespace
 
 Record<HolesWithBelts> holes_with_belts_record() {
-  return Record<HolesWithBelts>("what holes add to belts")
-      .required("machine",
-                "The machine, with the anchors in force when the holes were cut.",
-                &HolesWithBelts::machine,
-                belt_machine_record())
-      .required("holes",
-                "Holes of the first file, whose sheet defines the frame of the map.",
-                &HolesWithBelts::holes,
-                belt_hole_record())
-      .required(
-          "distances", "All taped distances.", &HolesWithBelts::distances, taped_distance_record())
-      .required("noise_factor",
-                "Estimated noise of tape and holes, relative to the given one.",
-                &HolesWithBelts::noise_factor,
-                kFactor)
-      .required("left_out_rms_mm",
-                "Rms of the distances left out one at a time, without those that were rejected.",
-                &HolesWithBelts::left_out_rms_mm,
-                kSigmaMm)
-      .optional(
-          "displacement",
-          "Displacement of the tool from the position given by its upper two belts; absent: "
-          "the holes show none.",
-          &HolesWithBelts::displacement,
-          converted<DisplacementParts>(object(displacement_record()), displacement_of, stated_of))
-      .optional(
-          "sheet",
-          "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
-          &HolesWithBelts::sheet,
-          converted<Eigen::Vector3d>(
-              object(stated_sheet_record()),
-              [](const SheetPlacement& own) {
-                return Eigen::Vector3d(own.x_mm, own.y_mm, own.rotation_rad);
-              },
-              [](const Eigen::Vector3d& own) {
-                return SheetPlacement{own.x(), own.y(), own.z()};
-              }))
-      .required("covariance",
-                "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
-                "displacement at each of its places.",
-                &HolesWithBelts::covariance,
-                matrix_of_numbers(kAnyNumber, 0))
+  RECORD(HolesWithBelts, "what holes add to belts")
+  REQUIRED(machine,
+           "The machine, with the anchors in force when the holes were cut.",
+           belt_machine_record())
+  REQUIRED(holes,
+           "Holes of the first file, whose sheet defines the frame of the map.",
+           belt_hole_record())
+  REQUIRED(distances, "All taped distances.", taped_distance_record())
+  REQUIRED(noise_factor, "Estimated noise of tape and holes, relative to the given one.", kFactor)
+  REQUIRED(left_out_rms_mm,
+           "Rms of the distances left out one at a time, without those that were rejected.",
+           kSigmaMm)
+  OPTIONAL(displacement,
+           "Displacement of the tool from the position given by its upper two belts; absent: "
+           "the holes show none.",
+           displacement_record())
+  OPTIONAL(sheet,
+           "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
+           converted<Eigen::Vector3d>(
+               object(stated_sheet_record()),
+               [](const SheetPlacement& own) {
+                 return Eigen::Vector3d(own.x_mm, own.y_mm, own.rotation_rad);
+               },
+               [](const Eigen::Vector3d& own) {
+                 return SheetPlacement{own.x(), own.y(), own.z()};
+               }))
+  REQUIRED(covariance,
+           "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
+           "displacement at each of its places.",
+           matrix_of_numbers(kAnyNumber, 0))
       .check(check_together);
 }
 

@@ -3,36 +3,27 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <algorithm>
+#include <variant>
 
 #include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
 #include "grid/files/belts_record.hpp"
+#include "grid/files/measured_entries.hpp"
 #include "grid/files/number_text.hpp"
 
 namespace chaintrue::grid::files {
 
 namespace {
 
-/// A point's new index once others are left out; empty if it is left out itself.
-std::vector<std::optional<std::size_t>> places_kept(std::size_t count,
-                                                    const std::vector<std::size_t>& without) {
-  std::vector<std::optional<std::size_t>> kept(count);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!contains(without, i + 1)) kept[i] = next++;
-  }
-  return kept;
-}
-
-void move_ends(const std::vector<std::optional<std::size_t>>& kept,
-               MeasuredBelts& belts,
-               Problems& problems) {
+/// The ends of distances at these points, which are the only ones that remain.
+void move_ends(const PointIndices& remaining, MeasuredBelts& belts, Problems& problems) {
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
     for (BeltEnd* end : {&belts.distances[i].from, &belts.distances[i].to}) {
       auto* index = std::get_if<std::size_t>(end);
-      if (index == nullptr || *index >= kept.size()) continue;
-      if (!kept[*index]) {
+      if (index == nullptr) continue;
+      const auto own = std::find(remaining.begin(), remaining.end(), *index);
+      if (own == remaining.end()) {
         problems.add(fmt::format("/distances/{}", i),
                      words_of(*end),
                      ProblemKind::contradiction,
@@ -40,29 +31,29 @@ void move_ends(const std::vector<std::optional<std::size_t>>& kept,
                      "file, or keep the point");
         return;
       }
-      *index = *kept[*index];
+      *index = as_size(own - remaining.begin());
     }
   }
 }
 
 void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Problems& problems) {
+  const std::size_t count = belts.points.size();
   for (const std::size_t number : without) {
-    if (number <= belts.points.size()) continue;
+    if (number <= count) continue;
     problems.add("--without",
                  fmt::format("{}", number),
                  ProblemKind::out_of_range,
                  "points of this file, counted from 1: 1 to {}",
-                 belts.points.size());
+                 count);
   }
   problems.throw_if_any();
-  const auto kept = places_kept(belts.points.size(), without);
-  move_ends(kept, belts, problems);
-  problems.throw_if_any();
-  std::vector<BeltPoint> points;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i]) points.push_back(std::move(belts.points[i]));
+  PointIndices remaining;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!contains(without, i + 1)) remaining.push_back(i);
   }
-  belts.points = std::move(points);
+  move_ends(remaining, belts, problems);
+  problems.throw_if_any();
+  keep_only(remaining, belts.points);
 }
 
 }  // namespace
@@ -89,11 +80,7 @@ ReadBelts parse_belts(const std::string& text,
                       const std::string& file,
                       const std::vector<std::size_t>& without) {
   Problems problems(file);
-  const Json json = parse_json(text, problems);
-  auto stated = belts_record().read(Cursor(json, problems), true);
-  problems.throw_if_any();
-  ReadBelts read;
-  read.belts = std::move(stated.value());
+  ReadBelts read{read_document(belts_record(), text, problems), {}};
   if (!without.empty()) {
     check_belt_distances(read.belts, "/distances", problems);
     problems.throw_if_any();

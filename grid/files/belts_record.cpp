@@ -8,7 +8,7 @@
 #include "grid/containers.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -26,29 +26,23 @@ struct StatedAnchor {
 };
 
 auto anchor_record() {
-  return Record<StatedAnchor>("an anchor")
-      .optional("x_mm",
-                "x of the point where the belt leaves the frame, to the right of the bottom "
-                "left anchor. Given for all four anchors or for none.",
-                &StatedAnchor::x_mm,
-                kMillimetres)
-      .optional("y_mm",
-                "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
-                &StatedAnchor::y_mm,
-                kMillimetres)
-      .optional("z_mm",
-                "Its height above the bed; default: the firmware's.",
-                &StatedAnchor::z_mm,
-                kMillimetres);
+  RECORD(StatedAnchor, "an anchor")
+  OPTIONAL(x_mm,
+           "x of the point where the belt leaves the frame, to the right of the bottom "
+           "left anchor. Given for all four anchors or for none.",
+           kMillimetres)
+  OPTIONAL(y_mm,
+           "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
+           kMillimetres)
+  OPTIONAL(z_mm, "Its height above the bed; default: the firmware's.", kMillimetres);
 }
 
 auto anchors_record() {
-  using Anchors = PerBelt<StatedAnchor>;
-  return Record<Anchors>("four anchors")
-      .required("tl", "Top left.", &Anchors::tl, anchor_record())
-      .required("tr", "Top right.", &Anchors::tr, anchor_record())
-      .required("bl", "Bottom left, the origin.", &Anchors::bl, anchor_record())
-      .required("br", "Bottom right, on the x axis.", &Anchors::br, anchor_record());
+  RECORD(PerBelt<StatedAnchor>, "four anchors")
+  REQUIRED(tl, "Top left.", anchor_record())
+  REQUIRED(tr, "Top right.", anchor_record())
+  REQUIRED(bl, "Bottom left, the origin.", anchor_record())
+  REQUIRED(br, "Bottom right, on the x axis.", anchor_record());
 }
 
 void read_anchors(const Cursor& at, BeltMachine& machine) {
@@ -82,10 +76,9 @@ Json written_anchors(const BeltMachine& machine) {
 }
 
 auto belt_record() {
-  return Record<BeltMachine>("a belt").optional("turn_mm",
-                                                "Belt length for one turn of the encoder.",
-                                                &BeltMachine::belt_turn_mm,
-                                                kMillimetres);
+  RECORD(BeltMachine, "a belt")
+  NAMED(
+      optional, "turn_mm", belt_turn_mm, "Belt length for one turn of the encoder.", kMillimetres);
 }
 
 constexpr Range kPull{"", 1e-3, 1e6};
@@ -111,7 +104,7 @@ void add_pull(Record<BeltPoint>& record) {
         false,
         number(kPull).expected,
         [own](const Cursor& at, BeltPoint& point) {
-          const auto value = at.number(kPull);
+          const auto value = number(kPull).read(at);
           if (!value) return;
           if (point.pull) at.expect("one of pull_n, pull_ma and pull");
           point.pull = BeltPull{*value, own};
@@ -125,17 +118,17 @@ void add_pull(Record<BeltPoint>& record) {
 using ThrownAway = PerBelt<std::vector<double>>;
 
 auto thrown_away_record() {
-  return Record<ThrownAway>("lengths of each belt")
-      .sparse("tl_mm", "Top left.", &ThrownAway::tl, list(kBeltLengthMm))
-      .sparse("tr_mm", "Top right.", &ThrownAway::tr, list(kBeltLengthMm))
-      .sparse("bl_mm", "Bottom left.", &ThrownAway::bl, list(kBeltLengthMm))
-      .sparse("br_mm", "Bottom right.", &ThrownAway::br, list(kBeltLengthMm));
+  RECORD(ThrownAway, "lengths of each belt")
+  NAMED(sparse, "tl_mm", tl, "Top left.", list(kLengthMm))
+  NAMED(sparse, "tr_mm", tr, "Top right.", list(kLengthMm))
+  NAMED(sparse, "bl_mm", bl, "Bottom left.", list(kLengthMm))
+  NAMED(sparse, "br_mm", br, "Bottom right.", list(kLengthMm));
 }
 
 void add_lengths(Record<BeltPoint>& record) {
   using Lengths = PerBelt<double>;
   const auto length = [&](const char* key, const char* meaning, double Lengths::*belt) {
-    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), kBeltLengthMm);
+    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), kLengthMm);
   };
   length("tl_mm",
          "Length of the top left belt as the controller prints it; the machine's lengths defines "
@@ -146,20 +139,17 @@ void add_lengths(Record<BeltPoint>& record) {
   length("br_mm", "Length of the bottom right belt.", &Lengths::br);
 }
 
-constexpr Range kSpreadMm{"mm", 0.0, 1e6};
-constexpr Range kMisfitMm{"mm", -1e6, 1e6};
 constexpr int kMostReadings = 400000;
-constexpr Range kCommand{"mm", -20000.0, 20000.0};
 
 void add_command(Record<BeltPoint>& record) {
   record.optional("commanded_x_mm",
                   "Commanded x, from the crossing of the frame's diagonals.",
                   path(&BeltPoint::commanded, &model::BedPoint::x_mm),
-                  kCommand);
+                  kCoordinateMm);
   record.optional("commanded_y_mm",
                   "Commanded y, up from there.",
                   path(&BeltPoint::commanded, &model::BedPoint::y_mm),
-                  kCommand);
+                  kCoordinateMm);
   record.check([](const Cursor& at, BeltPoint&) {
     if (at.has("commanded_x_mm") == at.has("commanded_y_mm")) return;
     const char* lacking = at.has("commanded_x_mm") ? "commanded_y_mm" : "commanded_x_mm";
@@ -168,14 +158,14 @@ void add_command(Record<BeltPoint>& record) {
 }
 
 auto belt_point_record() {
-  Record<BeltPoint> point("a place");
-  add_lengths(point);
-  add_command(point);
-  point.optional("order",
-                 "Number of the visit. Either all places have one, all different, or none has.",
-                 &BeltPoint::order,
-                 integer(0, 1000000));
-  point.computed(
+  RECORD(BeltPoint, "a place")
+  ALSO(add_lengths)
+  ALSO(add_command)
+  OPTIONAL(order,
+           "Number of the visit. Either all places have one, all different, or none has.",
+           integer(0, 1000000))
+  FIELD(
+      computed,
       "pulled",
       "Belts that a motor tensioned at the reading while the others held; default: those for the "
       "frame's orientation.",
@@ -187,175 +177,130 @@ auto belt_point_record() {
           if (contains(found, belt)) p.pulled->push_back(belt);
         }
       },
-      [](const BeltPoint& p) { return p.pulled; });
-  add_pull(point);
-  return point.sparse("thrown_away",
-                      "Single readings that the controller discarded here.",
-                      &BeltPoint::thrown_away_mm,
-                      thrown_away_record());
+      [](const BeltPoint& p) { return p.pulled; })
+  ALSO(add_pull)
+  NAMED(sparse,
+        "thrown_away",
+        thrown_away_mm,
+        "Single readings that the controller discarded here.",
+        thrown_away_record());
 }
 
 auto hole_place_record() {
-  return Record<model::BedPoint>("where a hole was commanded")
-      .place("Commanded x, to the right of the crossing of the frame's diagonals.",
-             "Commanded y, up from there.",
-             kCommand);
+  RECORD(model::BedPoint, "where a hole was commanded")
+  FIELD(place,
+        "Commanded x, to the right of the crossing of the frame's diagonals.",
+        "Commanded y, up from there.",
+        kCoordinateMm);
 }
 
-void add_end(Record<BeltDistance>& record,
-             const char* key,
-             const char* meaning,
-             BeltEnd BeltDistance::*member) {
+Value<BeltEnd> end_of_distance() {
   const std::string expected =
       "a point's number, an anchor (tl, tr, bl, br), or a hole as {\"x_mm\": .., \"y_mm\": ..}";
-  record.custom(
-      key,
-      meaning,
-      true,
-      {expected,
-       [] {
-         return Json{{"oneOf",
-                      {{{"type", "integer"}, {"minimum", 0}},
-                       belt_word().expected.schema(),
-                       hole_place_record().schema()}}};
-       }},
-      [member, expected](const Cursor& at, BeltDistance& distance) {
-        constexpr int kMostPoints = 100000;
-        if (at.json().is_number()) {
-          if (const auto index = at.integer(0, kMostPoints)) distance.*member = as_size(*index);
-        } else if (at.json().is_object()) {
-          if (const auto hole = hole_place_record().read(at)) distance.*member = CutHole{*hole};
-        } else {
-          const auto belt = at.json().is_string()
-                                ? model::belt_of(at.json().get_ref<const std::string&>())
-                                : std::nullopt;
-          if (!belt) return at.expect(expected);
-          distance.*member = *belt;
-        }
-      },
-      [member](const BeltDistance& distance) -> Json {
-        const BeltEnd& end = distance.*member;
-        if (const auto* index = std::get_if<std::size_t>(&end)) return *index;
-        if (const auto* belt = std::get_if<Belt>(&end)) return name(*belt);
-        return hole_place_record().write(std::get<CutHole>(end).commanded);
-      });
+  return {[expected](const Cursor& at) -> std::optional<BeltEnd> {
+            constexpr int kMostPoints = 100000;
+            if (at.json().is_number()) return index_number(0, kMostPoints).read(at);
+            if (at.json().is_object()) {
+              const auto hole = hole_place_record().read(at);
+              return hole ? std::optional<BeltEnd>(CutHole{*hole}) : std::nullopt;
+            }
+            const auto belt = at.json().is_string()
+                                  ? model::belt_of(at.json().get_ref<const std::string&>())
+                                  : std::nullopt;
+            if (!belt) at.expect(expected);
+            return belt;
+          },
+          [](const BeltEnd& end) -> Json {
+            if (const auto* index = std::get_if<std::size_t>(&end)) return *index;
+            if (const auto* belt = std::get_if<Belt>(&end)) return name(*belt);
+            return hole_place_record().write(std::get<CutHole>(end).commanded);
+          },
+          {expected, [] {
+             return Json{{"oneOf",
+                          {{{"type", "integer"}, {"minimum", 0}},
+                           belt_word().expected.schema(),
+                           hole_place_record().schema()}}};
+           }}};
 }
 
 auto belt_distance_record() {
-  Record<BeltDistance> distance("a taped distance");
-  add_end(distance,
-          "from",
-          "A place by its number from 0, an anchor, or a hole cut by the machine.",
-          &BeltDistance::from);
-  add_end(distance, "to", "The other end, in the same form.", &BeltDistance::to);
-  distance.required("distance_mm", "The tape reading.", &BeltDistance::distance_mm, kBeltDistanceMm)
-      .optional(
-          "sigma_mm", "Noise of this reading, 1 sigma.", &BeltDistance::sigma_mm, kTapeSigmaMm);
-  return distance;
+  RECORD(BeltDistance, "a taped distance")
+  REQUIRED(from,
+           "A place by its number from 0, an anchor, or a hole cut by the machine.",
+           end_of_distance())
+  REQUIRED(to, "The other end, in the same form.", end_of_distance())
+  REQUIRED(distance_mm, "The tape reading.", kLengthMm)
+  OPTIONAL(sigma_mm, "Noise of this reading, 1 sigma.", kTapeSigmaMm);
 }
 
 }  // namespace
 
 Record<FirmwareFit> firmware_fit_record() {
   constexpr Range kMisfit{"mm", 0.0, 10000.0};
-  return Record<FirmwareFit>("the machine's own words of its fit")
-      .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, kMisfit)
-      .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, kMisfit);
+  RECORD(FirmwareFit, "the machine's own words of its fit")
+  REQUIRED(rms_mm, "Its rms, as it prints it.", kMisfit)
+  REQUIRED(max_mm, "Its largest misfit.", kMisfit);
 }
 
 Record<BeltPrediction> prediction_record() {
-  return Record<BeltPrediction>("what was predicted")
-      .required("readings",
-                "Number of predicted readings of lower belts.",
-                &BeltPrediction::readings,
-                index_number(0, kMostReadings))
-      .required("rms_mm", "Rms of reading minus prediction.", &BeltPrediction::rms_mm, kSpreadMm)
-      .required("largest_mm", "Largest difference.", &BeltPrediction::largest_mm, kSpreadMm);
+  RECORD(BeltPrediction, "what was predicted")
+  REQUIRED(readings, "Number of predicted readings of lower belts.", index_number(0, kMostReadings))
+  REQUIRED(rms_mm, "Rms of reading minus prediction.", kSigmaMm)
+  REQUIRED(largest_mm, "Largest difference.", kSigmaMm);
 }
 
 Record<BeltScale> scale_record() {
-  return Record<BeltScale>("a scale")
-      .required("factor",
-                "True length divided by the belts' length.",
-                &BeltScale::factor,
-                {"", 0.1, 10.0})
-      .required("sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, {"", 0.0, 10.0})
-      .required("residuals_mm",
-                "Taped minus fitted, for each distance.",
-                &BeltScale::residuals_mm,
-                list(kMisfitMm));
+  RECORD(BeltScale, "a scale")
+  REQUIRED(factor, "True length divided by the belts' length.", {"", 0.1, 10.0})
+  REQUIRED(sigma, "Its uncertainty, 1 sigma.", {"", 0.0, 10.0})
+  REQUIRED(residuals_mm, "Taped minus fitted, for each distance.", list(kMillimetres));
 }
 
 Record<BeltMachine> belt_machine_record() {
-  Record<BeltMachine> machine("a machine with four belts");
-  machine.optional("name", "Name of the machine in messages and pages.", &BeltMachine::name)
-      .custom("anchors",
-              "Where the belts leave the frame; absent: not known yet.",
-              false,
-              anchors_record().expected(),
-              read_anchors,
-              written_anchors)
-      .part("belt", "The belts.", false, belt_record())
-      .optional("arm_mm",
-                "From the tool to the point where a belt's end is attached.",
-                &BeltMachine::arm_mm,
-                kMillimetres)
-      .optional("end_extension_mm",
-                "Length of the belt's end, from its last tooth to the arm.",
-                &BeltMachine::end_extension_mm,
-                kMillimetres)
-      .optional("surface_mm",
-                "Thickness of spoilboard and work together, added to the heights of the anchors.",
-                &BeltMachine::surface_mm,
-                kMillimetres)
-      .optional("orientation",
-                "How the frame stands, which decides which belts are pulled.",
-                &BeltMachine::orientation,
-                by_name_to(model::Orientation::flat))
-      .optional("lengths",
-                "What a printed length includes: the belt, the belt with extension and arm, or the "
-                "level span from anchor to tool.",
-                &BeltMachine::lengths,
-                by_name_to(model::BeltLengths::span))
-      .optional("scale_x",
-                "The controller's factor for commands along x.",
-                &BeltMachine::scale_x,
-                number_in(""))
-      .optional("scale_y",
-                "The controller's factor for commands along y.",
-                &BeltMachine::scale_y,
-                number_in(""))
-      .optional(
-          "setting_names",
-          "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
-          "the top level, as before July 2025.",
-          &BeltMachine::setting_names,
-          choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
-                                       {"top_level", model::SettingNames::top_level}}))
+  RECORD(BeltMachine, "a machine with four belts")
+  OPTIONAL(name, "Name of the machine in messages and pages.")
+  FIELD(custom,
+        "anchors",
+        "Where the belts leave the frame; absent: not known yet.",
+        false,
+        anchors_record().expected(),
+        read_anchors,
+        written_anchors)
+  FIELD(part, "belt", "The belts.", false, belt_record())
+  OPTIONAL(arm_mm, "From the tool to the point where a belt's end is attached.", kMillimetres)
+  OPTIONAL(
+      end_extension_mm, "Length of the belt's end, from its last tooth to the arm.", kMillimetres)
+  OPTIONAL(surface_mm,
+           "Thickness of spoilboard and work together, added to the heights of the anchors.",
+           kMillimetres)
+  OPTIONAL(orientation,
+           "How the frame stands, which decides which belts are pulled.",
+           by_name_to(model::Orientation::flat))
+  OPTIONAL(lengths,
+           "What a printed length includes: the belt, the belt with extension and arm, or the "
+           "level span from anchor to tool.",
+           by_name_to(model::BeltLengths::span))
+  OPTIONAL(scale_x, "The controller's factor for commands along x.", number_in(""))
+  OPTIONAL(scale_y, "The controller's factor for commands along y.", number_in(""))
+  OPTIONAL(setting_names,
+           "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
+           "the top level, as before July 2025.",
+           choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
+                                        {"top_level", model::SettingNames::top_level}}))
       .check([](const Cursor& at, BeltMachine& own) {
         report_impossible(at, model::problems_of(own));
       });
-  return machine;
 }
 
 const Record<MeasuredBelts>& belts_record() {
-  static const auto record =
-      Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
-          .sparse("name", "Name of the set.", &MeasuredBelts::name)
-          .optional("machine",
-                    "The machine with its settings in force.",
-                    &MeasuredBelts::machine,
-                    belt_machine_record())
-          .required(
-              "points", "The places, in any order.", &MeasuredBelts::points, belt_point_record())
-          .sparse("distances",
-                  "Taped distances; without one the scale is unknown.",
-                  &MeasuredBelts::distances,
-                  belt_distance_record())
-          .optional("firmware_fit",
-                    "The machine's report of its own fit.",
-                    &MeasuredBelts::firmware_fit,
-                    firmware_fit_record());
+  static const auto record = [] {
+    RECORD(MeasuredBelts, "a chaintrue_belts file", kBeltsFormat)
+    SPARSE(name, "Name of the set.")
+    OPTIONAL(machine, "The machine with its settings in force.", belt_machine_record())
+    REQUIRED(points, "The places, in any order.", belt_point_record())
+    SPARSE(distances, "Taped distances; without one the scale is unknown.", belt_distance_record())
+    OPTIONAL(firmware_fit, "The machine's report of its own fit.", firmware_fit_record());
+  }();
   return record;
 }
 

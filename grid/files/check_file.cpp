@@ -5,6 +5,7 @@
 
 #include "grid/files/formats.hpp"
 #include "grid/files/record_values.hpp"
+#include "grid/files/records.hpp"
 #include "grid/map/controller_error.hpp"
 
 namespace chaintrue::grid::files {
@@ -52,6 +53,13 @@ Json hypothesis_of_map(const CheckHypothesis& hypothesis) {
   return json;
 }
 
+Json hypothesis_of_anchors(const CheckHypothesis& hypothesis) {
+  Json json = hypothesis_of(hypothesis);
+  if (hypothesis.what == model::Change::zero || hypothesis.what == model::Change::anchor)
+    json["size_mm"] = hypothesis.size();
+  return json;
+}
+
 }  // namespace
 
 std::string write_map_check(const Check& check) {
@@ -59,32 +67,22 @@ std::string write_map_check(const Check& check) {
   if (check.settings_have_changed) json["settings_have_changed"] = true;
   if (!check.notes.empty()) json["notes"] = check.notes;
   json["new_zero"] = {{"left_mm", check.new_zero_mm.at(0)}, {"right_mm", check.new_zero_mm.at(1)}};
-  json["hypotheses"] = Json::array();
-  for (const CheckHypothesis& hypothesis : check.hypotheses)
-    json["hypotheses"].push_back(hypothesis_of_map(hypothesis));
-  json["residuals"] = Json::array();
-  for (const CheckResidual& residual : check.residuals) {
-    json["residuals"].push_back({{"what", residual.name},
-                                 {"residual_mm", residual.residual_mm},
-                                 {"sigma_mm", residual.sigma_mm}});
-  }
+  json["hypotheses"] = json_list(check.hypotheses, hypothesis_of_map);
+  json["residuals"] = json_list(check.residuals, [](const CheckResidual& residual) {
+    return Json{{"what", residual.name},
+                {"residual_mm", residual.residual_mm},
+                {"sigma_mm", residual.sigma_mm}};
+  });
   return print_json(json);
 }
 
 std::string write_anchors_check(const Check& check) {
   Json json = verdict_of(check);
-  json["hypotheses"] = Json::array();
-  for (const CheckHypothesis& hypothesis : check.hypotheses) {
-    Json one = hypothesis_of(hypothesis);
-    if (hypothesis.what == model::Change::zero || hypothesis.what == model::Change::anchor)
-      one["size_mm"] = hypothesis.size();
-    json["hypotheses"].push_back(std::move(one));
-  }
-  json["places"] = Json::array();
-  for (const CheckUnit& place : check.units) {
-    json["places"].push_back(
-        {{"rms_mm", place.rms_mm(check.residuals)}, {"sigma_mm", place.sigma_mm(check.residuals)}});
-  }
+  json["hypotheses"] = json_list(check.hypotheses, hypothesis_of_anchors);
+  json["places"] = json_list(check.units, [&](const CheckUnit& place) {
+    return Json{{"rms_mm", place.rms_mm(check.residuals)},
+                {"sigma_mm", place.sigma_mm(check.residuals)}};
+  });
   return print_json(json);
 }
 
@@ -122,14 +120,7 @@ std::string write_fit(const CompensationMap& map,
                          {"set_aside", contents.distances->rejected},
                          {"left_out", summary_of(contents.distances->left_out_good)}};
   }
-  json["settings"] = Json::array();
-  for (const SettingResult& setting : contents.settings) {
-    json["settings"].push_back({{"setting", std::string(model::name(setting.setting))},
-                                {"stated", setting.stated},
-                                {"calibrated", setting.calibrated},
-                                {"sigma", setting.sigma},
-                                {"off", setting.off}});
-  }
+  json["settings"] = list(setting_record()).write(contents.settings);
   json["mirror"] = contents.mirror ? Json(contents.mirror->sentence) : Json(nullptr);
   json["notes"] = contents.notes;
   return print_json(json);

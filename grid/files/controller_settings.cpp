@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "grid/containers.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/records.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {

@@ -147,6 +147,7 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     if (index[c].index == kNoCell) continue;
     const CsvColumn& column = columns[c];
     cells[c] = row[index[c].index];
+    if (column.is_text) continue;
     if (stands_for_nothing(cells[c].text)) cells[c].text.clear();
     if (!cells[c].text.empty()) {
       values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
@@ -220,7 +221,6 @@ std::optional<double> number_in_unit(const CsvCell& cell,
 CsvTable read_csv(std::string_view text,
                   const std::vector<CsvColumn>& columns,
                   Problems& problems) {
-  CsvTable table;
   std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
   drop_notes(rows, problems);
   if (rows.empty()) {
@@ -228,8 +228,15 @@ CsvTable read_csv(std::string_view text,
                  text.empty() ? "an empty file" : "only blank lines and comments",
                  ProblemKind::empty_file,
                  expected_header(columns));
-    return table;
+    return {};
   }
+  return read_table(std::move(rows), columns, problems);
+}
+
+CsvTable read_table(std::vector<CsvRow> rows,
+                    const std::vector<CsvColumn>& columns,
+                    Problems& problems) {
+  CsvTable table;
   drop_trailing_cells(rows);
   const std::vector<CellOfColumn> index = match_header(rows[0], columns, problems);
   if (index.empty()) return table;

@@ -34,6 +34,8 @@ struct CsvColumn {
   bool may_be_blank = false;
   /// The factor to the range's unit for numbers without a unit, unless the header states one.
   double unit = 1.0;
+  /// Its cells are words, and have no values.
+  bool is_text = false;
 };
 
 /// Rows of numbers by column, in the order of `columns`; absent for empty cells of columns that
@@ -54,8 +56,12 @@ struct CsvTable {
                                                    const Range& range,
                                                    Problems& problems);
 
-/// Reads text whose header names `columns`, in any order. Every problem is added; all rows that
-/// could be split are returned.
+/// Reads rows whose first one, the header, names `columns`, in any order. Every problem is added; all
+/// rows that could be split are returned.
+[[nodiscard]] CsvTable read_table(std::vector<CsvRow> rows,
+                                  const std::vector<CsvColumn>& columns,
+                                  Problems& problems);
+/// The same, of a text that is one table.
 [[nodiscard]] CsvTable read_csv(std::string_view text,
                                 const std::vector<CsvColumn>& columns,
                                 Problems& problems);

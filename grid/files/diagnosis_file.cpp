@@ -5,10 +5,9 @@
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -16,101 +15,77 @@ namespace {
 using diagnosis::Diagnosis;
 using diagnosis::Observations;
 using diagnosis::Outlier;
-using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
 auto stated_noise_record() {
-  return Record<StatedNoise>("the noise as entered")
-      .required(
-          "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNotNegative)
-      .required("position_mm",
-                "Noise of a mark's position, 1 sigma on each axis.",
-                &StatedNoise::position_mm,
-                kNotNegative)
-      .required(
-          "dof", "Degrees of freedom with which this is known.", &StatedNoise::dof, kNotNegative);
+  RECORD(StatedNoise, "the noise as entered")
+  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNotNegative)
+  REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNotNegative)
+  REQUIRED(dof, "Degrees of freedom with which this is known.", kNotNegative);
 }
 
 auto line_order_record() {
-  return Record<VisitingOrder>("an order of visits line by line")
-      .required("rows", "True: row by row. False: column by column.", &VisitingOrder::rows)
-      .required("serpentine",
-                "True if every second line was driven in the opposite direction.",
-                &VisitingOrder::serpentine)
-      .required("from_right", "True if the first mark is on the right.", &VisitingOrder::from_right)
-      .required(
-          "from_below", "True if the first mark is at the bottom.", &VisitingOrder::from_below);
+  RECORD(VisitingOrder, "an order of visits line by line")
+  REQUIRED(rows, "True: row by row. False: column by column.")
+  REQUIRED(serpentine, "True if every second line was driven in the opposite direction.")
+  REQUIRED(from_right, "True if the first mark is on the right.")
+  REQUIRED(from_below, "True if the first mark is at the bottom.");
 }
 
 auto visiting_order_record() {
-  using Found = diagnosis::VisitingOrderFound;
-  return Record<Found>("an order of visits that was found")
-      .required("order",
-                "The most probable of the sixteen orders line by line.",
-                &Found::order,
-                line_order_record())
-      .required("corner_known",
-                "False: the readings determine the lines and the direction along them, not the "
-                "corner; the probability is for any corner.",
-                &Found::corner_known)
-      .required("probability",
-                "Probability that the marks were visited in this order and the readings depend "
-                "on it.",
-                &Found::probability,
-                kShare);
+  RECORD(diagnosis::VisitingOrderFound, "an order of visits that was found")
+  REQUIRED(order, "The most probable of the sixteen orders line by line.", line_order_record())
+  REQUIRED(corner_known,
+           "False: the readings determine the lines and the direction along them, not the "
+           "corner; the probability is for any corner.")
+  REQUIRED(probability,
+           "Probability that the marks were visited in this order and the readings depend "
+           "on it.",
+           kShare);
 }
 
 auto stated_tape_record() {
-  return Record<StatedTape>("the noise of holes and a tape as entered")
-      .required("tape_sigma_mm",
-                "Noise of a tape reading, 1 sigma.",
-                &StatedTape::tape_sigma_mm,
-                kNotNegative)
-      .required("hole_sigma_mm",
-                "Error of a hole's position, 1 sigma on each axis.",
-                &StatedTape::hole_sigma_mm,
-                kNotNegative)
-      .required(
-          "dof", "Degrees of freedom with which these are known.", &StatedTape::dof, kNotNegative);
+  RECORD(diagnosis::StatedTape, "the noise of holes and a tape as entered")
+  REQUIRED(tape_sigma_mm, "Noise of a tape reading, 1 sigma.", kNotNegative)
+  REQUIRED(hole_sigma_mm, "Error of a hole's position, 1 sigma on each axis.", kNotNegative)
+  REQUIRED(dof, "Degrees of freedom with which these are known.", kNotNegative);
+}
+
+/// x or y, of a point alone.
+void shift_key(Record<Outlier>& shift, const char* key, const char* meaning, Eigen::Index axis) {
+  shift.computed(
+      key,
+      meaning,
+      false,
+      number(kMillimetres),
+      [axis](Outlier& bad, double value) { bad.shift_mm[axis] = value; },
+      [axis](const Outlier& bad) {
+        return bad.of == Observations::points ? std::optional(bad.shift_mm[axis]) : std::nullopt;
+      });
 }
 
 /// The displacement that explains a bad point; or the residual of a bad distance or belt. Its index is
 /// in another list.
 auto shift_record() {
-  Record<Outlier> shift("a bad point's shift");
-  const auto along = [&](const char* key, const char* meaning, Eigen::Index axis) {
-    shift.computed(
-        key,
-        meaning,
-        false,
-        number(kMillimetres),
-        [axis](Outlier& bad, double value) { bad.shift_mm[axis] = value; },
-        [axis](const Outlier& bad) {
-          return bad.of == Observations::points ? std::optional(bad.shift_mm[axis]) : std::nullopt;
-        });
-  };
-  along("x_mm", "x that its tool must have had, minus the recorded x.", 0);
-  along("y_mm", "y that its tool must have had, minus the recorded y.", 1);
-  return shift
-      .computed(
-          "off_mm",
-          "For a distance: excess of the reading.",
-          false,
-          number(kMillimetres),
-          [](Outlier& bad, double value) { bad.residual_mm = value; },
-          [](const Outlier& bad) {
-            return bad.of == Observations::points ? std::nullopt : std::optional(bad.residual_mm);
-          })
-      .required("sigmas", "The same in sigmas.", &Outlier::distance, kNotNegative)
-      .optional("belt",
-                "For belts: the belt that is off; absent: the whole place.",
-                &Outlier::belt,
-                belt_word())
-      .optional("or_belt",
-                "The belt that may be off instead: on the line between the two other anchors "
-                "the lengths cannot distinguish them.",
-                &Outlier::or_belt,
-                belt_word())
+  RECORD(Outlier, "a bad point's shift")
+  ALSO(shift_key, "x_mm", "x that its tool must have had, minus the recorded x.", 0)
+  ALSO(shift_key, "y_mm", "y that its tool must have had, minus the recorded y.", 1)
+  FIELD(
+      computed,
+      "off_mm",
+      "For a distance: excess of the reading.",
+      false,
+      number(kMillimetres),
+      [](Outlier& bad, double value) { bad.residual_mm = value; },
+      [](const Outlier& bad) {
+        return bad.of == Observations::points ? std::nullopt : std::optional(bad.residual_mm);
+      })
+  NAMED(required, "sigmas", distance, "The same in sigmas.", kNotNegative)
+  OPTIONAL(belt, "For belts: the belt that is off; absent: the whole place.", belt_word())
+  OPTIONAL(or_belt,
+           "The belt that may be off instead: on the line between the two other anchors "
+           "the lengths cannot distinguish them.",
+           belt_word())
       .check([](const Cursor& at, Outlier&) {
         const auto is_there = [&](const char* key) { return !at.child(key).json().is_null(); };
         if (at.clean() && (is_there("x_mm") && is_there("y_mm")) == is_there("off_mm"))
@@ -179,43 +154,12 @@ void outlier_keys(Record<Diagnosis>& record) {
       [](const Diagnosis& object) { return shifts.write(object.outliers); });
 }
 
-/// The key is absent for points, and the pictures of holes are absent without holes.
-void distance_keys(Record<Diagnosis>& record) {
-  record
-      .sparse("observations",
-              "What was measured; default: points.",
-              &Diagnosis::observations,
-              choice<Observations>({{"points", Observations::points},
-                                    {"distances", Observations::distances},
-                                    {"points_and_distances", Observations::both},
-                                    {"belts", Observations::belts},
-                                    {"drawing", Observations::drawing}}))
-      .sparse("holes", "The holes, for pictures.", &Diagnosis::holes, hole_picture_record())
-      .sparse("distances",
-              "The distances, for pictures.",
-              &Diagnosis::distances,
-              distance_picture_record())
-      .optional("stated_tape",
-                "The given noise of holes and tape.",
-                &Diagnosis::stated_tape,
-                stated_tape_record())
-      .optional("belts",
-                "Results for four belts, if these were diagnosed.",
-                &Diagnosis::belts,
-                belts_findings_record())
-      .optional("drawing",
-                "Results for a V-plotter's test drawing, if that was diagnosed.",
-                &Diagnosis::drawing,
-                drawing_findings_record());
-}
-
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
   const bool of_belts = object.observations == Observations::belts;
   const bool of_drawing = object.observations == Observations::drawing;
   if (object.observations == Observations::distances || of_belts || of_drawing) {
     for (Outlier& bad : object.outliers) bad.of = object.observations;
   }
-  if (of_drawing) take_causes_of_cords(object);
   if (!of_belts && !of_drawing && !at.has("extended_machine"))
     at.child("extended_machine").missing("a chaintrue_machine");
   if (of_belts && !object.belts) at.child("belts").missing("results for four belts");
@@ -239,121 +183,96 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
   }
 }
 
-auto make_diagnosis_record() {
-  Record<Diagnosis> record("a diagnosis", kDiagnosisFormat);
-  record.required("verdict", "Kind of answer.", &Diagnosis::verdict, verdict_word())
-      .required("sentence", "The answer.", &Diagnosis::sentence)
-      .required("what_to_do", "What to do now, most urgent first.", &Diagnosis::what_to_do)
-      .required("not_proved", "What the answer does not prove.", &Diagnosis::not_proved)
-      .required("notes", "Further notes for the reader.", &Diagnosis::notes)
-      .required(
-          "causes",
-          "The named cause; or the set, most probable first; or the causes that act together.",
-          &Diagnosis::causes,
-          cause_record())
-      .required("hypotheses",
-                "Every explanation with its probability, most probable first.",
-                &Diagnosis::hypotheses,
-                hypothesis_record())
-      .required("left_over",
-                "What remains after the causes are removed.",
-                &Diagnosis::left_over,
-                left_over_record())
-      .optional("tool_today",
-                "Error of the machine as it is used today, over the measured part: the first "
-                "number of a fit, at least the effect of a claimed law at the points. Absent if "
-                "no map or anchors can be made.",
-                &Diagnosis::tool_today,
-                error_summary_record())
-      .optional("visiting_order",
-                "The order of the visits, if it was not recorded and the readings determine it: "
-                "the causes are for this order. Absent otherwise.",
-                &Diagnosis::visiting_order,
-                visiting_order_record())
-      .optional("unexplained",
-                "What remains besides the causes.",
-                &Diagnosis::unexplained,
-                unexplained_record())
-      .optional("budget", "Breakdown of the error.", &Diagnosis::budget, error_budget_record());
-  outlier_keys(record);
-  record
-      .required("not_testable",
-                "Effects that these data cannot test.",
-                &Diagnosis::not_testable,
-                not_testable_record())
-      .required("bounds",
-                "Upper limits for causes that were not found.",
-                &Diagnosis::bounds,
-                bound_record())
-      .sparse("declared",
-              "What these readings show about each declared effect of the machine's file; absent "
-              "if there is none.",
-              &Diagnosis::declared,
-              declared_answer_record())
-      .required("settings",
-                "The machine's numbers, as in its file and calibrated.",
-                &Diagnosis::settings,
-                calibrated_setting_record())
-      .optional("gain",
-                "Improvement by the cause at points that it was not fitted to.",
-                &Diagnosis::improvement,
-                improvement_record())
-      .required("next_measurements",
-                "What to measure next, most informative first.",
-                &Diagnosis::next_measurements,
-                next_measurement_record())
-      .custom(
-          "extended_machine",
-          "The machine with what was found.",
-          false,
-          machine_record().expected(),
-          [](const Cursor& at, Diagnosis& object) {
-            if (auto machine = machine_record().read(at))
-              object.extended_machine = *std::move(machine);
-          },
-          [](const Diagnosis& object) {
-            const bool of_chains = object.observations != Observations::belts &&
-                                   object.observations != Observations::drawing;
-            return of_chains ? machine_record().write(object.extended_machine) : kLeftOut;
-          })
-      .required("data_corrections",
-                "Effects on the data (a tape's scale), not on the machine.",
-                &Diagnosis::data_corrections,
-                effect_record())
-      .required("noise_factor",
-                "Estimated noise divided by the given noise.",
-                &Diagnosis::noise_factor,
-                kNotNegative)
-      .required("family_wise_p",
-                "How often noise alone makes any effect look as strong.",
-                &Diagnosis::family_wise_p,
-                kShare)
-      .required("points", "The points, for pictures.", &Diagnosis::points, point_picture_record())
-      .required("seed", "Seed of the draws for significance.", &Diagnosis::seed, seed_number())
-      .required("grid_name", "Name of the grid.", &Diagnosis::grid_name)
-      .optional("stated_noise", "The given noise.", &Diagnosis::stated_noise, stated_noise_record())
-      .optional("stability",
-                "Whether the name survives when points are left out.",
-                &Diagnosis::stability,
-                stability_record())
-      .sparse("bed_parts",
-              "Results without each quarter of the bed, over which the probabilities are averaged; "
-              "absent without a pattern.",
-              &Diagnosis::bed_parts,
-              bed_part_record())
-      .sparse("sessions",
-              "Results for each of several sessions; absent if nothing is named.",
-              &Diagnosis::sessions,
-              session_record())
-      .optional(
-          "held_out_grid", "Another grid, predicted.", &Diagnosis::transferred, transfer_record());
-  distance_keys(record);
-  add_made_by_key(record).check(check_diagnosis);
-  return record;
-}
-
 const Record<Diagnosis>& diagnosis_record() {
-  static const Record<Diagnosis> record = make_diagnosis_record();
+  static const auto record = [] {
+    RECORD(Diagnosis, "a diagnosis", kDiagnosisFormat)
+    REQUIRED(verdict, "Kind of answer.", verdict_word())
+    REQUIRED(sentence, "The answer.")
+    REQUIRED(what_to_do, "What to do now, most urgent first.")
+    REQUIRED(not_proved, "What the answer does not prove.")
+    REQUIRED(notes, "Further notes for the reader.")
+    REQUIRED(causes,
+             "The named cause; or the set, most probable first; or the causes that act together.",
+             cause_record())
+    REQUIRED(hypotheses,
+             "Every explanation with its probability, most probable first.",
+             hypothesis_record())
+    REQUIRED(left_over, "What remains after the causes are removed.", left_over_record())
+    OPTIONAL(tool_today,
+             "Error of the machine as it is used today, over the measured part: the first "
+             "number of a fit, at least the effect of a claimed law at the points. Absent if "
+             "no map or anchors can be made.",
+             error_summary_record())
+    OPTIONAL(visiting_order,
+             "The order of the visits, if it was not recorded and the readings determine it: "
+             "the causes are for this order. Absent otherwise.",
+             visiting_order_record())
+    OPTIONAL(unexplained, "What remains besides the causes.", unexplained_record())
+    OPTIONAL(budget, "Breakdown of the error.", error_budget_record())
+    ALSO(outlier_keys)
+    REQUIRED(not_testable, "Effects that these data cannot test.", not_testable_record())
+    REQUIRED(bounds, "Upper limits for causes that were not found.", bound_record())
+    SPARSE(declared,
+           "What these readings show about each declared effect of the machine's file; absent "
+           "if there is none.",
+           declared_answer_record())
+    REQUIRED(settings,
+             "The machine's numbers, as in its file and calibrated.",
+             calibrated_setting_record())
+    NAMED(optional,
+          "gain",
+          improvement,
+          "Improvement by the cause at points that it was not fitted to.",
+          improvement_record())
+    REQUIRED(next_measurements,
+             "What to measure next, most informative first.",
+             next_measurement_record())
+    FIELD(
+        computed,
+        "extended_machine",
+        "The machine with what was found.",
+        false,
+        object(machine_record()),
+        [](Diagnosis& object, const model::Machine& machine) { object.extended_machine = machine; },
+        [](const Diagnosis& object) {
+          const bool of_chains = object.observations != Observations::belts &&
+                                 object.observations != Observations::drawing;
+          return of_chains ? machine_record().write(object.extended_machine) : kLeftOut;
+        })
+    REQUIRED(data_corrections,
+             "Effects on the data (a tape's scale), not on the machine.",
+             effect_record())
+    REQUIRED(noise_factor, "Estimated noise divided by the given noise.", kNotNegative)
+    REQUIRED(family_wise_p, "How often noise alone makes any effect look as strong.", kShare)
+    REQUIRED(points, "The points, for pictures.", point_picture_record())
+    REQUIRED(seed, "Seed of the draws for significance.", seed_number())
+    REQUIRED(grid_name, "Name of the grid.")
+    OPTIONAL(stated_noise, "The given noise.", stated_noise_record())
+    OPTIONAL(stability, "Whether the name survives when points are left out.", stability_record())
+    SPARSE(bed_parts,
+           "Results without each quarter of the bed, over which the probabilities are averaged; "
+           "absent without a pattern.",
+           bed_part_record())
+    SPARSE(sessions,
+           "Results for each of several sessions; absent if nothing is named.",
+           session_record())
+    NAMED(optional, "held_out_grid", transferred, "Another grid, predicted.", transfer_record())
+    SPARSE(observations,
+           "What was measured; default: points.",
+           choice<Observations>({{"points", Observations::points},
+                                 {"distances", Observations::distances},
+                                 {"points_and_distances", Observations::both},
+                                 {"belts", Observations::belts},
+                                 {"drawing", Observations::drawing}}))
+    SPARSE(holes, "The holes, for pictures.", hole_picture_record())
+    SPARSE(distances, "The distances, for pictures.", distance_picture_record())
+    OPTIONAL(stated_tape, "The given noise of holes and tape.", stated_tape_record())
+    OPTIONAL(belts, "Results for four belts, if these were diagnosed.", belts_findings_record())
+    OPTIONAL(drawing,
+             "Results for a V-plotter's test drawing, if that was diagnosed.",
+             drawing_findings_record())
+    ALSO(add_made_by_key).check(check_diagnosis);
+  }();
   return record;
 }
 

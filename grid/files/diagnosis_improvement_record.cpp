@@ -69,34 +69,24 @@ void error_figures(Record<T>& record) {
 }  // namespace
 
 Record<HeldOutImprovement> improvement_record() {
-  Record<HeldOutImprovement> improvement("the gain");
-  improvement.required("scheme", "How points were left out.", &HeldOutImprovement::scheme);
-  error_figures(improvement);
-  improvement
-      .required(
-          "drop_mm2", "Reduction of the mean square.", &HeldOutImprovement::drop_mm2, kSigmaMm)
-      .required("drop_share", "The same as a share.", &HeldOutImprovement::drop_share, kShare)
-      .required("folds",
-                "Number of times that points were left out.",
-                &HeldOutImprovement::folds,
-                integer(0, kMostFolds))
-      .required("folds_agree",
-                "Number of these in which the same was named.",
-                &HeldOutImprovement::folds_agree,
-                integer(0, kMostFolds))
+  RECORD(HeldOutImprovement, "the gain")
+  REQUIRED(scheme, "How points were left out.")
+  ALSO(error_figures)
+  REQUIRED(drop_mm2, "Reduction of the mean square.", kSigmaMm)
+  REQUIRED(drop_share, "The same as a share.", kShare)
+  REQUIRED(folds, "Number of times that points were left out.", integer(0, kMostFolds))
+  REQUIRED(folds_agree, "Number of these in which the same was named.", integer(0, kMostFolds))
       .check([](const Cursor& at, HeldOutImprovement& object) {
         if (at.clean() && object.folds_agree > object.folds)
           at.child("folds_agree").expect("at most as many as folds");
       });
-  return improvement;
 }
 
 Record<Transfer> transfer_record() {
-  Record<Transfer> transfer("another grid predicted");
-  transfer.required("to", "Name of the grid.", &Transfer::to)
-      .required("points", "Number of its points.", &Transfer::points);
-  error_figures(transfer);
-  return transfer;
+  RECORD(Transfer, "another grid predicted")
+  REQUIRED(to, "Name of the grid.")
+  REQUIRED(points, "Number of its points.")
+  ALSO(error_figures);
 }
 
 }  // namespace chaintrue::grid::files

@@ -4,8 +4,8 @@
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
-#include "grid/files/reading_record.hpp"
 #include "grid/files/record_values.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -31,48 +31,42 @@ void place_keys(Record<T>& record) {
 }  // namespace
 
 Record<NextMeasurement> next_measurement_record() {
-  Record<NextMeasurement> next("a next measurement");
-  next.required("kind",
-                "A new point, a second visit, a reading of the machine, or a distance.",
-                &NextMeasurement::kind,
-                choice<MeasurementKind>({{"point", MeasurementKind::point},
-                                         {"revisit", MeasurementKind::revisit},
-                                         {"reading", MeasurementKind::reading},
-                                         {"distance", MeasurementKind::distance}}));
-  next.custom(
+  RECORD(NextMeasurement, "a next measurement")
+  REQUIRED(kind,
+           "A new point, a second visit, a reading of the machine, or a distance.",
+           choice<MeasurementKind>({{"point", MeasurementKind::point},
+                                    {"revisit", MeasurementKind::revisit},
+                                    {"reading", MeasurementKind::reading},
+                                    {"distance", MeasurementKind::distance}}))
+  FIELD(
+      computed,
       "what",
       "The measurement in words.",
       true,
-      text().expected,
-      [](const Cursor& at, NextMeasurement& object) {
-        if (const auto words = text().read(at)) object.words = *words;
-      },
+      text(),
+      [](NextMeasurement& object, const std::string& words) { object.words = words; },
       [](const NextMeasurement& object) {
         return object.reading ? std::string(name(*object.reading)) : object.words;
-      });
-  next.nullable("side", "Side of a reading.", &NextMeasurement::side, side_word());
-  next.nullable("x_mm",
-                "x of the place.",
-                path(&NextMeasurement::mark, &model::MarkPoint::x_mm),
-                kMillimetres)
-      .nullable("y_mm",
-                "y of the place, up.",
-                path(&NextMeasurement::mark, &model::MarkPoint::y_mm),
-                kMillimetres)
-      .required("sigma", "Required accuracy, 1 sigma.", &NextMeasurement::sigma, kNotNegative)
-      .required("raises_probability_to",
-                "Probability of a single right name afterwards.",
-                &NextMeasurement::raises_probability_to,
-                kShare)
-      .sparse("from",
-              "For a distance: the hole at one end; for belts an anchor, point or hole.",
-              &NextMeasurement::from)
-      .sparse("to", "The other ends.", &NextMeasurement::to)
-      .sparse("pulled",
-              "For a place of four belts: belts that a motor pulls there; default: those for the "
-              "frame's orientation.",
-              &NextMeasurement::pulled,
-              list(belt_word()))
+      })
+  NULLABLE(side, "Side of a reading.", side_word())
+  FIELD(nullable,
+        "x_mm",
+        "x of the place.",
+        path(&NextMeasurement::mark, &model::MarkPoint::x_mm),
+        kMillimetres)
+  FIELD(nullable,
+        "y_mm",
+        "y of the place, up.",
+        path(&NextMeasurement::mark, &model::MarkPoint::y_mm),
+        kMillimetres)
+  REQUIRED(sigma, "Required accuracy, 1 sigma.", kNotNegative)
+  REQUIRED(raises_probability_to, "Probability of a single right name afterwards.", kShare)
+  SPARSE(from, "For a distance: the hole at one end; for belts an anchor, point or hole.")
+  SPARSE(to, "The other ends.")
+  SPARSE(pulled,
+         "For a place of four belts: belts that a motor pulls there; default: those for the "
+         "frame's orientation.",
+         list(belt_word()))
       .check([](const Cursor& at, NextMeasurement& object) {
         const bool is_place =
             object.kind == MeasurementKind::point || object.kind == MeasurementKind::revisit;
@@ -84,99 +78,74 @@ Record<NextMeasurement> next_measurement_record() {
         object.reading = reading_name().read(at.child("what"));
         object.words.clear();
       });
-  return next;
 }
 
 Record<HolePicture> hole_picture_record() {
   using Place = model::MarkPoint;
-  Record<HolePicture> hole("a hole");
-  hole.required(
-      "name", "Any word; without names the holes are numbered from 0.", &HolePicture::name);
-  place_keys(hole);
-  return hole.required("commanded_mm",
-                       "Commanded position, [x, y].",
-                       &HolePicture::commanded,
-                       members_as_pair(pair_of_numbers(kMillimetres), &Place::x_mm, &Place::y_mm));
+  RECORD(HolePicture, "a hole")
+  REQUIRED(name, "Any word; without names the holes are numbered from 0.")
+  ALSO(place_keys)
+  NAMED(required,
+        "commanded_mm",
+        commanded,
+        "Commanded position, [x, y].",
+        members_as_pair(pair_of_numbers(kMillimetres), &Place::x_mm, &Place::y_mm));
 }
 
 Record<DistancePicture> distance_picture_record() {
-  return Record<DistancePicture>("a distance")
-      .required("index", "Its number in the file.", &DistancePicture::index)
-      .required("from", "A hole's name or number.", &DistancePicture::from)
-      .required("to",
-                "A hole's name or number, or an edge: left, right, top, bottom.",
-                &DistancePicture::to)
-      .required("bad", "Left out as wrong.", &DistancePicture::bad)
-      .required("read_mm", "The tape reading.", &DistancePicture::read_mm, kMillimetres)
-      .required("before_mm",
-                "Measured minus predicted by the calibrated machine.",
-                &DistancePicture::before_mm,
-                kMillimetres)
-      .required(
-          "after_mm", "The same with the named causes.", &DistancePicture::after_mm, kMillimetres)
-      .required("noise_sigma_mm",
-                "1 sigma of the noise there.",
-                &DistancePicture::noise_sigma_mm,
-                kNotNegative)
-      .required("best_mm", "Effect of the named cause.", &DistancePicture::best_mm, kMillimetres)
-      .required("rival_mm",
-                "Effect that the rival would have.",
-                &DistancePicture::rival_mm,
-                kMillimetres);
+  RECORD(DistancePicture, "a distance")
+  REQUIRED(index, "Its number in the file.")
+  REQUIRED(from, "A hole's name or number.")
+  REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.")
+  REQUIRED(bad, "Left out as wrong.")
+  REQUIRED(read_mm, "The tape reading.", kMillimetres)
+  REQUIRED(before_mm, "Measured minus predicted by the calibrated machine.", kMillimetres)
+  REQUIRED(after_mm, "The same with the named causes.", kMillimetres)
+  REQUIRED(noise_sigma_mm, "1 sigma of the noise there.", kNotNegative)
+  REQUIRED(best_mm, "Effect of the named cause.", kMillimetres)
+  REQUIRED(rival_mm, "Effect that the rival would have.", kMillimetres);
 }
 
 Record<PointPicture> point_picture_record() {
-  Record<PointPicture> point("a point");
-  point.required("index", "Its number in the file.", &PointPicture::index);
-  place_keys(point);
   using Lengths = model::ChainLengths;
   constexpr int kMostOrder = 1000000000;
   const Value<Eigen::Vector2d> pair = pair_of_numbers(kMillimetres);
-  point
-      .optional("order",
-                "Number of the visit. Either all points have one, all different, or none has.",
-                &PointPicture::order,
-                integer(-kMostOrder, kMostOrder))
-      .required("bad", "True if it was left out as wrong.", &PointPicture::bad)
-      .required("before_mm",
-                "Measured minus predicted by the calibrated machine.",
-                &PointPicture::before_mm,
-                pair)
-      .required("after_mm", "The same with the named causes.", &PointPicture::after_mm, pair)
-      .required(
-          "noise_sigma_mm", "1 sigma of the noise there.", &PointPicture::noise_sigma_mm, pair)
-      .required("chain_before_mm",
-                "In the chains, [left, right], before.",
-                &PointPicture::chain_before_mm,
-                pair)
-      .required("chain_after_mm", "In the chains, after.", &PointPicture::chain_after_mm, pair)
-      .required("best_mm", "Effect of the named cause.", &PointPicture::best_mm, pair)
-      .required("rival_mm", "Effect that the rival would have.", &PointPicture::rival_mm, pair)
-      .required("lengths_mm",
-                "Lengths of the chains, [left, right].",
-                &PointPicture::lengths,
-                members_as_pair(pair, &Lengths::left_mm, &Lengths::right_mm))
-      .custom(
-          "angles_rad",
-          "Angles of the chains below the horizontal, [left, right].",
-          true,
-          members_as_pair(
-              pair_of_numbers(kRad), &PointPicture::angle_left_rad, &PointPicture::angle_right_rad))
-      .custom("tensions_n",
-              "Tensions of the chains, [left, right].",
-              true,
-              members_as_pair(pair_of_numbers(kNewton),
-                              &PointPicture::tension_left_n,
-                              &PointPicture::tension_right_n))
-      .required("direction_left",
-                "1 if the left chain was paid out on the way there, -1 if taken in, 0 if neither.",
-                &PointPicture::direction_left,
-                integer(-1, 1))
-      .required("direction_right",
-                "The same for the right chain.",
-                &PointPicture::direction_right,
-                integer(-1, 1));
-  return point;
+  RECORD(PointPicture, "a point")
+  REQUIRED(index, "Its number in the file.")
+  ALSO(place_keys)
+  OPTIONAL(order,
+           "Number of the visit. Either all points have one, all different, or none has.",
+           integer(-kMostOrder, kMostOrder))
+  REQUIRED(bad, "True if it was left out as wrong.")
+  REQUIRED(before_mm, "Measured minus predicted by the calibrated machine.", pair)
+  REQUIRED(after_mm, "The same with the named causes.", pair)
+  REQUIRED(noise_sigma_mm, "1 sigma of the noise there.", pair)
+  REQUIRED(chain_before_mm, "In the chains, [left, right], before.", pair)
+  REQUIRED(chain_after_mm, "In the chains, after.", pair)
+  REQUIRED(best_mm, "Effect of the named cause.", pair)
+  REQUIRED(rival_mm, "Effect that the rival would have.", pair)
+  NAMED(required,
+        "lengths_mm",
+        lengths,
+        "Lengths of the chains, [left, right].",
+        members_as_pair(pair, &Lengths::left_mm, &Lengths::right_mm))
+  FIELD(custom,
+        "angles_rad",
+        "Angles of the chains below the horizontal, [left, right].",
+        true,
+        members_as_pair(
+            pair_of_numbers(kRad), &PointPicture::angle_left_rad, &PointPicture::angle_right_rad))
+  FIELD(
+      custom,
+      "tensions_n",
+      "Tensions of the chains, [left, right].",
+      true,
+      members_as_pair(
+          pair_of_numbers(kNewton), &PointPicture::tension_left_n, &PointPicture::tension_right_n))
+  REQUIRED(direction_left,
+           "1 if the left chain was paid out on the way there, -1 if taken in, 0 if neither.",
+           integer(-1, 1))
+  REQUIRED(direction_right, "The same for the right chain.", integer(-1, 1));
 }
 
 }  // namespace chaintrue::grid::files

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "grid/containers.hpp"
-#include "grid/files/effect_record.hpp"
 #include "grid/files/record_values.hpp"
+#include "grid/files/records.hpp"
 #include "model/belts/belt_effects.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
@@ -28,11 +28,11 @@ using diagnosis::Hypothesis;
 using diagnosis::LeftOver;
 using diagnosis::NotTestable;
 using diagnosis::ParameterEstimate;
-using diagnosis::SameCause;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
-/// An effect of chains, or of belts or cords if chains have none of that name.
+/// An effect that the extended machine declares, or one of chains, or of belts or cords if chains have
+/// none of that name.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
@@ -41,80 +41,88 @@ Value<const Effect*> effect_word() {
       if (model::effects::find_effect(effect->id) == nullptr)
         names.emplace_back(effect->id, effect);
   }
-  return choice_of<const Effect*>(std::move(names));
+  const auto known = choice_of<const Effect*>(std::move(names));
+  return {[known](const Cursor& at) -> std::optional<const Effect*> {
+            const Effect* declared = at.json().is_string()
+                                         ? declared_in_document(at, at.json().get<std::string>())
+                                         : nullptr;
+            return declared != nullptr ? std::optional(declared) : known.read(at);
+          },
+          [](const Effect* const& effect) { return effect->id; },
+          // Declared effects have their own names.
+          {known.expected.words, [schema = known.expected.schema]() -> Json {
+             return {{"type", "string"}, {"examples", schema()["enum"]}};
+           }}};
 }
 
 bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sides, side); }
 
-/// The keys of an effect and its side; `id` maps the object to its CauseId.
-template <class T, class Access>
-void cause_keys(Record<T>& record, const Access& id) {
-  Value<const Effect*> effect = effect_word();
-  // Effects that the extended machine declares have their own names.
-  effect.expected.schema = [names = effect.expected.schema]() -> Json {
-    return {{"type", "string"}, {"examples", names()["enum"]}};
-  };
+bool is_of_a_drawing(const Json& root) {
+  const auto what = root.find("observations");
+  return what != root.end() && *what == "drawing";
+}
+
+/// The cause of an object, or the object itself.
+template <class T>
+auto& cause_in(T& object) {
+  if constexpr (std::is_same_v<std::remove_const_t<T>, CauseId>) {
+    return object;
+  } else {
+    return object.cause;
+  }
+}
+
+/// The keys of an effect and its side.
+template <class T>
+void cause_keys(Record<T>& record) {
   const Value<EffectSide> side = by_name_to(EffectSide::all, EffectSide::left);
-  record.custom(
+  record.computed(
       "effect",
       "The effect's name, as chaintrue effects lists them.",
       true,
-      effect.expected,
-      [effect, id](const Cursor& at, T& object) {
-        const Effect* declared = at.json().is_string()
-                                     ? declared_in_document(at, at.json().get<std::string>())
-                                     : nullptr;
-        if (declared != nullptr) {
-          id(object).effect = declared;
-        } else if (const auto found = effect.read(at)) {
-          id(object).effect = *found;
-        }
-      },
-      [id](const T& object) { return id(object).effect->id; });
-  record.custom(
+      effect_word(),
+      [](T& object, const Effect* effect) { cause_in(object).effect = effect; },
+      [](const T& object) { return cause_in(object).effect; });
+  record.computed(
       "side",
       "Where it acts; null for effects without a side.",
       false,
-      side.expected,
-      [side, id](const Cursor& at, T& object) {
-        if (const auto own = side.read(at)) id(object).side = *own;
-      },
-      [side, id](const T& object) {
-        const EffectSide own = id(object).side;
+      side,
+      [](T& object, EffectSide own) { cause_in(object).side = own; },
+      [side](const T& object) {
+        const EffectSide own = cause_in(object).side;
         return own == EffectSide::none ? Json(nullptr) : side.write(own);
       });
-  record.check([id](const Cursor& at, T& object) {
+  record.check([](const Cursor& at, T& object) {
     if (!at.child("effect").clean() || !at.child("side").clean()) return;
-    CauseId& found = id(object);
-    if (found.effect == nullptr || acts_at(*found.effect, found.side)) return;
-    // Both chains and belts have drift and skips: the side decides which.
-    const Effect* of_belts =
-        model::effects::find_effect(model::belts::belt_effects(), found.effect->id);
-    if (of_belts != nullptr && acts_at(*of_belts, found.side)) {
-      found.effect = of_belts;
-    } else {
+    CauseId& found = cause_in(object);
+    if (found.effect == nullptr) return;
+    // Chains, belts and cords have drift and skips: a drawing is of cords, and the side decides between
+    // the others.
+    const bool of_cords = is_of_a_drawing(at.root());
+    if (!of_cords && acts_at(*found.effect, found.side)) return;
+    const Effect* other = model::effects::find_effect(
+        of_cords ? model::plotter::plotter_effects() : model::belts::belt_effects(),
+        found.effect->id);
+    if (other != nullptr) found.effect = other;
+    if (!acts_at(*found.effect, found.side))
       at.child("side").expect(fmt::format("a side on which {} acts", found.effect->id));
-    }
   });
 }
-
-constexpr auto kCause = [](auto& object) -> auto& { return object.cause; };
 
 }  // namespace
 
 Record<CauseId> cause_id_record() {
-  Record<CauseId> id("an effect with its side");
-  cause_keys(
-      id, [](auto& object) -> auto& { return object; });
-  return id;
+  RECORD(CauseId, "an effect with its side")
+  ALSO(cause_keys);
 }
 
 namespace {
 
 auto estimate_record() {
-  return Record<ParameterEstimate>("a value with its sigma")
-      .required("value", "The value.", &ParameterEstimate::value, kAnyNumber)
-      .required("sigma", "Its uncertainty, 1 sigma.", &ParameterEstimate::sigma, kNotNegative);
+  RECORD(ParameterEstimate, "a value with its sigma")
+  REQUIRED(value, "The value.", kAnyNumber)
+  REQUIRED(sigma, "Its uncertainty, 1 sigma.", kNotNegative);
 }
 
 /// An object with one key for each parameter, in the order of the effect's parameters.
@@ -162,10 +170,9 @@ void parameter_keys(Record<T>& record) {
 }
 
 auto same_cause_record() {
-  Record<SameCause> same("a cause of the same class");
-  cause_keys(same, kCause);
-  parameter_keys(same);
-  return same;
+  RECORD(diagnosis::SameCause, "a cause of the same class")
+  ALSO(cause_keys)
+  ALSO(parameter_keys);
 }
 
 /// The effect that is hardest to distinguish from a cause with these data.
@@ -175,121 +182,95 @@ struct Rival {
 };
 
 auto rival_record() {
-  Record<Rival> rival("a rival");
-  cause_keys(rival, kCause);
-  rival.required("rho",
-                 "Collinearity of its signature with the cause's: 0 different, 1 the same.",
-                 &Rival::collinearity,
-                 kShare);
-  return rival;
+  RECORD(Rival, "a rival")
+  ALSO(cause_keys)
+  NAMED(required,
+        "rho",
+        collinearity,
+        "Collinearity of its signature with the cause's: 0 different, 1 the same.",
+        kShare);
 }
 
 }  // namespace
 
 Record<Cause> cause_record() {
-  Record<Cause> cause("a cause");
-  cause_keys(cause, kCause);
-  cause.required("probability", "Its probability.", &Cause::probability, kShare)
-      .required("delta", "Signal-to-noise ratio.", &Cause::signal_to_noise, kNotNegative)
-      .required("share_left",
-                "Share of its signature that the settings do not absorb.",
-                &Cause::share_left,
-                kShare)
-      .required("same_as",
-                "Causes that such data cannot distinguish from it, with their sizes.",
-                &Cause::same_as,
-                same_cause_record());
-  parameter_keys(cause);
-  cause.custom(
+  RECORD(Cause, "a cause")
+  ALSO(cause_keys)
+  REQUIRED(probability, "Its probability.", kShare)
+  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
+  REQUIRED(share_left, "Share of its signature that the settings do not absorb.", kShare)
+  REQUIRED(same_as,
+           "Causes that such data cannot distinguish from it, with their sizes.",
+           same_cause_record())
+  ALSO(parameter_keys)
+  FIELD(
+      computed,
       "rival",
       "The effect that is hardest to distinguish from it in these data.",
       false,
-      rival_record().expected(),
-      [](const Cursor& at, Cause& object) {
-        const auto rival = rival_record().read(at);
-        if (!rival) return;
-        object.rival = rival->cause;
-        object.rival_collinearity = rival->collinearity;
+      object(rival_record()),
+      [](Cause& object, const Rival& rival) {
+        object.rival = rival.cause;
+        object.rival_collinearity = rival.collinearity;
       },
       [](const Cause& object) {
         return object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
                             : Json(nullptr);
-      });
-  cause.required("order_assumed",
-                 "It needs the order of the visits, which was not recorded.",
-                 &Cause::order_assumed);
-  return cause;
+      })
+  REQUIRED(order_assumed, "It needs the order of the visits, which was not recorded.");
 }
 
 Record<Hypothesis> hypothesis_record() {
-  Record<Hypothesis> hypothesis("a hypothesis");
+  RECORD(Hypothesis, "a hypothesis")
   // Two effects at once are written as "first + second", and their sides likewise.
-  hypothesis.required("effect",
-                      "An effect's name, or nothing, unknown, noise, bad_points; two together "
-                      "are written first + second.",
-                      &Hypothesis::effect);
-  hypothesis.nullable("side", "Its side, or both sides equally.", &Hypothesis::side);
-  hypothesis.required("probability", "Its probability.", &Hypothesis::probability, kShare);
-  return hypothesis;
+  REQUIRED(effect,
+           "An effect's name, or nothing, unknown, noise, bad_points; two together "
+           "are written first + second.")
+  NULLABLE(side, "Its side, or both sides equally.")
+  REQUIRED(probability, "Its probability.", kShare);
 }
 
 Record<LeftOver> left_over_record() {
-  Record<LeftOver> left("what remains");
-  left.required("delta", "Signal-to-noise ratio.", &LeftOver::signal_to_noise, kNotNegative);
-  left.nullable(
-      "follows",
-      "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.",
-      &LeftOver::follows);
-  left.required("share", "Share of the whole.", &LeftOver::share, kShare)
-      .required("p_value", "How often noise alone gives as much.", &LeftOver::p_value, kShare);
-  return left;
+  RECORD(LeftOver, "what remains")
+  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
+  NULLABLE(
+      follows,
+      "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.")
+  REQUIRED(share, "Share of the whole.", kShare)
+  REQUIRED(p_value, "How often noise alone gives as much.", kShare);
 }
 
 Record<NotTestable> not_testable_record() {
-  Record<NotTestable> not_testable("an effect that could not be tested");
-  cause_keys(not_testable, kCause);
-  not_testable.required("reason", "The reason.", &NotTestable::reason);
-  return not_testable;
+  RECORD(NotTestable, "an effect that could not be tested")
+  ALSO(cause_keys)
+  REQUIRED(reason, "The reason.");
 }
 
 Record<Bound> bound_record() {
-  Record<Bound> bound("a bound");
-  cause_keys(bound, kCause);
-  bound.required("parameter", "The parameter of the effect.", &Bound::parameter)
-      .required("upper_95", "Upper limit with 95 % probability.", &Bound::upper_95, kNotNegative);
-  return bound;
+  RECORD(Bound, "a bound")
+  ALSO(cause_keys)
+  REQUIRED(parameter, "The parameter of the effect.")
+  REQUIRED(upper_95, "Upper limit with 95 % probability.", kNotNegative);
 }
 
 Record<DeclaredAnswer> declared_answer_record() {
-  Record<DeclaredAnswer> answer("an answer");
-  cause_keys(answer, kCause);
-  answer
-      .required(
-          "says",
-          "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
-          "at its declared size; open: neither; not_testable: these readings cannot show it.",
-          &DeclaredAnswer::says,
-          by_name_to(DeclaredAnswer::Says::not_testable))
-      .required("probability", "Probability that it acts.", &DeclaredAnswer::probability, kShare);
-  return answer;
+  RECORD(DeclaredAnswer, "an answer")
+  ALSO(cause_keys)
+  REQUIRED(says,
+           "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
+           "at its declared size; open: neither; not_testable: these readings cannot show it.",
+           by_name_to(DeclaredAnswer::Says::not_testable))
+  REQUIRED(probability, "Probability that it acts.", kShare);
 }
 
 Record<CalibratedSetting> calibrated_setting_record() {
-  return Record<CalibratedSetting>("a setting")
-      .required("setting", "Name of the setting.", &CalibratedSetting::setting, setting_word())
-      .required("stated", "Value in the machine file.", &CalibratedSetting::stated, kAnyNumber)
-      .required("stated_sigma",
-                "Its uncertainty there, 1 sigma.",
-                &CalibratedSetting::stated_sigma,
-                kNotNegative)
-      .required("calibrated", "Calibrated value.", &CalibratedSetting::calibrated, kAnyNumber)
-      .required("sigma",
-                "Uncertainty of the calibrated value, 1 sigma.",
-                &CalibratedSetting::sigma,
-                kNotNegative)
-      .required("off",
-                "True if it differs by more than its uncertainty allows.",
-                &CalibratedSetting::off);
+  RECORD(CalibratedSetting, "a setting")
+  REQUIRED(setting, "Name of the setting.", setting_word())
+  REQUIRED(stated, "Value in the machine file.", kAnyNumber)
+  REQUIRED(stated_sigma, "Its uncertainty there, 1 sigma.", kNotNegative)
+  REQUIRED(calibrated, "Calibrated value.", kAnyNumber)
+  REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
+  REQUIRED(off, "True if it differs by more than its uncertainty allows.");
 }
 
 }  // namespace chaintrue::grid::files

@@ -13,41 +13,37 @@ namespace chaintrue::grid::files {
 // Keys shared by several parts of a chaintrue_diagnosis file. Private to grid/files.
 
 /// The side of an effect, as in files.
-[[nodiscard]] inline Value<std::string> side_word() {
+inline Value<std::string> side_word() {
   return one_of({"left", "right", "both", "x", "y", "tl", "tr", "bl", "br", "all"});
 }
 
-[[nodiscard]] Value<diagnosis::Verdict> verdict_word();
+Value<diagnosis::Verdict> verdict_word();
 
-[[nodiscard]] Record<diagnosis::CauseId> cause_id_record();
-[[nodiscard]] Record<diagnosis::Cause> cause_record();
-[[nodiscard]] Record<diagnosis::Hypothesis> hypothesis_record();
-[[nodiscard]] Record<diagnosis::LeftOver> left_over_record();
+Record<diagnosis::CauseId> cause_id_record();
+Record<diagnosis::Cause> cause_record();
+Record<diagnosis::Hypothesis> hypothesis_record();
+Record<diagnosis::LeftOver> left_over_record();
 /// diagnosis_remainder_record.cpp.
-[[nodiscard]] Record<diagnosis::Unexplained> unexplained_record();
-[[nodiscard]] Record<diagnosis::ErrorBudget> error_budget_record();
-[[nodiscard]] Record<diagnosis::NotTestable> not_testable_record();
-[[nodiscard]] Record<diagnosis::Bound> bound_record();
-[[nodiscard]] Record<diagnosis::DeclaredAnswer> declared_answer_record();
-[[nodiscard]] Record<diagnosis::CalibratedSetting> calibrated_setting_record();
-[[nodiscard]] Record<diagnosis::HolePicture> hole_picture_record();
-[[nodiscard]] Record<diagnosis::DistancePicture> distance_picture_record();
-/// diagnosis_drawing_record.cpp.
-[[nodiscard]] Record<diagnosis::DrawingFindings> drawing_findings_record();
-/// Causes that chains have under the same name become those of cords: a diagnosis of a drawing names
-/// no others.
-void take_causes_of_cords(diagnosis::Diagnosis& diagnosis);
-/// diagnosis_belts_record.cpp.
-[[nodiscard]] Record<diagnosis::BeltsFindings> belts_findings_record();
+Record<diagnosis::Unexplained> unexplained_record();
+Record<diagnosis::ErrorBudget> error_budget_record();
+Record<diagnosis::NotTestable> not_testable_record();
+Record<diagnosis::Bound> bound_record();
+Record<diagnosis::DeclaredAnswer> declared_answer_record();
+Record<diagnosis::CalibratedSetting> calibrated_setting_record();
+Record<diagnosis::HolePicture> hole_picture_record();
+Record<diagnosis::DistancePicture> distance_picture_record();
+/// diagnosis_mechanisms_record.cpp.
+Record<diagnosis::DrawingFindings> drawing_findings_record();
+Record<diagnosis::BeltsFindings> belts_findings_record();
 /// diagnosis_stability_record.cpp.
-[[nodiscard]] Record<diagnosis::Stability> stability_record();
-[[nodiscard]] Record<diagnosis::PartFinding> bed_part_record();
-[[nodiscard]] Record<diagnosis::PartFinding> session_record();
+Record<diagnosis::Stability> stability_record();
+Record<diagnosis::PartFinding> bed_part_record();
+Record<diagnosis::PartFinding> session_record();
 /// Positions on the bed; diagnosis_point_record.cpp.
-[[nodiscard]] Record<diagnosis::NextMeasurement> next_measurement_record();
-[[nodiscard]] Record<diagnosis::PointPicture> point_picture_record();
+Record<diagnosis::NextMeasurement> next_measurement_record();
+Record<diagnosis::PointPicture> point_picture_record();
 /// Both contain held-out errors row by row; diagnosis_improvement_record.cpp.
-[[nodiscard]] Record<diagnosis::HeldOutImprovement> improvement_record();
-[[nodiscard]] Record<diagnosis::Transfer> transfer_record();
+Record<diagnosis::HeldOutImprovement> improvement_record();
+Record<diagnosis::Transfer> transfer_record();
 
 }  // namespace chaintrue::grid::files

@@ -32,57 +32,50 @@ constexpr Numbered kNumbered[] = {
     {Removal::What::hole, "hole", "Index of the hole.", "a hole's index"}};
 
 /// The number, for the kind that is left out. Lines have none.
-void index_key(const Numbered& numbered, Record<Removal>& record) {
-  static const Value<std::size_t> index = index_number();
-  record.custom(
-      numbered.key,
-      numbered.meaning,
-      false,
-      index.expected,
-      [](const Cursor& at, Removal& object) {
-        object.index = index.read(at).value_or(object.index);
-      },
-      [what = numbered.what](const Removal& object) {
-        if (object.what == what) return Json(object.index);
-        return what == Removal::What::point ? Json(nullptr) : kLeftOut;
-      });
+void index_keys(Record<Removal>& record) {
+  for (const Numbered& numbered : kNumbered) {
+    record.computed(
+        numbered.key,
+        numbered.meaning,
+        false,
+        index_number(),
+        [](Removal& object, std::size_t index) { object.index = index; },
+        [what = numbered.what](const Removal& object) {
+          if (object.what == what) return Json(object.index);
+          return what == Removal::What::point ? Json(nullptr) : kLeftOut;
+        });
+  }
 }
 
 /// The position of a column or row.
 void line_key(Record<Removal>& record) {
-  record.custom(
+  record.computed(
       "at_mm",
       "x of a column, y of a row.",
       false,
-      number(kMillimetres).expected,
-      [](const Cursor& at, Removal& object) {
-        object.at_mm = at.number(kMillimetres).value_or(object.at_mm);
-      },
+      number(kMillimetres),
+      [](Removal& object, double at_mm) { object.at_mm = at_mm; },
       [](const Removal& object) { return is_line(object) ? Json(object.at_mm) : Json(nullptr); });
 }
 
 auto removal_record() {
-  Record<Removal> removal("points left out");
-  removal.required("what",
-                   "What was left out.",
-                   &Removal::what,
-                   choice<Removal::What>({{"point", Removal::What::point},
-                                          {"column", Removal::What::column},
-                                          {"row", Removal::What::row},
-                                          {"distance", Removal::What::distance},
-                                          {"hole", Removal::What::hole}}));
-  for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
-  line_key(removal);
-  removal
-      .required("points", "Number of points left out with it.", &Removal::points, index_number(1))
-      .required("verdict", "Verdict without it.", &Removal::verdict, verdict_word())
-      .required("causes", "Causes named without it.", &Removal::causes, cause_id_record())
-      .required("stands", "True if the answer is the same.", &Removal::stands)
-      .required("probability", "Probability of the name without it.", &Removal::probability, kShare)
-      .required("support",
-                "Share of the log evidence that depends on it, in natural logarithms.",
-                &Removal::support,
-                kAnyNumber)
+  RECORD(Removal, "points left out")
+  REQUIRED(what,
+           "What was left out.",
+           choice<Removal::What>({{"point", Removal::What::point},
+                                  {"column", Removal::What::column},
+                                  {"row", Removal::What::row},
+                                  {"distance", Removal::What::distance},
+                                  {"hole", Removal::What::hole}}))
+  ALSO(index_keys)
+  ALSO(line_key)
+  REQUIRED(points, "Number of points left out with it.", index_number(1))
+  REQUIRED(verdict, "Verdict without it.", verdict_word())
+  REQUIRED(causes, "Causes named without it.", cause_id_record())
+  REQUIRED(stands, "True if the answer is the same.")
+  REQUIRED(probability, "Probability of the name without it.", kShare)
+  REQUIRED(
+      support, "Share of the log evidence that depends on it, in natural logarithms.", kAnyNumber)
       .check([](const Cursor& at, Removal& object) {
         if (!at.clean() || !at.has("what")) return;
         const char* key = "at_mm";
@@ -95,16 +88,14 @@ auto removal_record() {
         const Cursor place = at.child(key);
         if (place.json().is_null()) place.missing(expected);
       });
-  return removal;
 }
 
 }  // namespace
 
 Record<Stability> stability_record() {
-  return Record<Stability>("whether the name is stable")
-      .required("probability", "Smallest probability of the name.", &Stability::probability, kShare)
-      .required(
-          "removals", "What was left out, one at a time.", &Stability::removals, removal_record());
+  RECORD(Stability, "whether the name is stable")
+  REQUIRED(probability, "Smallest probability of the name.", kShare)
+  REQUIRED(removals, "What was left out, one at a time.", removal_record());
 }
 
 namespace {
@@ -118,24 +109,21 @@ void part_keys(Record<PartFinding>& part, const char* leading, const char* named
 }  // namespace
 
 Record<PartFinding> bed_part_record() {
-  Record<PartFinding> part("the probabilities without a quarter of the bed");
-  part.required("towards_rad",
-                "Direction of the quarter from the middle of the readings; from x towards y.",
-                &PartFinding::towards_rad,
-                kAnyNumber);
-  part_keys(part,
-            "Most probable cause without it; nothing if none is more likely than not.",
-            "The named causes, with their probabilities without it.");
-  return part;
+  RECORD(PartFinding, "the probabilities without a quarter of the bed")
+  REQUIRED(towards_rad,
+           "Direction of the quarter from the middle of the readings; from x towards y.",
+           kAnyNumber)
+  ALSO(part_keys,
+       "Most probable cause without it; nothing if none is more likely than not.",
+       "The named causes, with their probabilities without it.");
 }
 
 Record<PartFinding> session_record() {
-  Record<PartFinding> part("the probabilities of a session by itself");
-  part.required("session", "The file.", &PartFinding::session);
-  part_keys(part,
-            "Most probable cause for its readings alone; nothing if none is more likely than not.",
-            "The named causes, with their probabilities for these readings alone.");
-  return part;
+  RECORD(PartFinding, "the probabilities of a session by itself")
+  REQUIRED(session, "The file.")
+  ALSO(part_keys,
+       "Most probable cause for its readings alone; nothing if none is more likely than not.",
+       "The named causes, with their probabilities for these readings alone.");
 }
 
 }  // namespace chaintrue::grid::files

@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/files/plotter_record.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -28,12 +27,13 @@ struct DrawingInFile : TestDrawing {
 };
 
 auto cross_record() {
-  return Record<DrawnCross>("a drawn cross")
-      .required("name", "Its name on the sheet.", &DrawnCross::name)
-      .place(&DrawnCross::commanded,
-             "Commanded x, to the right of the middle between the pins.",
-             "Commanded y, up from the pins, so negative below them.",
-             kPlaceMm);
+  RECORD(DrawnCross, "a drawn cross")
+  REQUIRED(name, "Its name on the sheet.")
+  FIELD(place,
+        &DrawnCross::commanded,
+        "Commanded x, to the right of the middle between the pins.",
+        "Commanded y, up from the pins, so negative below them.",
+        kPlaceMm);
 }
 
 void check_middle(const Cursor& at, MeasureInFile& measure) {
@@ -48,23 +48,18 @@ void check_middle(const Cursor& at, MeasureInFile& measure) {
 auto measure_record() {
   using Kind = DrawnMeasure::Kind;
   using Measure = MeasureInFile;
-  return Record<Measure>("a measure on a drawing")
-      .required("kind",
-                "A length between two crosses, or the bow of a line.",
-                &Measure::kind,
-                choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
-      .required("from", "The first cross.", &Measure::from)
-      .required("to", "The last cross.", &Measure::to)
-      .sparse(
-          "middle", "For a bow: the cross on the line at which it was measured.", &Measure::middle)
-      .nullable("value_mm",
-                "The reading; null: not measured. A bow is positive if the line is on the left, "
-                "looking from its first cross to its last.",
-                &Measure::value_mm,
-                kPlaceMm)
-      .optional(
-          "sigma_mm", "Noise of the reading, 1 sigma.", &Measure::sigma_mm, {"mm", 0.01, 50.0})
-      .check(check_middle);
+  RECORD(Measure, "a measure on a drawing")
+  REQUIRED(kind,
+           "A length between two crosses, or the bow of a line.",
+           choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
+  REQUIRED(from, "The first cross.")
+  REQUIRED(to, "The last cross.")
+  SPARSE(middle, "For a bow: the cross on the line at which it was measured.")
+  NULLABLE(value_mm,
+           "The reading; null: not measured. A bow is positive if the line is on the left, "
+           "looking from its first cross to its last.",
+           kPlaceMm)
+  OPTIONAL(sigma_mm, "Noise of the reading, 1 sigma.", {"mm", 0.01, 50.0}).check(check_middle);
 }
 
 bool has_cross(const DrawingInFile& drawing, const std::string& name) {
@@ -97,22 +92,21 @@ void check_drawing(const Cursor& at, DrawingInFile& drawing) {
 
 const Record<DrawingInFile>& drawing_record() {
   using Drawing = DrawingInFile;
-  static const auto record =
-      Record<Drawing>("a test drawing", kDrawingFormat)
-          .sparse("name", "Name of the drawing.", &Drawing::name)
-          .computed(
-              "set",
-              "The plotter with the settings in force when the page was drawn.",
-              true,
-              object(set_plotter_record()),
-              [](Drawing& drawing, const SetPlotter& set) {
-                static_cast<SetPlotter&>(drawing) = set;
-              },
-              [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
-          .required(
-              "crosses", "The crosses of the page.", &Drawing::crosses, list(cross_record(), 3))
-          .required("measures", "Readings of ruler and string.", &Drawing::lines, measure_record())
-          .check(check_drawing);
+  static const auto record = [] {
+    RECORD(Drawing, "a test drawing", kDrawingFormat)
+    SPARSE(name, "Name of the drawing.")
+    FIELD(
+        computed,
+        "set",
+        "The plotter with the settings in force when the page was drawn.",
+        true,
+        object(set_plotter_record()),
+        [](Drawing& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
+        [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
+    REQUIRED(crosses, "The crosses of the page.", list(cross_record(), 3))
+    NAMED(required, "measures", lines, "Readings of ruler and string.", measure_record())
+        .check(check_drawing);
+  }();
   return record;
 }
 

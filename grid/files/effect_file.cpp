@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "grid/containers.hpp"
-#include "grid/files/effect_record.hpp"
+#include "grid/files/records.hpp"
 #include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {

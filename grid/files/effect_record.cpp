@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/files/effect_record.hpp"
+#include "grid/files/records.hpp"
 
 #include <fmt/format.h>
 
@@ -8,19 +8,16 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-using model::effects::ActsOn;
 using model::effects::Declaration;
 using model::effects::DeclarationProblem;
 using model::effects::DeclaredParameter;
 using model::effects::Effect;
 using model::effects::EffectSide;
 using model::effects::ParameterRole;
-using model::effects::RemedyKind;
 
 /// The usual size is one sigma from null; a place may be anywhere, 0 if allowed.
 double assumed_nominal(const DeclaredParameter& p) {
@@ -41,48 +38,43 @@ void check_parameter(const Cursor& at, DeclaredParameter& p) {
 }
 
 auto parameter_record() {
-  return Record<DeclaredParameter>("a parameter of an effect")
-      .required("name",
-                "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
-                "per another as in mm_per_rad; any other end is a plain number.",
-                &DeclaredParameter::name)
-      .sparse("symbol", "Its symbol in texts.", &DeclaredParameter::symbol)
-      .sparse("meaning", "What it is.", &DeclaredParameter::meaning)
-      .optional(
-          "role",
-          "size: how large the effect is. place: where or when it sets in.",
-          &DeclaredParameter::role,
-          choice<ParameterRole>({{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
-      .computed(
-          "null",
-          "The size at which there is no effect; default 0. A place has none.",
-          false,
-          number(kAnyNumber),
-          [](DeclaredParameter& p, double null) { p.null = null; },
-          [](const DeclaredParameter& p) {
-            return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
-          })
-      .computed(
-          "nominal",
-          "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
-          "middle of its bounds.",
-          false,
-          number(kAnyNumber),
-          [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
-          [](const DeclaredParameter& p) { return p.nominal; })
-      .required("prior_sigma",
-                "Prior sigma: for a size about null, for a place about nominal.",
-                &DeclaredParameter::prior_sigma,
-                kAnyNumber)
-      .required("lower", "The smallest value.", &DeclaredParameter::lower, kAnyNumber)
-      .required("upper", "The largest value.", &DeclaredParameter::upper, kAnyNumber)
-      .optional("whole",
-                "It takes whole numbers only; for effects on a reading or a visit.",
-                &DeclaredParameter::integer)
-      .optional("mirror_sign",
-                "-1 if the mirrored machine has the negative value.",
-                &DeclaredParameter::mirror_sign,
-                {"", -1.0, 1.0})
+  RECORD(DeclaredParameter, "a parameter of an effect")
+  REQUIRED(name,
+           "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
+           "per another as in mm_per_rad; any other end is a plain number.")
+  SPARSE(symbol, "Its symbol in texts.")
+  SPARSE(meaning, "What it is.")
+  OPTIONAL(role,
+           "size: how large the effect is. place: where or when it sets in.",
+           choice<ParameterRole>({{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
+  FIELD(
+      computed,
+      "null",
+      "The size at which there is no effect; default 0. A place has none.",
+      false,
+      number(kAnyNumber),
+      [](DeclaredParameter& p, double null) { p.null = null; },
+      [](const DeclaredParameter& p) {
+        return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
+      })
+  FIELD(
+      computed,
+      "nominal",
+      "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
+      "middle of its bounds.",
+      false,
+      number(kAnyNumber),
+      [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
+      [](const DeclaredParameter& p) { return p.nominal; })
+  REQUIRED(
+      prior_sigma, "Prior sigma: for a size about null, for a place about nominal.", kAnyNumber)
+  REQUIRED(lower, "The smallest value.", kAnyNumber)
+  REQUIRED(upper, "The largest value.", kAnyNumber)
+  NAMED(optional,
+        "whole",
+        integer,
+        "It takes whole numbers only; for effects on a reading or a visit.")
+  OPTIONAL(mirror_sign, "-1 if the mirrored machine has the negative value.", {"", -1.0, 1.0})
       .check(check_parameter);
 }
 
@@ -110,86 +102,76 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
 }  // namespace
 
 const Record<Declaration>& declaration_record() {
-  static const auto record =
-      Record<Declaration>("a declared effect", kEffectFormat)
-          .required("id", "Its name: small letters, digits and _.", &Declaration::id)
-          .sparse("instead_of",
-                  "The effect of the catalogue that it replaces; default: none, it is added.",
-                  &Declaration::instead_of)
-          .required("acts_on",
-                    "paper: where marks are written. chain: the length that is paid out. reading: "
-                    "what is written down, by visits. visit: a single reading.",
-                    &Declaration::acts_on,
-                    by_name_to(ActsOn::visit))
-          .sparse("sides",
-                  "Where it may act, each side tested separately; both: one value for two. "
-                  "Default: on both equally.",
-                  &Declaration::sides,
-                  list(by_name_to(EffectSide::y, EffectSide::left)))
-          .required("parameters",
-                    "Its size, followed by the place where it sets in, if it has one.",
-                    &Declaration::parameters,
-                    parameter_record())
-          .sparse("adds_mm",
-                  "Formula for the amount added to a chain or a reading.",
-                  &Declaration::adds_mm)
-          .sparse("adds_x_mm", "Formula for the shift of a mark in x.", &Declaration::adds_x_mm)
-          .sparse("adds_y_mm", "Formula for the shift of a mark in y.", &Declaration::adds_y_mm)
-          .sparse("elongation",
-                  "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
-                  "everything that is added.",
-                  &Declaration::elongation)
-          .required("cause", "The cause, as a diagnosis words it.", &Declaration::cause)
-          .sparse("signature", "How it shows on the bed.", &Declaration::signature)
-          .optional("remedy_kind",
-                    "Where the remedy is applied.",
-                    &Declaration::remedy_kind,
-                    by_name_to(RemedyKind::compensate_on_its_own))
-          .required("remedy", "What to do about it.", &Declaration::remedy)
-          .required("not_modelled", "What the formula omits.", &Declaration::not_modelled)
-          .sparse("typical", "Its usual size, in words.", &Declaration::typical)
-          .sparse("source", "Source of the formula.", &Declaration::source)
-          .check(check_words);
+  static const auto record = [] {
+    RECORD(Declaration, "a declared effect", kEffectFormat)
+    REQUIRED(id, "Its name: small letters, digits and _.")
+    SPARSE(instead_of, "The effect of the catalogue that it replaces; default: none, it is added.")
+    REQUIRED(acts_on,
+             "paper: where marks are written. chain: the length that is paid out. reading: "
+             "what is written down, by visits. visit: a single reading.",
+             by_name_to(model::effects::ActsOn::visit))
+    SPARSE(sides,
+           "Where it may act, each side tested separately; both: one value for two. "
+           "Default: on both equally.",
+           list(by_name_to(EffectSide::y, EffectSide::left)))
+    REQUIRED(parameters,
+             "Its size, followed by the place where it sets in, if it has one.",
+             parameter_record())
+    SPARSE(adds_mm, "Formula for the amount added to a chain or a reading.")
+    SPARSE(adds_x_mm, "Formula for the shift of a mark in x.")
+    SPARSE(adds_y_mm, "Formula for the shift of a mark in y.")
+    SPARSE(elongation,
+           "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
+           "everything that is added.")
+    REQUIRED(cause, "The cause, as a diagnosis words it.")
+    SPARSE(signature, "How it shows on the bed.")
+    OPTIONAL(remedy_kind,
+             "Where the remedy is applied.",
+             by_name_to(model::effects::RemedyKind::compensate_on_its_own))
+    REQUIRED(remedy, "What to do about it.")
+    REQUIRED(not_modelled, "What the formula omits.")
+    SPARSE(typical, "Its usual size, in words.")
+    SPARSE(source, "Source of the formula.").check(check_words);
+  }();
   return record;
 }
 
-void read_declared(const Cursor& at, std::vector<const Effect*>& declared) {
-  if (at.json().is_null()) return;
-  if (!at.json().is_array()) return at.expect("a list of declared effects");
-  for (std::size_t i = 0; i < at.json().size(); ++i) {
-    const Cursor own = at.element(i);
-    const auto declaration = declaration_record().read(own);
-    if (!declaration || !own.clean()) continue;
-    add_problems(own, problems_of(*declaration));
-    if (!own.clean()) continue;
-    const Effect* effect = &declared_effect(*declaration);
-    const bool twice =
-        any_of(declared, [&](const Effect* other) { return other->id == effect->id; });
-    if (twice) {
-      own.child("id").expect("a name that no other effect of this machine has");
-    } else {
-      declared.push_back(effect);
-    }
-  }
+Value<std::vector<const Effect*>> declared_value() {
+  using All = std::vector<const Effect*>;
+  return {[](const Cursor& at) -> std::optional<All> {
+            if (!at.json().is_array()) {
+              at.expect("a list of declared effects");
+              return std::nullopt;
+            }
+            All declared;
+            for (std::size_t i = 0; i < at.json().size(); ++i) {
+              const Cursor own = at.element(i);
+              const auto declaration = declaration_record().read(own);
+              if (!declaration || !own.clean()) continue;
+              add_problems(own, problems_of(*declaration));
+              if (!own.clean()) continue;
+              const Effect* effect = &declared_effect(*declaration);
+              const bool is_twice =
+                  any_of(declared, [&](const Effect* other) { return other->id == effect->id; });
+              if (is_twice)
+                own.child("id").expect("a name that no other effect of this machine has");
+              if (!is_twice) declared.push_back(effect);
+            }
+            return declared;
+          },
+          [](const All& declared) {
+            return json_list(declared, [](const Effect* effect) {
+              return declaration_record().write(*declaration_of(*effect));
+            });
+          },
+          {"a list of declared effects", [] {
+             return Json{{"type", "array"}, {"items", declaration_record().expected().schema()}};
+           }}};
 }
 
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
   for (std::size_t i = 0; i < machine.declared.size(); ++i)
     add_problems(at.element(i), problems_on_bed(*declaration_of(*machine.declared[i]), machine));
-}
-
-Json write_declared(const std::vector<const Effect*>& declared) {
-  if (declared.empty()) return kLeftOut;
-  Json all = Json::array();
-  for (const Effect* effect : declared)
-    all.push_back(declaration_record().write(*declaration_of(*effect)));
-  return all;
-}
-
-Expected declared_expected() {
-  return {"a list of declared effects", [] {
-            return Json{{"type", "array"}, {"items", declaration_record().expected().schema()}};
-          }};
 }
 
 const Effect* declared_in_document(const Cursor& at, std::string_view id) {
@@ -200,9 +182,9 @@ const Effect* declared_in_document(const Cursor& at, std::string_view id) {
   if (all == machine->end()) return nullptr;
   // The machine's record reports their problems.
   Problems unsaid(at.problems().file());
-  std::vector<const Effect*> declared;
-  read_declared(Cursor(*all, unsaid), declared);
-  const auto* found = find_where(declared, [&](const Effect* effect) { return effect->id == id; });
+  const auto declared = declared_value().read(Cursor(*all, unsaid));
+  if (!declared) return nullptr;
+  const auto* found = find_where(*declared, [&](const Effect* effect) { return effect->id == id; });
   return found != nullptr ? *found : nullptr;
 }
 

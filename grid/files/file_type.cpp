@@ -56,6 +56,24 @@ std::string words_of(FileKind kind) {
 
 }  // namespace
 
+const Format* format_of(std::string_view file_type) {
+  const auto* found =
+      find_where(kFormats, [&](const Format* one) { return one->file_type == file_type; });
+  return found != nullptr ? *found : nullptr;
+}
+
+std::string name_of(const Format& format) {
+  constexpr std::string_view kBegin = "chaintrue_";
+  return std::string(format.file_type.substr(kBegin.size()));
+}
+
+Json headed(const Format& format) {
+  Json file = Json::object();
+  file["file_type"] = format.file_type;
+  file["format_version"] = format.version;
+  return file;
+}
+
 bool is_json(std::string_view text) {
   text = without_byte_order_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/groundcontrol_file.hpp"
-
-#include <filesystem>
+#include "grid/files/ranges.hpp"
+#include "grid/files/sources.hpp"
 
 #include "grid/containers.hpp"
 #include "grid/files/machine_checks.hpp"
@@ -30,16 +30,15 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
     return settings.need(path, range).value_or(0.0);
   };
   // The same as in model::problems_of, which is applied in any case.
-  constexpr Range kAnchor{"mm", -20000.0, 20000.0};
   constexpr Range kTravel{"mm", 200.0, 20000.0};
   const std::string anchors = "kinematics/WallPlotter/";
   ReadMachine read;
   model::Machine& machine = read.machine;
-  machine.name = std::filesystem::path(file).filename().string();
-  machine.motors.left = {number(anchors + "left_anchor_x", kAnchor),
-                         number(anchors + "left_anchor_y", kAnchor)};
-  machine.motors.right = {number(anchors + "right_anchor_x", kAnchor),
-                          number(anchors + "right_anchor_y", kAnchor)};
+  machine.name = name_without_folders(file);
+  machine.motors.left = {number(anchors + "left_anchor_x", kCoordinateMm),
+                         number(anchors + "left_anchor_y", kCoordinateMm)};
+  machine.motors.right = {number(anchors + "right_anchor_x", kCoordinateMm),
+                          number(anchors + "right_anchor_y", kCoordinateMm)};
   machine.bed = {number("axes/x/max_travel_mm", kTravel), number("axes/y/max_travel_mm", kTravel)};
   machine.controller = {model::ControllerKind::fluidnc_wallplotter, {}};
   problems.throw_if_any();

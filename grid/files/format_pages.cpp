@@ -10,7 +10,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/formats.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "model/machine_ranges.hpp"
 
 namespace chaintrue::grid::files {

@@ -9,19 +9,13 @@
 #include "grid/files/csv_table.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/grid_checks.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
-#include "grid/files/reading_record.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-// Wide enough for any hanging router, narrow enough to catch a misplaced decimal point or another
-// unit.
-constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
-constexpr Range kLength{"mm", 1.0, 20000.0};
 constexpr int kLargestOrder = 1'000'000'000;
 
 /// The content of the file, before the machine is read and the points are checked together.
@@ -31,61 +25,35 @@ struct StatedGrid : MeasuredGrid {
 };
 
 auto noise_record() {
-  return Record<StatedNoise>("the noise")
-      .required(
-          "length_mm", "Noise of a chain reading, 1 sigma.", &StatedNoise::length_mm, kNoiseMm)
-      .required("position_mm",
-                "Noise of a mark's position, 1 sigma on each axis.",
-                &StatedNoise::position_mm,
-                kNoiseMm)
-      .optional("dof",
-                "Degrees of freedom with which these are known; 15 means to about a fifth.",
-                &StatedNoise::dof,
-                kNoiseDof);
+  RECORD(StatedNoise, "the noise")
+  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNoiseMm)
+  REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNoiseMm)
+  OPTIONAL(
+      dof, "Degrees of freedom with which these are known; 15 means to about a fifth.", kNoiseDof);
 }
 
 auto sheet_uncertainty_record() {
-  using Sheet = SheetUncertainty;
-  return Record<Sheet>("the sheet's placement")
-      .required("shift_mm",
-                "Uncertainty of the sheet's position, 1 sigma on each axis.",
-                &Sheet::shift_mm,
-                {"mm", 0.0, 1000.0})
-      .required("rotation_mrad",
-                "Uncertainty of the sheet's rotation, 1 sigma.",
-                &Sheet::rotation_mrad,
-                {"mrad", 0.0, 500.0});
+  RECORD(SheetUncertainty, "the sheet's placement")
+  REQUIRED(
+      shift_mm, "Uncertainty of the sheet's position, 1 sigma on each axis.", {"mm", 0.0, 1000.0})
+  REQUIRED(rotation_mrad, "Uncertainty of the sheet's rotation, 1 sigma.", {"mrad", 0.0, 500.0});
 }
 
 const Record<StatedPoint>& point_record() {
-  using Point = StatedPoint;
-  static const auto record =
-      Record<Point>("a point")
-          .required("x_mm",
-                    "x of the tool. Null in a list that is not filled in yet.",
-                    &Point::x_mm,
-                    kCoordinate)
-          .required("y_mm",
-                    "y of the tool, up. Null in a list that is not filled in yet.",
-                    &Point::y_mm,
-                    kCoordinate)
-          .optional("left_mm",
-                    "Length of the left chain, as read or as commanded.",
-                    &Point::left_mm,
-                    kLength)
-          .optional("right_mm",
-                    "Length of the right chain, as read or as commanded.",
-                    &Point::right_mm,
-                    kLength)
-          .optional("commanded_x_mm",
-                    "Commanded x; the chain lengths are then those of the controller's kinematics.",
-                    &Point::commanded_x_mm,
-                    kCoordinate)
-          .optional("commanded_y_mm", "Commanded y, up.", &Point::commanded_y_mm, kCoordinate)
-          .optional("order",
-                    "Number of the visit. Either all points have one, all different, or none has.",
-                    &Point::order,
-                    integer(0, kLargestOrder));
+  static const auto record = [] {
+    RECORD(StatedPoint, "a point")
+    REQUIRED(x_mm, "x of the tool. Null in a list that is not filled in yet.", kCoordinateMm)
+    REQUIRED(y_mm, "y of the tool, up. Null in a list that is not filled in yet.", kCoordinateMm)
+    OPTIONAL(left_mm, "Length of the left chain, as read or as commanded.", kLengthMm)
+    OPTIONAL(right_mm, "Length of the right chain, as read or as commanded.", kLengthMm)
+    OPTIONAL(commanded_x_mm,
+             "Commanded x; the chain lengths are then those of the controller's kinematics.",
+             kCoordinateMm)
+    OPTIONAL(commanded_y_mm, "Commanded y, up.", kCoordinateMm)
+    OPTIONAL(order,
+             "Number of the visit. Either all points have one, all different, or none has.",
+             integer(0, kLargestOrder));
+  }();
   return record;
 }
 
@@ -118,7 +86,7 @@ void read_points(const Cursor& at, StatedGrid& grid) {
     if (is_blank(at.element(i))) {
       point.is_blank = true;
       point.order = at.element(i).has("order")
-                        ? at.element(i).child("order").integer(0, kLargestOrder)
+                        ? integer(0, kLargestOrder).read(at.element(i).child("order"))
                         : std::nullopt;
     } else {
       point = point_record().read(at.element(i)).value_or(StatedPoint{});
@@ -129,43 +97,34 @@ void read_points(const Cursor& at, StatedGrid& grid) {
 }
 
 const Record<StatedGrid>& grid_record() {
-  static const auto record =
-      Record<StatedGrid>("a grid", kGridFormat)
-          .optional("name", "Name of the session in messages and pages.", &StatedGrid::name)
-          .optional("machine",
-                    "The machine with its settings in force; or machine_file.",
-                    &StatedGrid::machine,
-                    machine_record())
-          .sparse("machine_file",
-                  "Path of the machine file, from this file.",
-                  &StatedGrid::machine_file)
-          .optional("noise",
-                    "Noise of the readings. Missing values are estimated from repeated visits, or "
-                    "assumed; none is taken below the rounding of the readings.",
-                    &StatedGrid::noise,
-                    noise_record())
-          .optional("sheet",
-                    "How accurately the marks' sheet was placed by hand; absent: exactly.",
-                    &StatedGrid::sheet,
-                    sheet_uncertainty_record())
-          .sparse("readings",
-                  "What was measured besides the points.",
-                  &StatedGrid::readings,
-                  reading_record())
-          .custom("points",
-                  "The measured points.",
-                  true,
-                  {"a list of points", points_schema},
-                  read_points,
-                  [value = list(point_record())](const StatedGrid& grid) {
-                    return value.write(grid.lines);
-                  })
-          .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
-          .check([](const Cursor& at, StatedGrid& grid) {
-            if (grid.machine && !grid.machine_file.empty()) {
-              at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
-            }
-          });
+  static const auto record = [] {
+    RECORD(StatedGrid, "a grid", kGridFormat)
+    OPTIONAL(name, "Name of the session in messages and pages.")
+    OPTIONAL(machine, "The machine with its settings in force; or machine_file.", machine_record())
+    SPARSE(machine_file, "Path of the machine file, from this file.")
+    OPTIONAL(noise,
+             "Noise of the readings. Missing values are estimated from repeated visits, or "
+             "assumed; none is taken below the rounding of the readings.",
+             noise_record())
+    OPTIONAL(sheet,
+             "How accurately the marks' sheet was placed by hand; absent: exactly.",
+             sheet_uncertainty_record())
+    SPARSE(readings, "What was measured besides the points.", reading_record())
+    FIELD(
+        custom,
+        "points",
+        "The measured points.",
+        true,
+        {"a list of points", points_schema},
+        read_points,
+        [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.lines); })
+        .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+        .check([](const Cursor& at, StatedGrid& grid) {
+          if (grid.machine && !grid.machine_file.empty()) {
+            at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+          }
+        });
+  }();
   return record;
 }
 
@@ -218,7 +177,7 @@ void take_blanks(
   point.is_spoilt = true;
   constexpr const char* kNames[] = {"x_mm", "y_mm", "left_mm", "right_mm"};
   const std::size_t missing = row[first] ? first + 1 : first;
-  const Range& range = commanded ? kCoordinate : kLength;
+  const Range& range = commanded ? kCoordinateMm : kLengthMm;
   problems.add(table.cells[i][missing].place(),
                "",
                ProblemKind::left_blank,
@@ -236,13 +195,13 @@ ReadGrid parse_csv_grid(const std::string& text,
   const bool commanded =
       any_of(header, [](const std::string& name) { return name.rfind("commanded_", 0) == 0; });
   const double unit = options.inches ? input_checks::kMmPerInch : 1.0;
-  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate, true, commanded, unit},
-                                          {"y_mm", kCoordinate, true, commanded, unit},
-                                          {"left_mm", kLength, !commanded, true, unit},
-                                          {"right_mm", kLength, !commanded, true, unit},
+  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinateMm, true, commanded, unit},
+                                          {"y_mm", kCoordinateMm, true, commanded, unit},
+                                          {"left_mm", kLengthMm, !commanded, true, unit},
+                                          {"right_mm", kLengthMm, !commanded, true, unit},
                                           {"order", {"", 0.0, kLargestOrder}, false},
-                                          {"commanded_x_mm", kCoordinate, commanded},
-                                          {"commanded_y_mm", kCoordinate, commanded}};
+                                          {"commanded_x_mm", kCoordinateMm, commanded},
+                                          {"commanded_y_mm", kCoordinateMm, commanded}};
   const CsvTable table = read_csv(text, columns, problems);
   StatedGrid stated;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of points measured twice.
 #include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -20,14 +22,12 @@ constexpr std::size_t kMostWarnings = 20;
 struct Compared {
   std::size_t index;
   model::MarkPoint mark;
-  double first_mm;
-  double second_mm;
+  Eigen::Vector2d off_mm;
 };
 
 /// The reference for a reading, and how far the residual may change from one point to a near one.
 struct Comparison {
-  const char* first_name;
-  const char* second_name;
+  std::array<const char*, 2> names;
   double sigma_mm;
   double change_per_mm;
   std::vector<Compared> readings;
@@ -46,7 +46,7 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
   // A chain grows by at most the tool's distance, plus 2 % for sag and stretch.
   constexpr double kWithoutModel = 1.02;
   Comparison lengths{
-      "left", "right", std::hypot(noise.length_mm, noise.position_mm), kWithoutModel, {}};
+      {"left", "right"}, std::hypot(noise.length_mm, noise.position_mm), kWithoutModel, {}};
   std::unique_ptr<const model::Kinematics> kinematics;
   if (grid.machine && model::problems_of(*grid.machine).empty()) {
     kinematics =
@@ -56,12 +56,11 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const MeasuredPoint& point = grid.points[i];
     if (!point.lengths) continue;
-    Compared reading{i, point.mark, point.lengths->left_mm, point.lengths->right_mm};
+    Compared reading{i, point.mark, {point.lengths->left_mm, point.lengths->right_mm}};
     if (kinematics) {
       const auto pose = kinematics->inverse(model::identity_placement(point.mark));
       if (!pose) continue;
-      reading.first_mm -= pose->lengths.left_mm;
-      reading.second_mm -= pose->lengths.right_mm;
+      reading.off_mm -= Eigen::Vector2d(pose->lengths.left_mm, pose->lengths.right_mm);
     }
     lengths.readings.push_back(reading);
   }
@@ -71,14 +70,14 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
 Comparison compare_commands(const MeasuredGrid& grid, const StatedNoise& noise) {
   // A machine's error in x and y changes by a few mm over the bed: 0.05 is many times that.
   constexpr double kErrorPerMm = 0.05;
-  Comparison errors{"x", "y", noise.position_mm, kErrorPerMm, {}};
+  Comparison errors{{"x", "y"}, noise.position_mm, kErrorPerMm, {}};
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const MeasuredPoint& point = grid.points[i];
     if (!point.commanded) continue;
-    errors.readings.push_back({i,
-                               point.mark,
-                               point.commanded->x_mm - point.mark.x_mm,
-                               point.commanded->y_mm - point.mark.y_mm});
+    errors.readings.push_back(
+        {i,
+         point.mark,
+         {point.commanded->x_mm - point.mark.x_mm, point.commanded->y_mm - point.mark.y_mm}});
   }
   return errors;
 }
@@ -96,9 +95,9 @@ void warn_of_pair(const Comparison& comparison,
   const double apart_mm = std::hypot(a.mark.x_mm - b.mark.x_mm, a.mark.y_mm - b.mark.y_mm);
   const double allowed_mm =
       kSigmas * std::sqrt(2.0) * comparison.sigma_mm + comparison.change_per_mm * apart_mm;
-  const double first_mm = std::abs(a.first_mm - b.first_mm);
-  const double second_mm = std::abs(a.second_mm - b.second_mm);
-  if (first_mm <= allowed_mm && second_mm <= allowed_mm) return;
+  std::size_t worse = 0;
+  const double most_mm = (a.off_mm - b.off_mm).cwiseAbs().maxCoeff(&worse);
+  if (apart_mm > kRepeatDistanceMm || most_mm <= allowed_mm) return;
   // A point that was already reported disagrees with everything.
   const auto is_asked_about = [&](std::size_t row) {
     const auto& warnings = problems.warnings();
@@ -107,13 +106,12 @@ void warn_of_pair(const Comparison& comparison,
     });
   };
   if (is_asked_about(a.index) || is_asked_about(b.index)) return;
-  const bool first_is_worse = first_mm >= second_mm;
   problems.warn(places.of(b.index, ""),
                 "this mark was also measured at {}, and the two readings differ by {} ({}); at "
                 "most {:.1f} mm is normal{}. Is a digit or a minus wrong in one of them?",
                 places.of(a.index, ""),
-                difference_in_words(std::max(first_mm, second_mm)),
-                first_is_worse ? comparison.first_name : comparison.second_name,
+                difference_in_words(most_mm),
+                comparison.names[worse],
                 allowed_mm,
                 apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm));
 }
@@ -130,15 +128,11 @@ void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& p
         problems.warn(places.all, "more points disagree with their repeats; these are the first");
         return;
       }
-      const double apart_mm = std::hypot(readings[i].mark.x_mm - readings[j].mark.x_mm,
-                                         readings[i].mark.y_mm - readings[j].mark.y_mm);
-      if (apart_mm > kRepeatDistanceMm) continue;
-      const bool in_order = readings[i].index < readings[j].index;
-      warn_of_pair(comparison,
-                   in_order ? readings[i] : readings[j],
-                   in_order ? readings[j] : readings[i],
-                   places,
-                   problems);
+      const auto& [first, second] =
+          std::minmax(readings[i], readings[j], [](const Compared& a, const Compared& b) {
+            return a.index < b.index;
+          });
+      warn_of_pair(comparison, first, second, places, problems);
     }
   }
 }

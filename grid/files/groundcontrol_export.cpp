@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <string_view>
 
 #include "grid/containers.hpp"
-#include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/groundcontrol_settings.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::grid::files {
@@ -26,7 +27,7 @@ std::string to_type(double value) {
 }
 
 /// Every import has these; for a machine without them all lines are written.
-bool is_imported(const model::ControllerSettings& settings) {
+bool is_imported(const ControllerSettings& settings) {
   return settings.bed_width_mm && settings.bed_height_mm && settings.motor_spacing_mm &&
          settings.motor_offset_y_mm;
 }
@@ -73,7 +74,7 @@ class Lines {
 };
 
 /// The pitch of a chain that its tolerance states.
-bool is_tolerance(const model::AppliedEffect& effect, const model::ControllerSettings& settings) {
+bool is_tolerance(const model::AppliedEffect& effect, const ControllerSettings& settings) {
   const auto size = effect.parameters.find("elongation");
   if (effect.effect != "chain_pitch_error" || effect.side == "both" ||
       size == effect.parameters.end())
@@ -85,10 +86,10 @@ bool is_tolerance(const model::AppliedEffect& effect, const model::ControllerSet
 
 }  // namespace
 
-model::ControllerSettings measures_as_settings(const Machine& machine) {
+ControllerSettings measures_as_settings(const Machine& machine) {
   const double dx_mm = machine.motors.right.x_mm - machine.motors.left.x_mm;
   const double dy_mm = machine.motors.right.y_mm - machine.motors.left.y_mm;
-  model::ControllerSettings s = machine.controller.settings;
+  ControllerSettings s = machine.controller.settings;
   s.bed_width_mm = machine.bed.width_mm;
   s.bed_height_mm = machine.bed.height_mm;
   s.motor_spacing_mm = std::hypot(dx_mm, dy_mm);
@@ -141,36 +142,33 @@ bool says_more_than_its_settings(const Machine& machine) {
 }
 
 GroundcontrolText write_groundcontrol_settings(const Machine& machine,
-                                               const model::ControllerSettings& settings,
+                                               const ControllerSettings& settings,
                                                std::string_view by) {
-  using S = model::ControllerSettings;
-  const S& now = machine.controller.settings;
+  const ControllerSettings& now = machine.controller.settings;
   GroundcontrolText out;
   Lines lines(machine, out);
-  const auto number = [&](const char* key, std::optional<double> S::*setting) {
-    if (settings.*setting) lines.number(key, *(settings.*setting), now.*setting, by);
+  const auto numbers = [&](std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) {
+      const auto* own =
+          find_where(kNumberKeys, [&](const NumberKey& one) { return one.key == key; });
+      if (const auto value = settings.*own->setting)
+        lines.number(own->key, *value, now.*own->setting, by);
+    }
   };
   const bool has_ring = std::holds_alternative<model::Ring>(machine.attachment);
   lines.section("Maslow Settings");
-  number("bedwidth", &S::bed_width_mm);
-  number("bedheight", &S::bed_height_mm);
-  number("motorspacingx", &S::motor_spacing_mm);
-  number("motoroffsety", &S::motor_offset_y_mm);
-  if (!has_ring) {
-    number("sledwidth", &S::sled_width_mm);
-    number("sledheight", &S::sled_height_mm);
-    number("sledcg", &S::sled_cg_mm);
-  }
+  numbers({"bedwidth", "bedheight", "motorspacingx", "motoroffsety"});
+  if (!has_ring) numbers({"sledwidth", "sledheight", "sledcg"});
   lines.section("Advanced Settings");
   lines.word("kinematicstype", has_ring ? "Triangular" : "Quadrilateral");
-  if (has_ring) number("rotationradius", &S::rotation_radius_mm);
-  number("chainsagcorrection", &S::chain_sag_correction);
-  number("topbeamtilt", &S::top_beam_tilt_deg);
-  number("chainpitch", &S::chain_pitch_mm);
-  number("gearteeth", &S::gear_teeth);
-  number("leftchaintolerance", &S::left_chain_tolerance_percent);
-  number("rightchaintolerance", &S::right_chain_tolerance_percent);
-  number("sledweight", &S::sled_weight_n);
+  if (has_ring) numbers({"rotationradius"});
+  numbers({"chainsagcorrection",
+           "topbeamtilt",
+           "chainpitch",
+           "gearteeth",
+           "leftchaintolerance",
+           "rightchaintolerance",
+           "sledweight"});
   if (settings.chain_elongation_per_n) {
     const std::string typed = fmt::format("{}", *settings.chain_elongation_per_n);
     lines.word("chainelongationfactor", typed);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "grid/files/groundcontrol_settings.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/sources.hpp"
 #include "model/chain_formulas.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
@@ -21,59 +21,10 @@ namespace chaintrue::grid::files {
 
 namespace {
 
-using model::Brackets;
-using model::ControllerSettings;
 using model::Feed;
 using model::Machine;
-using model::Ring;
 
 constexpr double kDegreeRad = std::numbers::pi / 180.0;
-
-enum class Need { always, ring, brackets, never };
-
-/// A number of the ini file, and the controller's member for it.
-struct NumberKey {
-  const char* key;
-  Range range;
-  Need need;
-  std::optional<double> ControllerSettings::*setting;
-};
-
-// The ranges for a machine are inside those of model::problems_of and of the catalogue of effects,
-// so that messages name the ini file's lines.
-constexpr NumberKey kNumberKeys[] = {
-    {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
-    {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
-    {"motorspacingx", {"mm", 300, 40000}, Need::always, &ControllerSettings::motor_spacing_mm},
-    {"motoroffsety", {"mm", 1, 10000}, Need::always, &ControllerSettings::motor_offset_y_mm},
-    {"chainpitch", {"mm", 1, 50}, Need::always, &ControllerSettings::chain_pitch_mm},
-    {"gearteeth", {"teeth", 3, 100}, Need::always, &ControllerSettings::gear_teeth},
-    {"rotationradius", {"mm", 20, 500}, Need::ring, &ControllerSettings::rotation_radius_mm},
-    {"sledwidth", {"mm", 50, 1500}, Need::brackets, &ControllerSettings::sled_width_mm},
-    {"sledheight", {"mm", 20, 1000}, Need::brackets, &ControllerSettings::sled_height_mm},
-    {"sledcg", {"mm", 5, 1000}, Need::brackets, &ControllerSettings::sled_cg_mm},
-    {"topbeamtilt", {"degrees", -20, 20}, Need::never, &ControllerSettings::top_beam_tilt_deg},
-    {"chainsagcorrection",
-     {"1e-12 / mm^2", -1000, 1000},
-     Need::never,
-     &ControllerSettings::chain_sag_correction},
-    {"leftchaintolerance",
-     {"percent", -5, 5},
-     Need::never,
-     &ControllerSettings::left_chain_tolerance_percent},
-    {"rightchaintolerance",
-     {"percent", -5, 5},
-     Need::never,
-     &ControllerSettings::right_chain_tolerance_percent},
-    {"sledweight", {"N", 1, 2000}, Need::never, &ControllerSettings::sled_weight_n},
-    {"chainelongationfactor",
-     {"1/N", 0, 1e-3},
-     Need::never,
-     &ControllerSettings::chain_elongation_per_n},
-};
-
-/// The numbers of the file by key.
-using SettingValues = std::map<std::string, std::optional<double>>;
 
 /// The unit of a file in which the router is too small for mm.
 std::optional<OtherUnit> other_unit_of(SettingReader& settings) {
@@ -90,22 +41,21 @@ std::optional<OtherUnit> other_unit_of(SettingReader& settings) {
   return other_unit(value);
 }
 
-void place_motors(const SettingValues& numbers, Machine& machine) {
-  const double half_spacing = 0.5 * numbers.at("motorspacingx").value();
-  const double y = 0.5 * machine.bed.height_mm + numbers.at("motoroffsety").value();
-  const double tilt = numbers.at("topbeamtilt").value_or(0.0) * kDegreeRad;
+void place_motors(const ControllerSettings& numbers, Machine& machine) {
+  const double half_spacing = 0.5 * numbers.motor_spacing_mm.value();
+  const double y = 0.5 * machine.bed.height_mm + numbers.motor_offset_y_mm.value();
+  const double tilt = numbers.top_beam_tilt_deg.value_or(0.0) * kDegreeRad;
   // (1)
   machine.motors.left = {-half_spacing * std::cos(tilt), y - half_spacing * std::sin(tilt)};
   machine.motors.right = {half_spacing * std::cos(tilt), y + half_spacing * std::sin(tilt)};
 }
 
-void attach_sled(const SettingValues& numbers, bool has_brackets, Machine& machine) {
+void attach_sled(const ControllerSettings& numbers, bool has_brackets, Machine& machine) {
   if (has_brackets) {
-    machine.attachment = Brackets{numbers.at("sledwidth").value(),
-                                  numbers.at("sledheight").value(),
-                                  numbers.at("sledcg").value()};
+    machine.attachment = model::Brackets{
+        numbers.sled_width_mm.value(), numbers.sled_height_mm.value(), numbers.sled_cg_mm.value()};
   } else {
-    machine.attachment = Ring{numbers.at("rotationradius").value()};
+    machine.attachment = model::Ring{numbers.rotation_radius_mm.value()};
   }
 }
 
@@ -148,16 +98,15 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
 }
 
 /// A tolerance other than 0 is the pitch that the owner measured for this chain.
-void state_pitch(const SettingValues& numbers,
+void state_pitch(const ControllerSettings& numbers,
                  Tolerances tolerances,
                  double more_by_encoder,
                  Machine& machine,
                  Problems& problems) {
   std::vector<std::string> links;
-  for (const auto& [key, side] :
-       {std::pair("leftchaintolerance", "left"), std::pair("rightchaintolerance", "right")}) {
-    const double percent =
-        tolerances == Tolerances::are_pitch ? numbers.at(key).value_or(0.0) : 0.0;
+  for (const auto& [stated, side] : {std::pair(numbers.left_chain_tolerance_percent, "left"),
+                                     std::pair(numbers.right_chain_tolerance_percent, "right")}) {
+    const double percent = tolerances == Tolerances::are_pitch ? stated.value_or(0.0) : 0.0;
     const double elongation = (1.0 + percent / 100.0) * (1.0 + more_by_encoder) - 1.0;
     if (percent == 0.0 && more_by_encoder == 0.0) continue;
     machine.effects.push_back(
@@ -177,16 +126,16 @@ void state_pitch(const SettingValues& numbers,
 }
 
 /// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
-void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
+void weigh(const ControllerSettings& numbers, Machine& machine, Problems& problems) {
   const auto assume = [&problems](std::string what) {
     problems.warn("", "not in the settings: {}", std::move(what));
   };
-  if (const auto weight_n = numbers.at("sledweight")) {
+  if (const auto weight_n = numbers.sled_weight_n) {
     machine.sled.mass_kg = *weight_n / kGroundcontrolGravity_m_per_s2;
   } else {
     assume(fmt::format("the sled's weight; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
   }
-  if (const auto compliance = numbers.at("chainelongationfactor")) {
+  if (const auto compliance = numbers.chain_elongation_per_n) {
     machine.chain.compliance_per_n = *compliance;
   } else {
     // The default elongation of MaslowCNC/Firmware (setting $45).
@@ -222,7 +171,7 @@ class OldReleases {
     return words.front();
   }
   /// For a missing setting; empty if it has always existed.
-  std::optional<double> number(std::string_view key, const SettingValues& others) {
+  std::optional<double> number(std::string_view key, const ControllerSettings& others) {
     const auto assumed = [&](double value) {
       assumed_.push_back(fmt::format("{} {:g}", key, value));
       return value;
@@ -232,7 +181,7 @@ class OldReleases {
     if (key != "motorspacingx") return std::nullopt;
     // Until 2017 it was how far a motor is beyond the bed's side.
     const auto beyond_mm = settings_.find("motoroffsetx", {"mm", 1.0, 10000.0});
-    const auto width_mm = others.at("bedwidth");
+    const auto width_mm = others.bed_width_mm;
     if (!beyond_mm || !width_mm) return std::nullopt;
     return assumed(*width_mm + 2.0 * *beyond_mm);
   }
@@ -249,13 +198,13 @@ class OldReleases {
   std::vector<std::string> assumed_;
 };
 
-SettingValues read_numbers(SettingReader& settings, bool has_brackets, OldReleases& old) {
-  SettingValues numbers;
+ControllerSettings read_numbers(SettingReader& settings, bool has_brackets, OldReleases& old) {
+  ControllerSettings numbers;
   for (const NumberKey& key : kNumberKeys) {
     const bool is_of_other_sled = key.need == (has_brackets ? Need::ring : Need::brackets);
     // Every file contains the settings of the other kind of sled, which have no meaning.
     if (is_of_other_sled) continue;
-    std::optional<double>& number = numbers[key.key];
+    std::optional<double>& number = numbers.*key.setting;
     number = settings.find(key.key, key.range);
     if (key.need == Need::never || settings.look(key.key) != nullptr) continue;
     number = old.number(key.key, numbers);
@@ -295,19 +244,16 @@ void check_reach(double chain_mm,
                std::ceil(longest_mm));
 }
 
-Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_top) {
+Machine machine_of(const ControllerSettings& numbers, bool has_brackets, bool over_top) {
   Machine machine;
-  machine.bed = {numbers.at("bedwidth").value(), numbers.at("bedheight").value()};
+  machine.bed = {numbers.bed_width_mm.value(), numbers.bed_height_mm.value()};
   place_motors(numbers, machine);
-  machine.sprocket.pitch_mm = numbers.at("chainpitch").value();
-  machine.sprocket.teeth = static_cast<int>(numbers.at("gearteeth").value());
+  machine.sprocket.pitch_mm = numbers.chain_pitch_mm.value();
+  machine.sprocket.teeth = static_cast<int>(numbers.gear_teeth.value());
   machine.feed = over_top ? Feed::over_top : Feed::off_bottom;
   attach_sled(numbers, has_brackets, machine);
   machine.controller.kind = model::ControllerKind::maslow_classic;
-  for (const NumberKey& key : kNumberKeys) {
-    const auto value = numbers.find(key.key);
-    if (value != numbers.end()) machine.controller.settings.*key.setting = value->second;
-  }
+  machine.controller.settings = numbers;
   machine.controller.settings.chain_over_sprocket_top = over_top;
   return machine;
 }
@@ -332,8 +278,8 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   const bool has_brackets =
       old.word("kinematicstype", {"Quadrilateral", "Triangular"}) == "Quadrilateral";
   const bool over_top = old.word("chainoversprocket", {"Top", "Bottom"}) == "Top";
-  const SettingValues numbers = read_numbers(settings, has_brackets, old);
-  if (const auto teeth = numbers.at("gearteeth"); teeth && *teeth != std::floor(*teeth)) {
+  const ControllerSettings numbers = read_numbers(settings, has_brackets, old);
+  if (const auto teeth = numbers.gear_teeth; teeth && *teeth != std::floor(*teeth)) {
     problems.add(settings.look("gearteeth")->place,
                  fmt::format("{}", *teeth),
                  ProblemKind::out_of_range,
@@ -345,7 +291,7 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   ReadMachine read;
   read.machine = machine_of(numbers, has_brackets, over_top);
   state_pitch(numbers, tolerances, more_by_encoder_turn, read.machine, problems);
-  read.machine.name = std::filesystem::path(problems.file()).filename().string();
+  read.machine.name = name_without_folders(problems.file());
   old.say();
   weigh(numbers, read.machine, problems);
   check_sag(settings, read.machine, problems);

@@ -4,93 +4,69 @@
 #include <fmt/format.h>
 
 #include "grid/files/belts_record.hpp"
-#include "grid/files/machine_record.hpp"
-#include "grid/files/reading_record.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/ranges.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 auto tape_record() {
-  return Record<Tape>("the tape")
-      .optional("sigma_mm",
-                "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
-                &Tape::sigma_mm,
-                kTapeSigmaMm)
-      .optional("hook_offset_mm",
-                "Amount by which each reading exceeds the distance.",
-                &Tape::tape_zero_offset_mm,
-                kTapeZeroOffsetMm)
-      .optional("hook_sigma_mm",
-                "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
-                &Tape::tape_zero_offset_sigma_mm,
-                kHoleSigmaMm);
+  RECORD(Tape, "the tape")
+  OPTIONAL(sigma_mm,
+           "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
+           kTapeSigmaMm)
+  NAMED(optional,
+        "hook_offset_mm",
+        tape_zero_offset_mm,
+        "Amount by which each reading exceeds the distance.",
+        kTapeZeroOffsetMm)
+  NAMED(optional,
+        "hook_sigma_mm",
+        tape_zero_offset_sigma_mm,
+        "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
+        kHoleSigmaMm);
 }
 
 auto sheet_record() {
-  return Record<SheetSize>("the sheet")
-      .optional("width_mm",
-                "Width of the sheet, for distances to its edges.",
-                &SheetSize::width_mm,
-                {"mm", 100.0, 20000.0})
-      .optional("height_mm", "Height of the sheet.", &SheetSize::height_mm, {"mm", 100.0, 20000.0})
-      .optional("size_sigma_mm",
-                "Uncertainty of its size, 1 sigma.",
-                &SheetSize::size_sigma_mm,
-                {"mm", 0.0, 100.0});
+  RECORD(SheetSize, "the sheet")
+  OPTIONAL(width_mm, "Width of the sheet, for distances to its edges.", {"mm", 100.0, 20000.0})
+  OPTIONAL(height_mm, "Height of the sheet.", {"mm", 100.0, 20000.0})
+  OPTIONAL(size_sigma_mm, "Uncertainty of its size, 1 sigma.", {"mm", 0.0, 100.0});
 }
 
 Record<Hole> hole_record() {
-  return Record<Hole>("a hole")
-      .sparse("name", "Any word; without names the holes are numbered from 0.", &Hole::name)
-      .place(&Hole::commanded,
-             "Commanded x of the hole.",
-             "Commanded y of the hole, up.",
-             kHoleCoordinate);
+  RECORD(Hole, "a hole")
+  SPARSE(name, "Any word; without names the holes are numbered from 0.")
+  FIELD(place,
+        &Hole::commanded,
+        "Commanded x of the hole.",
+        "Commanded y of the hole, up.",
+        kCoordinateMm);
 }
 
 /// A hole by its name or by its number.
-Record<StatedDistance>& end_of(Record<StatedDistance>& record,
-                               const char* key,
-                               const char* meaning,
-                               std::string StatedDistance::*member) {
+Value<std::string> hole_word() {
   static constexpr int kMost = 100000;
-  return record.custom(
-      key,
-      meaning,
-      true,
-      {"a hole's name or number",
-       [] {
-         return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
-       }},
-      [member](const Cursor& at, StatedDistance& distance) {
-        if (at.json().is_number()) {
-          if (const auto value = at.integer(0, kMost)) distance.*member = fmt::format("{}", *value);
-        } else if (const auto word = at.text()) {
-          distance.*member = *word;
-        }
-      },
-      [member](const StatedDistance& distance) { return distance.*member; });
+  return {[](const Cursor& at) -> std::optional<std::string> {
+            if (!at.json().is_number()) return text().read(at);
+            const auto number = integer(0, kMost).read(at);
+            return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+          },
+          [](const std::string& word) { return word; },
+          {"a hole's name or number", [] {
+             return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
+           }}};
 }
 
 auto distance_record() {
-  Record<StatedDistance> distance("a distance");
-  end_of(distance, "from", "A hole's name or number.", &StatedDistance::from);
-  end_of(distance,
-         "to",
-         "A hole's name or number, or an edge: left, right, top, bottom.",
-         &StatedDistance::to);
-  distance
-      .required("distance_mm",
-                "The tape reading between the holes' centres. Null if not measured yet.",
-                &StatedDistance::distance_mm,
-                kTapeDistance)
-      .optional("sigma_mm",
-                "Noise of this reading, if it differs from the tape's.",
-                &StatedDistance::sigma_mm,
-                kTapeSigmaMm)
+  RECORD(StatedDistance, "a distance")
+  REQUIRED(from, "A hole's name or number.", hole_word())
+  REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.", hole_word())
+  REQUIRED(distance_mm,
+           "The tape reading between the holes' centres. Null if not measured yet.",
+           kTapeDistance)
+  OPTIONAL(sigma_mm, "Noise of this reading, if it differs from the tape's.", kTapeSigmaMm)
       .check([](const Cursor& at, StatedDistance& own) { own.is_spoilt = !at.clean(); });
-  return distance;
 }
 
 /// A machine with anchors hangs on belts.
@@ -114,54 +90,45 @@ Json written_stated_machine(const StatedHoles& stated) {
 }  // namespace
 
 const Record<StatedHoles>& holes_record() {
-  static const auto record =
-      Record<StatedHoles>("a set of holes", kHolesFormat)
-          .optional("name", "Name of the set.", &StatedHoles::name)
-          .custom("machine",
-                  "The machine with its settings in force; or machine_file.",
-                  false,
-                  {machine_record().expected().words + ", or one with four belts",
-                   [] {
-                     return Json{{"anyOf",
-                                  {machine_record().expected().schema(),
-                                   belt_machine_record().expected().schema()}}};
-                   }},
-                  read_stated_machine,
-                  written_stated_machine)
-          .sparse("machine_file",
-                  "Path of the machine file, from this file.",
-                  &StatedHoles::machine_file)
-          .optional("tape", "Noise and hook offset of the tape.", &StatedHoles::tape, tape_record())
-          .optional("hole_sigma_mm",
-                    "Distance of a hole from the position that follows from its chains, 1 sigma on "
-                    "each axis.",
-                    &StatedHoles::hole_sigma_mm,
-                    kHoleSigmaMm)
-          .optional("noise_dof",
-                    "Degrees of freedom with which these are known.",
-                    &StatedHoles::noise_dof,
-                    kNoiseDof)
-          .optional("sheet",
-                    "Size of the sheet, for distances to its edges.",
-                    &StatedHoles::sheet,
-                    sheet_record())
-          .sparse("readings",
-                  "What was measured besides the distances.",
-                  &StatedHoles::readings,
-                  reading_record())
-          .required("holes", "The holes as commanded.", &StatedHoles::holes, hole_record())
-          .required("distances",
-                    "The distances between them, and to edges.",
-                    &StatedHoles::lines,
-                    distance_record())
-          .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
-          .check([](const Cursor& at, StatedHoles& stated) {
-            stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
-                                         at.child("tape").has("hook_offset_mm");
-            if ((stated.machine || stated.belt_machine) && !stated.machine_file.empty()) {
-              at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
-            }
-          });
+  static const auto record = [] {
+    RECORD(StatedHoles, "a set of holes", kHolesFormat)
+    OPTIONAL(name, "Name of the set.")
+    FIELD(custom,
+          "machine",
+          "The machine with its settings in force; or machine_file.",
+          false,
+          {machine_record().expected().words + ", or one with four belts",
+           [] {
+             return Json{{"anyOf",
+                          {machine_record().expected().schema(),
+                           belt_machine_record().expected().schema()}}};
+           }},
+          read_stated_machine,
+          written_stated_machine)
+    SPARSE(machine_file, "Path of the machine file, from this file.")
+    OPTIONAL(tape, "Noise and hook offset of the tape.", tape_record())
+    OPTIONAL(hole_sigma_mm,
+             "Distance of a hole from the position that follows from its chains, 1 sigma on "
+             "each axis.",
+             kHoleSigmaMm)
+    OPTIONAL(noise_dof, "Degrees of freedom with which these are known.", kNoiseDof)
+    OPTIONAL(sheet, "Size of the sheet, for distances to its edges.", sheet_record())
+    SPARSE(readings, "What was measured besides the distances.", reading_record())
+    REQUIRED(holes, "The holes as commanded.", hole_record())
+    NAMED(required,
+          "distances",
+          lines,
+          "The distances between them, and to edges.",
+          distance_record())
+        .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+        .check([](const Cursor& at, StatedHoles& stated) {
+          stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
+                                       at.child("tape").has("hook_offset_mm");
+          if ((stated.machine || stated.belt_machine) && !stated.machine_file.empty()) {
+            at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+          }
+        });
+  }();
   return record;
 }
 

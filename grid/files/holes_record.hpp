@@ -61,7 +61,6 @@ void check_holes_together(const MeasuredHoles& set,
                           const HolesPlaces& places,
                           Problems& problems);
 
-inline constexpr Range kHoleCoordinate{"mm", -20000.0, 20000.0};
 inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
 
 struct StatedHoles : MeasuredHoles {

@@ -49,10 +49,6 @@ template <class T, class V>
 struct MemberPath {
   using Type = typename Held<V>::Type;
   static constexpr bool kIsOptional = Held<V>::kIsOptional;
-  [[nodiscard]] V& of(T& object) const {
-    return *reinterpret_cast<V*>(reinterpret_cast<std::byte*>(&object) + offset);
-  }
-  [[nodiscard]] const V& of(const T& object) const { return of(const_cast<T&>(object)); }
   [[nodiscard]] std::shared_ptr<const Codec> codec_for(const Value<Type>& value) const {
     if constexpr (kIsOptional) return optional_codec(value.codec, kOptionalAccess<Type>);
     return value.codec;
@@ -69,10 +65,6 @@ template <class T, class B, class V>
 template <class T, class V>
 [[nodiscard]] MemberPath<T, V> path_in(MemberPath<T, V> member) {
   return member;
-}
-template <class T, class V>
-[[nodiscard]] MemberPath<T, V> path(V T::*member) {
-  return path_in<T>(member);
 }
 template <class T, class M, class V>
 [[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {

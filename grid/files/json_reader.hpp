@@ -17,20 +17,22 @@
 ///   };
 ///
 ///   constexpr Range kCoordinate{"mm", -20000, 20000};
-///   Record<Hole> hole_record() {
-///     return Record<Hole>("a hole")
-///         .required("name", "Its name.", &Hole::name)
-///         .required("x_mm", "Commanded x.", &Hole::x_mm, kCoordinate)
-///         .required("y_mm", "Commanded y, up.", &Hole::y_mm, kCoordinate)
-///         .optional("sigma_mm", "1 sigma on each axis.", &Hole::sigma_mm, Range{"mm", 0, 50});
+///   auto hole_record() {
+///     RECORD(Hole, "a hole")
+///     REQUIRED(name, "Its name.")
+///     REQUIRED(x_mm, "Commanded x.", kCoordinate)
+///     REQUIRED(y_mm, "Commanded y, up.", kCoordinate)
+///     OPTIONAL(sigma_mm, "1 sigma on each axis.", {"mm", 0, 50});
 ///   }
 ///   const Record<Holes>& holes_record() {  // static: each file is read by the same table
-///     static const auto record = Record<Holes>("a chaintrue_holes file", kHolesFormat)
-///         .sparse("name", "Name in messages.", &Holes::name)
-///         .required("holes", "The holes.", &Holes::holes, list(hole_record(), 2))
-///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
-///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
-///         });
+///     static const auto record = [] {
+///       RECORD(Holes, "a chaintrue_holes file", kHolesFormat)
+///       SPARSE(name, "Name in messages.")
+///       REQUIRED(holes, "The holes.", list(hole_record(), 2))
+///           .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
+///             if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
+///           });
+///     }();
 ///     return record;
 ///   }
 ///   Holes parse_holes(const std::string& text, const std::string& file) {
@@ -141,7 +143,7 @@ class RecordTable {
                                                         void (*reset)(void*));
 
 template <class T>
-class Record : public RecordTable {
+class [[nodiscard]] Record : public RecordTable {
   using Text = std::string_view;
   /// Only the member determines the type, so a range or a record may be given for its value.
   template <class M>
@@ -217,7 +219,7 @@ class Record : public RecordTable {
   }
 
   /// A value that is not a member: `set(object, value)` stores a valid one, `get(object)` returns
-  /// it, or nothing if the key is left out.
+  /// it, or nothing if the key is left out; or it returns what is written.
   template <class V, class Set, class Get>
   Record& computed(
       Text key, Text meaning, bool is_required, const Value<V>& value, Set set, Get get) {
@@ -229,9 +231,14 @@ class Record : public RecordTable {
         [value, set](const Cursor& at, T& object) {
           if (auto read = value.read(at); read && at.clean()) set(object, *std::move(read));
         },
-        [value, get](const T& object) {
-          const std::optional<V> own = get(object);
-          return own ? value.write(*own) : kLeftOut;
+        [value, get](const T& object) -> Json {
+          const auto own = get(object);
+          if constexpr (std::is_same_v<decltype(own), const Json>) {
+            return own;
+          } else {
+            const std::optional<V> held = own;
+            return held ? value.write(*held) : kLeftOut;
+          }
         });
   }
 
@@ -240,16 +247,32 @@ class Record : public RecordTable {
     return custom(key, meaning, is_required, Value<T>(object_codec(fields, nullptr)));
   }
 
-  /// A key with a constant value, such as the kind in a variant.
-  Record& constant(Text key, Text meaning, const std::string& word) {
-    const Value<std::string> value = one_of({word});
+  /// A key of the file, not of the object: read and checked, and `written` whatever the object is.
+  template <class V>
+  Record& beside(Text key,
+                 Text meaning,
+                 bool is_required,
+                 const Value<V>& value,
+                 const Json& written = kLeftOut) {
     return custom(
         key,
         meaning,
-        true,
+        is_required,
         value.expected,
         [value](const Cursor& at, T&) { (void)value.read(at); },
-        [word](const T&) { return word; });
+        [written](const T&) { return written; });
+  }
+
+  /// A key with a constant value, such as the kind in a variant.
+  Record& constant(Text key, Text meaning, const std::string& word) {
+    return beside(key, meaning, true, one_of({word}), word);
+  }
+
+  /// The keys that `add(record)` adds.
+  template <class Add>
+  Record& with(const Add& add) {
+    add(*this);
+    return *this;
   }
 
   /// Runs after the fields, even if some were wrong; see Cursor::clean.
@@ -290,12 +313,31 @@ class Record : public RecordTable {
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
+/// A function's table: RECORD begins it, each line that follows adds keys, the last one ends in a
+/// semicolon. A key that has the name of its member is said once; NAMED has both. FIELD is any other
+/// call of a Record, ALSO that of a function that takes the record.
+#define RECORD(type, ...) \
+  using Own = type;       \
+  return Record<Own>(__VA_ARGS__)
+#define REQUIRED(member, meaning, ...) \
+  .required(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define OPTIONAL(member, meaning, ...) \
+  .optional(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define SPARSE(member, meaning, ...) \
+  .sparse(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define NULLABLE(member, meaning, ...) \
+  .nullable(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define NAMED(kind, key, member, meaning, ...) \
+  .kind(key, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define FIELD(call, ...) .call(__VA_ARGS__)
+#define ALSO(add, ...) .with([&](auto& own) { add(own __VA_OPT__(, ) __VA_ARGS__); })
+
 template <class T>
-[[nodiscard]] Value<T> object(const Record<T>& record) {
+Value<T> object(const Record<T>& record) {
   return Value<T>(object_codec(record, [](void* value) { *static_cast<T*>(value) = T{}; }));
 }
 template <class T>
-[[nodiscard]] Value<std::vector<T>> list(const Record<T>& record, std::size_t fewest = 0) {
+Value<std::vector<T>> list(const Record<T>& record, std::size_t fewest = 0) {
   return list(object(record), fewest);
 }
 

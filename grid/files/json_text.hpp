@@ -29,6 +29,14 @@ using Json = nlohmann::ordered_json;
 /// A value on one line, for messages.
 [[nodiscard]] std::string compact_json(const Json& value);
 
+/// A list with what `each` makes of every element.
+template <class Range, class Each>
+[[nodiscard]] Json json_list(const Range& range, const Each& each) {
+  Json list = Json::array();
+  for (const auto& element : range) list.push_back(each(element));
+  return list;
+}
+
 /// `key` as one token of a JSON pointer.
 [[nodiscard]] std::string pointer_token(std::string_view key);
 

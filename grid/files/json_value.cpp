@@ -154,71 +154,70 @@ void Cursor::missing(std::string expected) const {
   report("", ProblemKind::missing, std::move(expected));
 }
 
-std::optional<double> Cursor::number(const Range& range) const {
-  if (json_->is_number() && range.holds(json_->get<double>())) return json_->get<double>();
-  std::string expected = range.expected();
-  ProblemKind kind = json_->is_number() ? ProblemKind::out_of_range : ProblemKind::not_a_number;
-  if (json_->is_string()) {
-    const auto& text = json_->get_ref<const std::string&>();
-    expected += hint_for_text(text);
-    if (looks_like_decimal_comma(text)) kind = ProblemKind::decimal_comma;
-  }
-  expect(std::move(expected), kind);
-  return std::nullopt;
-}
-
-std::optional<int> Cursor::integer(int least, int most) const {
-  if (json_->is_number()) {
-    const double value = json_->get<double>();
-    if (value >= least && value <= most && value == std::floor(value))
-      return static_cast<int>(value);
-  }
-  expect(fmt::format("a whole number from {} to {}", least, most),
-         json_->is_number() ? ProblemKind::out_of_range : ProblemKind::not_a_number);
-  return std::nullopt;
-}
-
-std::optional<std::string> Cursor::text() const {
-  if (json_->is_string()) return json_->get<std::string>();
-  expect("a text");
-  return std::nullopt;
-}
-
-std::optional<bool> Cursor::boolean() const {
-  if (json_->is_boolean()) return json_->get<bool>();
-  expect("true or false");
-  return std::nullopt;
-}
-
 Value<double> number(Range range) {
-  return {[range](const Cursor& at) { return at.number(range); },
+  return {[range](const Cursor& at) -> std::optional<double> {
+            const Json& json = at.json();
+            if (json.is_number() && range.holds(json.get<double>())) return json.get<double>();
+            std::string expected = range.expected();
+            ProblemKind kind =
+                json.is_number() ? ProblemKind::out_of_range : ProblemKind::not_a_number;
+            if (json.is_string()) {
+              const auto& text = json.get_ref<const std::string&>();
+              expected += hint_for_text(text);
+              if (looks_like_decimal_comma(text)) kind = ProblemKind::decimal_comma;
+            }
+            at.expect(std::move(expected), kind);
+            return std::nullopt;
+          },
           // A negative zero would be read back as a zero: the same number, other bytes.
           [](const double& value) { return value + 0.0; },
           {range.expected(), [range] { return number_schema(range); }}};
 }
 
 Value<int> integer(int least, int most) {
-  return {[least, most](const Cursor& at) { return at.integer(least, most); },
+  const std::string expected = fmt::format("a whole number from {} to {}", least, most);
+  return {[=](const Cursor& at) -> std::optional<int> {
+            const bool is_number = at.json().is_number();
+            const double value = is_number ? at.json().get<double>() : 0.0;
+            if (is_number && value >= least && value <= most && value == std::floor(value))
+              return static_cast<int>(value);
+            at.expect(expected, is_number ? ProblemKind::out_of_range : ProblemKind::not_a_number);
+            return std::nullopt;
+          },
           [](const int& value) { return value; },
-          {fmt::format("a whole number from {} to {}", least, most), [least, most] {
+          {expected, [=] {
              return Json{{"type", "integer"}, {"minimum", least}, {"maximum", most}};
            }}};
 }
 
+namespace {
+
+/// A value of the type that `is` tells.
+template <class V>
+Value<V> typed(const std::string& expected, const Json& schema, bool (Json::*is)() const noexcept) {
+  return {[=](const Cursor& at) -> std::optional<V> {
+            if ((at.json().*is)()) return at.json().get<V>();
+            at.expect(expected);
+            return std::nullopt;
+          },
+          [](const V& value) { return value; },
+          {expected, [=] { return schema; }}};
+}
+
+}  // namespace
+
 Value<bool> boolean() {
-  return {[](const Cursor& at) { return at.boolean(); },
-          [](const bool& value) { return value; },
-          {"true or false", [] {
-             return Json{{"type", "boolean"}};
-           }}};
+  return typed<bool>("true or false", {{"type", "boolean"}}, &Json::is_boolean);
 }
 
 Value<std::string> text() {
-  return {[](const Cursor& at) { return at.text(); },
-          [](const std::string& value) { return value; },
-          {"a text", [] {
-             return Json{{"type", "string"}};
-           }}};
+  return typed<std::string>("a text", {{"type", "string"}}, &Json::is_string);
+}
+
+Value<std::uint64_t> seed_number() {
+  return typed<std::uint64_t>("a whole number of at least 0",
+                              {{"type", "integer"}, {"minimum", 0}},
+                              &Json::is_number_unsigned);
 }
 
 Value<std::string> one_of(const std::vector<std::string>& names) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -52,12 +53,6 @@ class Cursor {
   }
   /// Adds a warning, a complete sentence, about this place; reading continues.
   void warn(std::string sentence) const { problems_->warn(pointer(), std::move(sentence)); }
-
-  /// The value if it has the type and range; otherwise reports it and returns nothing.
-  [[nodiscard]] std::optional<double> number(const Range& range) const;
-  [[nodiscard]] std::optional<int> integer(int least, int most) const;
-  [[nodiscard]] std::optional<std::string> text() const;
-  [[nodiscard]] std::optional<bool> boolean() const;
 
  private:
   Cursor(const Json& json, const Cursor* parent, std::string_view key, std::size_t index)
@@ -126,15 +121,17 @@ class FunctionCodec : public Codec {
 };
 
 template <class V>
-struct Value;
-[[nodiscard]] Value<double> number(Range range);
-[[nodiscard]] Value<bool> boolean();
-[[nodiscard]] Value<std::string> text();
+struct [[nodiscard]] Value;
+Value<double> number(Range range);
+Value<bool> boolean();
+Value<std::string> text();
+/// A seed of random numbers.
+Value<std::uint64_t> seed_number();
 
 /// A codec with its type. `expected` may be replaced for a custom field. Ranges and records
 /// (json_reader.hpp) may be given for the values that they describe.
 template <class V>
-struct Value {
+struct [[nodiscard]] Value {
   Value(const Range& range)  // NOLINT: tables name the range alone
       requires std::is_same_v<V, double> : Value(number(range)) {}
   Value(std::string_view unit, double least, double most) requires std::is_same_v<V, double>
@@ -166,9 +163,9 @@ struct Value {
 
 /// A value that sets some members of an object and leaves the others as they are.
 template <class T>
-[[nodiscard]] Value<T> partial(Expected expected,
-                               std::function<void(const Cursor&, T&)> read,
-                               typename FunctionCodec<T>::Write write) {
+Value<T> partial(Expected expected,
+                 std::function<void(const Cursor&, T&)> read,
+                 typename FunctionCodec<T>::Write write) {
   return Value<T>(std::make_shared<FunctionCodec<T>>(
       std::move(expected),
       [own = std::move(read)](const Cursor& at, T& object) {
@@ -181,7 +178,7 @@ template <class T>
 /// A value that is kept as another type: `to` makes it of what was read without a problem, `back`
 /// is its inverse.
 template <class V, class From, class To, class Back>
-[[nodiscard]] Value<V> converted(const Value<From>& value, To to, Back back) {
+Value<V> converted(const Value<From>& value, To to, Back back) {
   return {[value, to](const Cursor& at) -> std::optional<V> {
             const std::optional<From> read = value.read(at);
             if (!read || !at.clean()) return std::nullopt;
@@ -194,11 +191,11 @@ template <class V, class From, class To, class Back>
 /// Largest number of points, distances and positions.
 inline constexpr int kMostNumbered = 1000000;
 /// The number of a point, a distance or a position, from 0; or a count.
-[[nodiscard]] Value<std::size_t> index_number(int least = 0, int most = kMostNumbered);
+Value<std::size_t> index_number(int least = 0, int most = kMostNumbered);
 
 /// The expectation that follows from the type: a text, true or false, an index, a list of these.
 template <class V>
-[[nodiscard]] Value<V> value_of_type() {
+Value<V> value_of_type() {
   if constexpr (std::is_same_v<V, bool>) {
     return boolean();
   } else if constexpr (std::is_same_v<V, std::size_t>) {
@@ -216,8 +213,8 @@ template <class V>
 /// Schema of a number in its range.
 [[nodiscard]] Json number_schema(const Range& range);
 
-[[nodiscard]] Value<int> integer(int least, int most);
-[[nodiscard]] Value<std::string> one_of(const std::vector<std::string>& names);
+Value<int> integer(int least, int most);
+Value<std::string> one_of(const std::vector<std::string>& names);
 
 /// A named value of a trivially copyable type of at most eight bytes.
 struct NamedBytes {
@@ -229,7 +226,7 @@ struct NamedBytes {
 
 /// A value by its name, such as an enum.
 template <class E>
-[[nodiscard]] Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
+Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
   static_assert(std::is_trivially_copyable_v<E> && sizeof(E) <= sizeof(NamedBytes::value));
   std::vector<NamedBytes> all;
   for (const auto& [name, value] : names)
@@ -239,20 +236,20 @@ template <class E>
 
 /// As above, of a list or a table of grid/files/names.hpp.
 template <class E, std::size_t n>
-[[nodiscard]] Value<E> choice(const std::pair<std::string_view, E> (&names)[n]) {
+Value<E> choice(const std::pair<std::string_view, E> (&names)[n]) {
   return choice_of<E>({std::begin(names), std::end(names)});
 }
 
 /// The same, with names from `name(value)`.
 template <class E>
-[[nodiscard]] Value<E> by_name(const std::vector<E>& values) {
+Value<E> by_name(const std::vector<E>& values) {
   std::vector<std::pair<std::string, E>> names;
   for (const E value : values) names.emplace_back(name(value), value);
   return choice_of<E>(names);
 }
 /// The values of an enum up to this one.
 template <class E>
-[[nodiscard]] Value<E> by_name_to(E last, E first = E{}) {
+Value<E> by_name_to(E last, E first = E{}) {
   std::vector<E> values;
   for (int i = static_cast<int>(first); i <= static_cast<int>(last); ++i)
     values.push_back(static_cast<E>(i));
@@ -283,10 +280,10 @@ inline constexpr ListAccess kListAccess = {
 
 /// `fewest` elements at least.
 template <class V>
-[[nodiscard]] Value<std::vector<V>> list(const Value<V>& element, std::size_t fewest = 0) {
+Value<std::vector<V>> list(const Value<V>& element, std::size_t fewest = 0) {
   return Value<std::vector<V>>(list_codec(element.codec, kListAccess<V>, fewest));
 }
-[[nodiscard]] inline Value<std::vector<double>> list(const Range& range, std::size_t fewest = 0) {
+inline Value<std::vector<double>> list(const Range& range, std::size_t fewest = 0) {
   return list(number(range), fewest);
 }
 
@@ -297,6 +294,6 @@ template <class V>
 [[nodiscard]] Json dictionary_schema(const Json& element);
 
 /// Numbers whose keys are not known in advance.
-[[nodiscard]] Value<std::map<std::string, double>> dictionary(const Value<double>& element);
+Value<std::map<std::string, double>> dictionary(const Value<double>& element);
 
 }  // namespace chaintrue::grid::files

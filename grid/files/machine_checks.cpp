@@ -13,12 +13,10 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::BedPoint;
-
 /// Links of the chains that are sold for this part at 3.5 kN; motors stall before.
 constexpr double kMostPullN = 2000.0;
 
-std::array<std::pair<std::string_view, BedPoint>, 5> outermost_of(const model::Bed& bed) {
+std::array<std::pair<std::string_view, model::BedPoint>, 5> outermost_of(const model::Bed& bed) {
   const double x = 0.5 * bed.width_mm, y = 0.5 * bed.height_mm;
   return {{{"middle of the upper edge", {0.0, y}},
            {"upper left corner", {-x, y}},

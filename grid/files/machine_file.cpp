@@ -5,160 +5,128 @@
 
 #include <cmath>
 
-#include "grid/files/effect_record.hpp"
+#include "grid/files/groundcontrol_settings.hpp"
 #include "grid/files/machine_checks.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Bed;
 using model::Brackets;
-using model::Chain;
-using model::ChainLengths;
-using model::Controller;
-using model::ControllerSettings;
-using model::Feed;
-using model::Frame;
 using model::Machine;
 using model::MotorPosition;
-using model::PerSide;
 using model::Ring;
-using model::Sled;
-using model::Sprocket;
 using model::Uncertainty;
 
 auto bed_record() {
-  return Record<Bed>("a bed")
-      .required(
-          "width_mm", "Width of the sheet that the machine can cut.", &Bed::width_mm, kMillimetres)
-      .required("height_mm",
-                "Height of that sheet. The origin of all coordinates is "
-                "its middle, x to the right, y up.",
-                &Bed::height_mm,
-                kMillimetres);
+  RECORD(model::Bed, "a bed")
+  REQUIRED(width_mm, "Width of the sheet that the machine can cut.", kMillimetres)
+  REQUIRED(height_mm,
+           "Height of that sheet. The origin of all coordinates is "
+           "its middle, x to the right, y up.",
+           kMillimetres);
 }
 
 auto motor_record() {
-  return Record<MotorPosition>("a motor's position")
-      .place("x of the motor's axis, from the middle of the bed to the right.",
-             "y of the motor's axis, up from the middle of the bed.",
-             kMillimetres);
+  RECORD(MotorPosition, "a motor's position")
+  FIELD(place,
+        "x of the motor's axis, from the middle of the bed to the right.",
+        "y of the motor's axis, up from the middle of the bed.",
+        kMillimetres);
 }
 
 auto motors_record() {
-  using Motors = PerSide<MotorPosition>;
-  return Record<Motors>("the motors")
-      .required("left", "The left motor.", &Motors::left, motor_record())
-      .required("right", "The right motor.", &Motors::right, motor_record());
+  RECORD(model::PerSide<MotorPosition>, "the motors")
+  REQUIRED(left, "The left motor.", motor_record())
+  REQUIRED(right, "The right motor.", motor_record());
 }
 
 auto sprocket_record() {
-  return Record<Sprocket>("a sprocket")
-      .required("teeth", "Number of teeth of a sprocket.", &Sprocket::teeth, integer(1, 1000))
-      .required("pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, kMillimetres)
-      .optional("radius_mm",
-                "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
-                &Sprocket::radius_mm,
-                kMillimetres);
+  RECORD(model::Sprocket, "a sprocket")
+  REQUIRED(teeth, "Number of teeth of a sprocket.", integer(1, 1000))
+  REQUIRED(pitch_mm, "The chain's pitch, one link.", kMillimetres)
+  OPTIONAL(radius_mm,
+           "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
+           kMillimetres);
 }
 
 auto ring_record() {
-  return Record<Ring>("a ring")
-      .constant("kind", "A ring or a linkage: both chains point at the bit.", "ring")
-      .required("radius_mm",
-                "From the bit to a chain's end; 0 if the chains end at the bit, otherwise at "
-                "least 20 mm.",
-                &Ring::radius_mm,
-                kMillimetres);
+  RECORD(Ring, "a ring")
+  FIELD(constant, "kind", "A ring or a linkage: both chains point at the bit.", "ring")
+  REQUIRED(radius_mm,
+           "From the bit to a chain's end; 0 if the chains end at the bit, otherwise at "
+           "least 20 mm.",
+           kMillimetres);
 }
 
 auto brackets_record() {
-  return Record<Brackets>("a pair of brackets")
-      .constant("kind", "The chains end at two brackets of the sled.", "brackets")
-      .required("spacing_mm",
-                "Distance between the ends of the two chains.",
-                &Brackets::spacing_mm,
-                kMillimetres)
-      .required("height_mm",
-                "Height of the chains' ends above the bit.",
-                &Brackets::height_mm,
-                kMillimetres)
-      .required("cg_below_bit_mm",
-                "Distance of the sled's centre of gravity below the bit.",
-                &Brackets::cg_below_bit_mm,
-                kMillimetres);
+  RECORD(Brackets, "a pair of brackets")
+  FIELD(constant, "kind", "The chains end at two brackets of the sled.", "brackets")
+  REQUIRED(spacing_mm, "Distance between the ends of the two chains.", kMillimetres)
+  REQUIRED(height_mm, "Height of the chains' ends above the bit.", kMillimetres)
+  REQUIRED(
+      cg_below_bit_mm, "Distance of the sled's centre of gravity below the bit.", kMillimetres);
 }
 
-void read_attachment(const Cursor& at, Machine& machine) {
-  if (!at.json().is_object()) return at.expect(R"(an object with "kind": "ring" or "brackets")");
-  const Cursor kind = at.child("kind");
-  if (!at.has("kind")) return kind.missing(R"("ring" or "brackets")");
-  const auto name = one_of({"ring", "brackets"}).read(kind);
-  if (name == "ring") {
-    if (const auto ring = ring_record().read(at)) machine.attachment = *ring;
-  } else if (name) {
-    if (const auto brackets = brackets_record().read(at)) machine.attachment = *brackets;
+using Attachment = decltype(Machine::attachment);
+
+std::optional<Attachment> read_attachment(const Cursor& at) {
+  if (!at.json().is_object()) {
+    at.expect(R"(an object with "kind": "ring" or "brackets")");
+  } else if (!at.has("kind")) {
+    at.child("kind").missing(R"("ring" or "brackets")");
+  } else if (const auto kind = one_of({"ring", "brackets"}).read(at.child("kind"))) {
+    if (*kind == "ring") return ring_record().read(at);
+    return brackets_record().read(at);
   }
+  return std::nullopt;
 }
 
-Json write_attachment(const Machine& machine) {
-  if (const auto* ring = std::get_if<Ring>(&machine.attachment)) return ring_record().write(*ring);
-  return brackets_record().write(std::get<Brackets>(machine.attachment));
+Json write_attachment(const Attachment& attachment) {
+  if (const auto* ring = std::get_if<Ring>(&attachment)) return ring_record().write(*ring);
+  return brackets_record().write(std::get<Brackets>(attachment));
+}
+
+Value<Attachment> attachment_value() {
+  return {read_attachment,
+          write_attachment,
+          {"a ring or brackets", [] {
+             return Json{{"oneOf", {ring_record().schema(), brackets_record().schema()}}};
+           }}};
 }
 
 auto chain_record() {
-  return Record<Chain>("a chain")
-      .required(
-          "mass_kg_per_m", "Mass of a metre of chain.", &Chain::mass_kg_per_m, number_in("kg/m"))
-      .required("compliance_per_n",
-                "Strain of the chain per newton; 0: none.",
-                &Chain::compliance_per_n,
-                number_in("1/N"));
+  RECORD(model::Chain, "a chain")
+  REQUIRED(mass_kg_per_m, "Mass of a metre of chain.", number_in("kg/m"))
+  REQUIRED(compliance_per_n, "Strain of the chain per newton; 0: none.", number_in("1/N"));
 }
 
 auto chain_zero_record() {
-  return Record<ChainLengths>("the chain zeros")
-      .optional("left_mm",
-                "Added to every reading of the left chain.",
-                &ChainLengths::left_mm,
-                kMillimetres)
-      .optional("right_mm",
-                "Added to every reading of the right chain.",
-                &ChainLengths::right_mm,
-                kMillimetres);
+  RECORD(model::ChainLengths, "the chain zeros")
+  OPTIONAL(left_mm, "Added to every reading of the left chain.", kMillimetres)
+  OPTIONAL(right_mm, "Added to every reading of the right chain.", kMillimetres);
 }
 
 auto sled_record() {
-  return Record<Sled>("a sled").required(
-      "mass_kg", "Mass of the sled with its router.", &Sled::mass_kg, number_in("kg"));
+  RECORD(model::Sled, "a sled")
+  REQUIRED(mass_kg, "Mass of the sled with its router.", number_in("kg"));
 }
 
 auto frame_record() {
-  return Record<Frame>("a frame").required("tilt_from_vertical_deg",
-                                           "Angle by which the frame leans back; 0: upright.",
-                                           &Frame::tilt_from_vertical_deg,
-                                           number_in("degrees"));
+  RECORD(model::Frame, "a frame")
+  REQUIRED(tilt_from_vertical_deg,
+           "Angle by which the frame leans back; 0: upright.",
+           number_in("degrees"));
 }
 
 auto uncertainty_record() {
-  return Record<Uncertainty>("the uncertainties")
-      .optional("motor_position_mm",
-                "Uncertainty of each coordinate of a motor, 1 sigma.",
-                &Uncertainty::motor_position_mm,
-                kMillimetres)
-      .optional("chain_zero_mm",
-                "Uncertainty of each chain's zero, 1 sigma.",
-                &Uncertainty::chain_zero_mm,
-                kMillimetres)
-      .optional("ring_radius_mm",
-                "Uncertainty of the ring's radius, 1 sigma.",
-                &Uncertainty::ring_radius_mm,
-                kMillimetres)
+  RECORD(Uncertainty, "the uncertainties")
+  OPTIONAL(motor_position_mm, "Uncertainty of each coordinate of a motor, 1 sigma.", kMillimetres)
+  OPTIONAL(chain_zero_mm, "Uncertainty of each chain's zero, 1 sigma.", kMillimetres)
+  OPTIONAL(ring_radius_mm, "Uncertainty of the ring's radius, 1 sigma.", kMillimetres)
       .check([](const Cursor& at, Uncertainty&) {
         for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
           const Cursor value = at.child(key);
@@ -168,16 +136,13 @@ auto uncertainty_record() {
 }
 
 auto controller_record() {
-  return Record<Controller>("a controller")
-      .required("kind",
-                "The firmware, whose kinematics converts commands into chain lengths. ideal "
-                "uses the machine file as it is.",
-                &Controller::kind,
-                choice(kControllerKinds))
-      .optional("settings",
-                "The firmware's settings, by GroundControl's names.",
-                &Controller::settings,
-                controller_settings_record());
+  RECORD(model::Controller, "a controller")
+  REQUIRED(kind,
+           "The firmware, whose kinematics converts commands into chain lengths. ideal "
+           "uses the machine file as it is.",
+           choice(kControllerKinds))
+  OPTIONAL(
+      settings, "The firmware's settings, by GroundControl's names.", controller_settings_record());
 }
 
 /// No hanging router has a bed and motors below this in mm; in inches and centimetres all are below
@@ -246,131 +211,62 @@ void refuse_emptiness(const std::string& text, Problems& problems) {
 }  // namespace
 
 Record<ControllerSettings> controller_settings_record() {
-  using Settings = ControllerSettings;
-  return Record<Settings>("the controller's settings, named as GroundControl names them,")
-      .optional("bedwidth", "GroundControl's bedwidth.", &Settings::bed_width_mm, kMillimetres)
-      .optional("bedheight", "GroundControl's bedheight.", &Settings::bed_height_mm, kMillimetres)
-      .optional("motorspacingx",
-                "Distance between the motors' axes.",
-                &Settings::motor_spacing_mm,
-                kMillimetres)
-      .optional("motoroffsety",
-                "Height of the motors above the bed's upper edge.",
-                &Settings::motor_offset_y_mm,
-                kMillimetres)
-      .optional("rotationradius",
-                "Distance from the bit to a chain's end.",
-                &Settings::rotation_radius_mm,
-                kMillimetres)
-      .optional("sledwidth",
-                "For a sled on brackets: distance between the brackets.",
-                &Settings::sled_width_mm,
-                kMillimetres)
-      .optional("sledheight",
-                "For a sled on brackets: height of the brackets above the bit.",
-                &Settings::sled_height_mm,
-                kMillimetres)
-      .optional("sledcg",
-                "For a sled on brackets: distance of its centre of gravity below the bit.",
-                &Settings::sled_cg_mm,
-                kMillimetres)
-      .optional("chainsagcorrection",
-                "Factor of the firmware's parabola for the chain's sag.",
-                &Settings::chain_sag_correction,
-                number_in("1e-12 / mm^2"))
-      .optional("leftchaintolerance",
-                "Excess length of the left chain's links.",
-                &Settings::left_chain_tolerance_percent,
-                number_in("percent"))
-      .optional("rightchaintolerance",
-                "Excess length of the right chain's links.",
-                &Settings::right_chain_tolerance_percent,
-                number_in("percent"))
-      .optional(
-          "topbeamtilt", "Tilt of the beam.", &Settings::top_beam_tilt_deg, number_in("degrees"))
-      .optional("chainpitch", "Length of a link.", &Settings::chain_pitch_mm, kMillimetres)
-      .optional(
-          "gearteeth", "Number of teeth of a sprocket.", &Settings::gear_teeth, number_in("teeth"))
-      .optional("chainoversprocket",
-                "Side of the sprocket over which the chain leaves.",
-                &Settings::chain_over_sprocket_top,
-                choice<bool>({{"Top", true}, {"Bottom", false}}))
-      .optional("sledweight", "Weight of the sled.", &Settings::sled_weight_n, number_in("N"))
-      .optional("chainelongationfactor",
-                "Stretch of the chain per newton.",
-                &Settings::chain_elongation_per_n,
-                number_in("1/N"));
+  Record<ControllerSettings> settings(
+      "the controller's settings, named as GroundControl names them,");
+  for (const NumberKey& own : kNumberKeys) {
+    // The only setting in words has its place among them.
+    if (own.setting == &ControllerSettings::sled_weight_n) {
+      settings.optional("chainoversprocket",
+                        "Side of the sprocket over which the chain leaves.",
+                        &ControllerSettings::chain_over_sprocket_top,
+                        choice<bool>({{"Top", true}, {"Bottom", false}}));
+    }
+    settings.optional(own.key, own.meaning, own.setting, number_in(own.range.unit));
+  }
+  return settings;
 }
 
 Record<model::AppliedEffect> effect_record() {
   using model::AppliedEffect;
-  return Record<AppliedEffect>("an effect")
-      .required("effect", "Its name, as chaintrue effects lists them.", &AppliedEffect::effect)
-      .sparse("side",
-              "Where it acts; none for effects without a side.",
-              &AppliedEffect::side,
-              one_of({"left", "right", "both", "x", "y"}))
-      .required("parameters",
-                "Its size and other parameters, by name.",
-                &AppliedEffect::parameters,
-                dictionary(number_in("")))
-      .optional("probability",
-                "Its probability, if a diagnosis added it; otherwise absent.",
-                &AppliedEffect::probability,
-                kShare);
+  RECORD(AppliedEffect, "an effect")
+  REQUIRED(effect, "Its name, as chaintrue effects lists them.")
+  SPARSE(side,
+         "Where it acts; none for effects without a side.",
+         one_of({"left", "right", "both", "x", "y"}))
+  REQUIRED(parameters, "Its size and other parameters, by name.", dictionary(number_in("")))
+  OPTIONAL(probability, "Its probability, if a diagnosis added it; otherwise absent.", kShare);
 }
 
 const Record<Machine>& machine_record() {
-  static const auto record =
-      Record<Machine>("a machine", kMachineFormat)
-          .optional("name", "Name of the machine in messages and pages.", &Machine::name)
-          .required("bed", "The sheet that the machine can cut.", &Machine::bed, bed_record())
-          .required("motors", "Positions of the motors' axes.", &Machine::motors, motors_record())
-          .required("sprocket", "The sprocket on a motor.", &Machine::sprocket, sprocket_record())
-          .required("feed",
-                    "Side of the sprocket over which the chain leaves.",
-                    &Machine::feed,
-                    choice(kFeeds))
-          .custom("attachment",
-                  "How the chains are attached to the sled.",
-                  true,
-                  {"a ring or brackets",
-                   [] {
-                     return Json{{"oneOf", {ring_record().schema(), brackets_record().schema()}}};
-                   }},
-                  read_attachment,
-                  write_attachment)
-          .required("chain", "The chain's mass and stretch.", &Machine::chain, chain_record())
-          .optional("chain_zero",
-                    "Added to every reading of a chain.",
-                    &Machine::chain_zero,
-                    chain_zero_record())
-          .required("sled", "The sled.", &Machine::sled, sled_record())
-          .required("frame", "The frame that carries everything.", &Machine::frame, frame_record())
-          .optional("uncertainty",
-                    "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
-                    "are assumed and reported.",
-                    &Machine::uncertainty,
-                    uncertainty_record())
-          .sparse(
-              "controller",
-              "The firmware and its settings; default: an ideal one that uses the machine file as "
-              "it is.",
-              &Machine::controller,
-              controller_record())
-          .custom(
-              "declared_effects",
-              "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
-              "file.",
-              false,
-              declared_expected(),
-              [](const Cursor& at, Machine& machine) { read_declared(at, machine.declared); },
-              [](const Machine& machine) { return write_declared(machine.declared); })
-          .sparse("effects",
-                  "Known causes of error, part of the machine.",
-                  &Machine::effects,
-                  effect_record())
-          .check(check_machine);
+  static const auto record = [] {
+    RECORD(Machine, "a machine", kMachineFormat)
+    OPTIONAL(name, "Name of the machine in messages and pages.")
+    REQUIRED(bed, "The sheet that the machine can cut.", bed_record())
+    REQUIRED(motors, "Positions of the motors' axes.", motors_record())
+    REQUIRED(sprocket, "The sprocket on a motor.", sprocket_record())
+    REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
+    REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
+    REQUIRED(chain, "The chain's mass and stretch.", chain_record())
+    OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())
+    REQUIRED(sled, "The sled.", sled_record())
+    REQUIRED(frame, "The frame that carries everything.", frame_record())
+    OPTIONAL(uncertainty,
+             "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
+             "are assumed and reported.",
+             uncertainty_record())
+    SPARSE(controller,
+           "The firmware and its settings; default: an ideal one that uses the machine file as "
+           "it is.",
+           controller_record())
+    NAMED(sparse,
+          "declared_effects",
+          declared,
+          "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
+          "file.",
+          declared_value())
+    SPARSE(effects, "Known causes of error, part of the machine.", effect_record())
+        .check(check_machine);
+  }();
   return record;
 }
 

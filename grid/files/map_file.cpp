@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/files/map_surface_record.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -21,44 +20,34 @@ constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kSigmaFactor{"", 1.0, 1e6};
 
 auto mark_record() {
-  return Record<model::MarkPoint>("a point").place(
-      "x of the tool. Null in a list that is not filled in yet.",
-      "y of the tool, up. Null in a list that is not filled in yet.",
-      kPlaceMm);
+  RECORD(model::MarkPoint, "a point")
+  FIELD(place,
+        "x of the tool. Null in a list that is not filled in yet.",
+        "y of the tool, up. Null in a list that is not filled in yet.",
+        kPlaceMm);
 }
 
 auto outside_record() {
-  return Record<OutsideRule>("behaviour outside the measured part")
-      .required(
-          "way", "Behaviour outside the measured part.", &OutsideRule::way, choice(kOutsideWays))
-      .optional("fade_width_mm",
-                "For fade: distance over which the correction goes to zero.",
-                &OutsideRule::fade_width_mm,
-                kFadeWidthMm);
+  RECORD(OutsideRule, "behaviour outside the measured part")
+  REQUIRED(way, "Behaviour outside the measured part.", choice(kOutsideWays))
+  OPTIONAL(
+      fade_width_mm, "For fade: distance over which the correction goes to zero.", kFadeWidthMm);
 }
 
 auto map_noise_record() {
-  return Record<MapNoise>("the noise used by the fit")
-      .required(
-          "length_mm", "Noise of a chain reading, 1 sigma.", &MapNoise::length_mm, kNotNegative)
-      .required("position_mm",
-                "Noise of a position, 1 sigma on each axis.",
-                &MapNoise::position_mm,
-                kNotNegative)
-      .required(
-          "source", "Where it comes from.", &MapNoise::source, by_name_to(NoiseSource::assumed))
-      .required("factor_found",
-                "Scatter of the points relative to this noise.",
-                &MapNoise::factor_found,
-                kNotNegative);
+  RECORD(MapNoise, "the noise used by the fit")
+  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNotNegative)
+  REQUIRED(position_mm, "Noise of a position, 1 sigma on each axis.", kNotNegative)
+  REQUIRED(source, "Where it comes from.", by_name_to(NoiseSource::assumed))
+  REQUIRED(factor_found, "Scatter of the points relative to this noise.", kNotNegative);
 }
 
 auto held_out_record() {
-  return Record<HeldOutError>("errors of points left out")
-      .required("chain", "In a chain's length.", &HeldOutError::chain, error_summary_record())
-      .required("tool", "At the tool.", &HeldOutError::tool, error_summary_record())
-      .required("tool_x_rms_mm", "At the tool, in x.", &HeldOutError::tool_x_rms_mm, kNotNegative)
-      .required("tool_y_rms_mm", "At the tool, in y.", &HeldOutError::tool_y_rms_mm, kNotNegative);
+  RECORD(HeldOutError, "errors of points left out")
+  REQUIRED(chain, "In a chain's length.", error_summary_record())
+  REQUIRED(tool, "At the tool.", error_summary_record())
+  REQUIRED(tool_x_rms_mm, "At the tool, in x.", kNotNegative)
+  REQUIRED(tool_y_rms_mm, "At the tool, in y.", kNotNegative);
 }
 
 constexpr const char* kRelativeTo =
@@ -67,104 +56,65 @@ constexpr const char* kRelativeTo =
     "to the true machine";
 
 auto accuracy_record() {
-  return Record<MapAccuracy>("the map's own error")
-      .constant("relative_to", "What the errors are relative to.", kRelativeTo)
-      .required("leave_one_out",
-                "Errors of points predicted by a map without them, one at a time.",
-                &MapAccuracy::leave_one_out,
-                held_out_record())
-      .required("blocked",
-                "The same with a block of the bed left out at a time.",
-                &MapAccuracy::blocked,
-                held_out_record())
-      .required("expected_tool",
-                "Expected error of the tool over the measured part.",
-                &MapAccuracy::expected_tool,
-                error_summary_record())
-      .required("expected_worst_at",
-                "Where it is largest.",
-                &MapAccuracy::expected_worst_at,
-                mark_record());
-}
-
-auto setting_record() {
-  return Record<SettingResult>("a setting")
-      .required("setting", "Name of the setting.", &SettingResult::setting, setting_word())
-      .required("stated", "Value in the machine file.", &SettingResult::stated, kAnyNumber)
-      .required("calibrated", "Calibrated value.", &SettingResult::calibrated, kAnyNumber)
-      .required("sigma",
-                "Uncertainty of the calibrated value, 1 sigma.",
-                &SettingResult::sigma,
-                kNotNegative)
-      .required(
-          "off", "True if it differs by more than its uncertainty allows.", &SettingResult::off);
+  RECORD(MapAccuracy, "the map's own error")
+  FIELD(constant, "relative_to", "What the errors are relative to.", kRelativeTo)
+  REQUIRED(leave_one_out,
+           "Errors of points predicted by a map without them, one at a time.",
+           held_out_record())
+  REQUIRED(blocked, "The same with a block of the bed left out at a time.", held_out_record())
+  REQUIRED(
+      expected_tool, "Expected error of the tool over the measured part.", error_summary_record())
+  REQUIRED(expected_worst_at, "Where it is largest.", mark_record());
 }
 
 auto map_point_record() {
   const auto pair = pair_of_numbers(kErrorMm);
-  return Record<MapPoint>("a measured point")
-      .place(&MapPoint::mark,
-             "x, to the right of the bed's middle, or of the marks' origin.",
-             "y, up from the bed's middle, or from the marks' origin.",
-             kPlaceMm)
-      .required("left_mm",
-                "The left chain.",
-                path(&MapPoint::lengths, &model::ChainLengths::left_mm),
-                kPlaceMm)
-      .required("right_mm",
-                "The right chain.",
-                path(&MapPoint::lengths, &model::ChainLengths::right_mm),
-                kPlaceMm)
-      .required("bad", "True if the fit left it out.", &MapPoint::bad)
-      .required("distance_sigmas",
-                "Its distance from the prediction of the others, in sigmas.",
-                &MapPoint::distance_sigmas,
-                kNotNegative)
-      .required("as_stated_mm",
-                "Measured position minus that of the machine file.",
-                &MapPoint::as_stated_mm,
-                pair)
-      .required("sheet_placed_mm",
-                "The same after the best placement of the sheet.",
-                &MapPoint::sheet_placed_mm,
-                pair)
-      .required("mapped_mm", "The same with the map.", &MapPoint::mapped_mm, pair)
-      .required(
-          "left_out_mm", "The same with a map made without it.", &MapPoint::left_out_mm, pair);
+  RECORD(MapPoint, "a measured point")
+  FIELD(place,
+        &MapPoint::mark,
+        "x, to the right of the bed's middle, or of the marks' origin.",
+        "y, up from the bed's middle, or from the marks' origin.",
+        kPlaceMm)
+  FIELD(required,
+        "left_mm",
+        "The left chain.",
+        path(&MapPoint::lengths, &model::ChainLengths::left_mm),
+        kPlaceMm)
+  FIELD(required,
+        "right_mm",
+        "The right chain.",
+        path(&MapPoint::lengths, &model::ChainLengths::right_mm),
+        kPlaceMm)
+  REQUIRED(bad, "True if the fit left it out.")
+  REQUIRED(
+      distance_sigmas, "Its distance from the prediction of the others, in sigmas.", kNotNegative)
+  REQUIRED(as_stated_mm, "Measured position minus that of the machine file.", pair)
+  REQUIRED(sheet_placed_mm, "The same after the best placement of the sheet.", pair)
+  REQUIRED(mapped_mm, "The same with the map.", pair)
+  REQUIRED(left_out_mm, "The same with a map made without it.", pair);
 }
 
 auto mirror_record() {
-  return Record<MirrorTest>("comparison of mirrored chains")
-      .required("points", "Number of points whose mirror image was measured.", &MirrorTest::points)
-      .required("difference",
-                "Right chain minus left chain at the mirrored place.",
-                &MirrorTest::difference,
-                error_summary_record())
-      .required("mean_mm", "Mean difference.", &MirrorTest::mean_mm, kErrorMm)
-      .required(
-          "worst_at", "Where the difference is largest.", &MirrorTest::worst_at, mark_record())
-      .required("worst_signed_mm", "The difference there.", &MirrorTest::worst_signed_mm, kErrorMm)
-      .required("holds", "True if noise alone explains the difference.", &MirrorTest::holds)
-      .required("sentence", "The same in words.", &MirrorTest::sentence);
+  RECORD(MirrorTest, "comparison of mirrored chains")
+  REQUIRED(points, "Number of points whose mirror image was measured.")
+  REQUIRED(
+      difference, "Right chain minus left chain at the mirrored place.", error_summary_record())
+  REQUIRED(mean_mm, "Mean difference.", kErrorMm)
+  REQUIRED(worst_at, "Where the difference is largest.", mark_record())
+  REQUIRED(worst_signed_mm, "The difference there.", kErrorMm)
+  REQUIRED(holds, "True if noise alone explains the difference.")
+  REQUIRED(sentence, "The same in words.");
 }
 
 auto distances_record() {
   const auto count = integer(0, kMostNumbered);
-  return Record<DistancesUsed>("the distances between holes")
-      .required("used", "Number of distances used.", &DistancesUsed::used, count)
-      .required("set_aside", "Number of distances left out.", &DistancesUsed::rejected, count)
-      .required("tape_sigma_mm",
-                "Noise of the tape in the fit, 1 sigma.",
-                &DistancesUsed::tape_sigma_mm,
-                kNotNegative)
-      .required("left_out_all",
-                "Errors of distances predicted by a map without them.",
-                &DistancesUsed::left_out_all,
-                error_summary_record())
-      .required("left_out_good",
-                "The same without the rejected distances.",
-                &DistancesUsed::left_out_good,
-                error_summary_record());
+  RECORD(DistancesUsed, "the distances between holes")
+  REQUIRED(used, "Number of distances used.", count)
+  NAMED(required, "set_aside", rejected, "Number of distances left out.", count)
+  REQUIRED(tape_sigma_mm, "Noise of the tape in the fit, 1 sigma.", kNotNegative)
+  REQUIRED(
+      left_out_all, "Errors of distances predicted by a map without them.", error_summary_record())
+  REQUIRED(left_out_good, "The same without the rejected distances.", error_summary_record());
 }
 
 void check_map(const Cursor& at, MapContents& map) {
@@ -185,59 +135,45 @@ void check_map(const Cursor& at, MapContents& map) {
   }
 }
 
-auto make_map_record() {
-  Record<MapContents> record("a chaintrue_map file", kMapFormat);
-  record.optional("name", "Name of the grid.", &MapContents::name);
-  add_surface(record);
-  record
-      .required(
-          "domain_mm", "Where the map can be evaluated.", &MapContents::domain, rectangle_record())
-      .required("hull",
-                "Corners of the measured part, counter-clockwise.",
-                &MapContents::hull,
-                list(mark_record(), 3))
-      .required("edge_mm",
-                "Places closer to the hull than this count as on its edge.",
-                &MapContents::edge_mm,
-                kNotNegative)
-      .sparse("outside", "Behaviour outside the hull.", &MapContents::outside, outside_record())
-      .sparse("sigma_factor_beyond",
-              "Factor on sigmas outside the measured part if causes were found, so that the larger "
-              "error "
-              "of the plain map applies there.",
-              &MapContents::sigma_factor_beyond,
-              kSigmaFactor)
-      .required("noise", "The noise used by the fit.", &MapContents::noise, map_noise_record())
-      .required("accuracy", "The map's own error.", &MapContents::accuracy, accuracy_record())
-      .required("settings",
-                "The machine's numbers, as in its file and calibrated.",
-                &MapContents::settings,
-                setting_record())
-      .required("points",
-                "The points that the map was made from.",
-                &MapContents::points,
-                map_point_record())
-      .optional("mirror",
-                "Whether one chain's surface is the other's, mirrored.",
-                &MapContents::mirror,
-                mirror_record())
-      .optional("distances",
-                "For a map from holes and a tape.",
-                &MapContents::distances,
-                distances_record())
-      .required("notes", "Notes for the reader, in sentences.", &MapContents::notes);
-  add_content_hash(add_made_by_key(record), "Hash of everything else; an edited map is refused.")
-      .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
-      .check(check_map);
-  return record;
-}
-
 const Record<MapContents>& map_record() {
-  static const Record<MapContents> record = make_map_record();
+  static const auto record = [] {
+    RECORD(MapContents, "a chaintrue_map file", kMapFormat)
+    OPTIONAL(name, "Name of the grid.")
+    ALSO(add_surface)
+    NAMED(required, "domain_mm", domain, "Where the map can be evaluated.", rectangle_record())
+    REQUIRED(hull, "Corners of the measured part, counter-clockwise.", list(mark_record(), 3))
+    REQUIRED(edge_mm, "Places closer to the hull than this count as on its edge.", kNotNegative)
+    SPARSE(outside, "Behaviour outside the hull.", outside_record())
+    SPARSE(sigma_factor_beyond,
+           "Factor on sigmas outside the measured part if causes were found, so that the larger "
+           "error "
+           "of the plain map applies there.",
+           kSigmaFactor)
+    REQUIRED(noise, "The noise used by the fit.", map_noise_record())
+    REQUIRED(accuracy, "The map's own error.", accuracy_record())
+    REQUIRED(settings, "The machine's numbers, as in its file and calibrated.", setting_record())
+    REQUIRED(points, "The points that the map was made from.", map_point_record())
+    OPTIONAL(mirror, "Whether one chain's surface is the other's, mirrored.", mirror_record())
+    OPTIONAL(distances, "For a map from holes and a tape.", distances_record())
+    REQUIRED(notes, "Notes for the reader, in sentences.")
+    ALSO(add_made_by_key)
+    ALSO(add_content_hash, "Hash of everything else; an edited map is refused.")
+        .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
+        .check(check_map);
+  }();
   return record;
 }
 
 }  // namespace
+
+Record<SettingResult> setting_record() {
+  RECORD(SettingResult, "a setting")
+  REQUIRED(setting, "Name of the setting.", setting_word())
+  REQUIRED(stated, "Value in the machine file.", kAnyNumber)
+  REQUIRED(calibrated, "Calibrated value.", kAnyNumber)
+  REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
+  REQUIRED(off, "True if it differs by more than its uncertainty allows.");
+}
 
 CompensationMap parse_map(const std::string& text, const std::string& file) {
   return CompensationMap(read_document(map_record(), text, file));

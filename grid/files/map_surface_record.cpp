@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/files/map_surface_record.hpp"
+#include "grid/files/records.hpp"
 
 #include <fmt/format.h>
 
@@ -7,23 +7,21 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 
 Record<interp::Rectangle> rectangle_record() {
-  return Record<interp::Rectangle>("a rectangle in mm")
-      .required("x_min", "Left edge.", &interp::Rectangle::x_min, kPlaceMm)
-      .required("x_max", "Right edge.", &interp::Rectangle::x_max, kPlaceMm)
-      .required("y_min", "Lower edge.", &interp::Rectangle::y_min, kPlaceMm)
-      .required("y_max", "Upper edge.", &interp::Rectangle::y_max, kPlaceMm)
-      .check([](const Cursor& at, interp::Rectangle& r) {
-        if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
-          at.expect("a rectangle whose maxima exceed its minima");
-        }
-      });
+  RECORD(interp::Rectangle, "a rectangle in mm")
+  REQUIRED(x_min, "Left edge.", kPlaceMm)
+  REQUIRED(x_max, "Right edge.", kPlaceMm)
+  REQUIRED(y_min, "Lower edge.", kPlaceMm)
+  REQUIRED(y_max, "Upper edge.", kPlaceMm).check([](const Cursor& at, interp::Rectangle& r) {
+    if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
+      at.expect("a rectangle whose maxima exceed its minima");
+    }
+  });
 }
 
 namespace {
@@ -52,42 +50,40 @@ struct ModelPart {
 using model::PerSide;
 
 auto sheet_placement_record() {
-  return Record<model::SheetPlacement>("a sheet's placement")
-      .place(
-          "x of the marks' origin on the bed.", "y of the marks' origin on the bed, up.", kPlaceMm)
-      .required("rotation_rad",
-                "Rotation of the marks, counter-clockwise.",
-                &model::SheetPlacement::rotation_rad,
-                {"rad", -7.0, 7.0});
+  RECORD(model::SheetPlacement, "a sheet's placement")
+  FIELD(place,
+        "x of the marks' origin on the bed.",
+        "y of the marks' origin on the bed, up.",
+        kPlaceMm)
+  REQUIRED(rotation_rad, "Rotation of the marks, counter-clockwise.", {"rad", -7.0, 7.0});
 }
 
 auto spline_record() {
-  return Record<SplinePart>("a residual surface")
-      .required("rectangle_mm",
-                "Where the splines are defined.",
-                &SplinePart::rectangle,
-                rectangle_record())
-      .required(
-          "x_intervals", "Equal intervals along x.", &SplinePart::x_intervals, integer(1, 1000))
-      .required(
-          "y_intervals", "Equal intervals along y.", &SplinePart::y_intervals, integer(1, 1000))
-      .required("scale_left",
-                "Correction of the left chain per mm of length.",
-                path(&SplinePart::scale, &PerSide<double>::left),
-                {"", -0.1, 0.1})
-      .required("scale_right",
-                "Correction of the right chain per mm of length.",
-                path(&SplinePart::scale, &PerSide<double>::right),
-                {"", -0.1, 0.1})
-      .required("coefficients_left_mm",
-                "Coefficients of cubic B-splines for the left chain, y varying fastest: "
-                "(x_intervals + 3) (y_intervals + 3) values.",
-                path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::left),
-                vector_of_numbers())
-      .required("coefficients_right_mm",
-                "Coefficients for the right chain, in the same order.",
-                path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::right),
-                vector_of_numbers())
+  RECORD(SplinePart, "a residual surface")
+  NAMED(required, "rectangle_mm", rectangle, "Where the splines are defined.", rectangle_record())
+  REQUIRED(x_intervals, "Equal intervals along x.", integer(1, 1000))
+  REQUIRED(y_intervals, "Equal intervals along y.", integer(1, 1000))
+  FIELD(required,
+        "scale_left",
+        "Correction of the left chain per mm of length.",
+        path(&SplinePart::scale, &PerSide<double>::left),
+        {"", -0.1, 0.1})
+  FIELD(required,
+        "scale_right",
+        "Correction of the right chain per mm of length.",
+        path(&SplinePart::scale, &PerSide<double>::right),
+        {"", -0.1, 0.1})
+  FIELD(required,
+        "coefficients_left_mm",
+        "Coefficients of cubic B-splines for the left chain, y varying fastest: "
+        "(x_intervals + 3) (y_intervals + 3) values.",
+        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::left),
+        vector_of_numbers())
+  FIELD(required,
+        "coefficients_right_mm",
+        "Coefficients for the right chain, in the same order.",
+        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::right),
+        vector_of_numbers())
       .check([](const Cursor& at, SplinePart& part) {
         if (!at.clean()) return;
         const Eigen::Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
@@ -113,15 +109,15 @@ void check_model_part(const Cursor& at, ModelPart& part) {
 }
 
 auto axis_ends_record() {
-  return Record<interp::AxisEnds>("the conditions at both ends of an axis")
-      .required("low", "At the smaller end.", &interp::AxisEnds::low, choice(kEndConditions))
-      .required("high", "At the larger end.", &interp::AxisEnds::high, choice(kEndConditions));
+  RECORD(interp::AxisEnds, "the conditions at both ends of an axis")
+  REQUIRED(low, "At the smaller end.", choice(kEndConditions))
+  REQUIRED(high, "At the larger end.", choice(kEndConditions));
 }
 
 auto ends_record() {
-  return Record<interp::TensorEnds>("the conditions at the edges")
-      .required("x", "Along x.", &interp::TensorEnds::x, axis_ends_record())
-      .required("y", "Along y.", &interp::TensorEnds::y, axis_ends_record());
+  RECORD(interp::TensorEnds, "the conditions at the edges")
+  REQUIRED(x, "Along x.", axis_ends_record())
+  REQUIRED(y, "Along y.", axis_ends_record());
 }
 
 bool rises(const Numbers& values) {
@@ -174,17 +170,10 @@ void node_keys(Record<Surface>& record, model::PerSide<Eigen::MatrixXd> Surface:
 constexpr const char* kBetweenNodes = "Error of the splines between nodes, 1 sigma.";
 
 auto lattice_record() {
-  Record<LatticeResidual> lattice("splines through the residuals at every node");
-  node_keys(lattice, &LatticeResidual::values_mm);
-  return lattice
-      .required("doubt_mm",
-                "Uncertainty of the value at each node.",
-                &LatticeResidual::doubt_mm,
-                matrix_of_numbers(kNotNegative, 2))
-      .required("interpolation_sigma_mm",
-                kBetweenNodes,
-                &LatticeResidual::interpolation_sigma_mm,
-                kNotNegative)
+  RECORD(LatticeResidual, "splines through the residuals at every node")
+  ALSO(node_keys, &LatticeResidual::values_mm)
+  REQUIRED(doubt_mm, "Uncertainty of the value at each node.", matrix_of_numbers(kNotNegative, 2))
+  REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
       .check([](const Cursor& at, LatticeResidual& own) {
         check_nodes(at,
                     own,
@@ -197,39 +186,30 @@ auto lattice_record() {
 double seven_digits(double value) { return number_of(fmt::format("{:.7g}", value)).value(); }
 
 auto model_part_record() {
-  return Record<ModelPart>("a surface on a machine")
-      .required("machine", "The calibrated machine.", &ModelPart::machine, machine_record())
-      .required(
-          "sheet", "Placement of the marks' sheet.", &ModelPart::sheet, sheet_placement_record())
-      .required("unknown_settings",
-                "The settings that were calibrated, in the order of the covariance.",
-                &ModelPart::settings,
-                list(setting_word()))
-      .required("residual",
-                "Correction added to the machine's lengths.",
-                &ModelPart::residual,
-                spline_record())
-      .required("covariance_factor",
-                "Triangular root of the covariance of settings, scales and coefficients; lower "
-                "triangle, row by row.",
-                &ModelPart::covariance_factor,
-                list(list(kAnyNumber, 1)))
-      .optional("lattice",
-                "For a full grid of marks: splines through the residuals at every node.",
-                &ModelPart::lattice,
-                lattice_record())
+  RECORD(ModelPart, "a surface on a machine")
+  REQUIRED(machine, "The calibrated machine.", machine_record())
+  REQUIRED(sheet, "Placement of the marks' sheet.", sheet_placement_record())
+  NAMED(required,
+        "unknown_settings",
+        settings,
+        "The settings that were calibrated, in the order of the covariance.",
+        list(setting_word()))
+  REQUIRED(residual, "Correction added to the machine's lengths.", spline_record())
+  REQUIRED(covariance_factor,
+           "Triangular root of the covariance of settings, scales and coefficients; lower "
+           "triangle, row by row.",
+           list(list(kAnyNumber, 1)))
+  OPTIONAL(lattice,
+           "For a full grid of marks: splines through the residuals at every node.",
+           lattice_record())
       .check(check_model_part);
 }
 
 auto direct_surface_record() {
-  Record<DirectSurface> direct("splines through the lengths");
-  node_keys(direct, &DirectSurface::lengths_mm);
-  return direct
-      .required("ends", "End conditions of the splines.", &DirectSurface::ends, ends_record())
-      .required("interpolation_sigma_mm",
-                kBetweenNodes,
-                &DirectSurface::interpolation_sigma_mm,
-                kNotNegative)
+  RECORD(DirectSurface, "splines through the lengths")
+  ALSO(node_keys, &DirectSurface::lengths_mm)
+  REQUIRED(ends, "End conditions of the splines.", ends_record())
+  REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
       .check([](const Cursor& at, DirectSurface& own) {
         check_nodes(
             at, own, {{"left_mm", &own.lengths_mm.left}, {"right_mm", &own.lengths_mm.right}});

@@ -28,7 +28,7 @@ class Defines {
       const std::size_t first = ++number;
       for (std::string next; trimmed(line).ends_with('\\') && std::getline(lines, next); ++number)
         line.replace(line.rfind('\\'), std::string::npos, next);
-      const std::string place = fmt::format("line {}", first);
+      const std::string place = line_place(first);
       take(line, place);
       if (branches_.size() <= kMostConditions && defined_.size() <= kMostNames) continue;
       problems_.add(place,

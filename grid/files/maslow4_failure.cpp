@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include "grid/belts/commands_check.hpp"
 #include "grid/containers.hpp"
@@ -130,41 +132,34 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
           : "an anchor that is farther than in the settings, or an arm that catches,");
 }
 
-std::string_view by_kind(StopKind kind) {
-  switch (kind) {
-    case StopKind::readings_disagree:
-    case StopKind::gave_up_reading:
-      return " The readings at one place did not agree. Possible causes: a slack belt, a belt that "
-             "catches, or an encoder that loses turns. Watch the four belts at that place: each "
-             "must be taut, and its spool must not turn while it is read.";
-    case StopKind::imbalance:
-      return " The machine gives up if one belt's misfit is twice another's, which good readings "
-             "at six places can produce by chance. The belts may be fine: start it again, or use "
-             "the readings so far.";
-    case StopKind::not_converged:
-      return " The machine's solver stalled, which shows little about the readings. Possible "
-             "causes: a frame far from the set size, belts at the wrong anchors, or chance. Tape "
-             "the frame, enter its size in the settings and start again.";
-    case StopKind::low_fitness:
-      return " By the machine's criterion the readings contradict each other. Possible causes: "
-             "belts at the wrong anchors, a slack belt at some place, an encoder that lost turns, "
-             "or arms that are swapped. Make sure that each belt goes to its own anchor (tl, tr, "
-             "bl, br) and that all are taut.";
-    case StopKind::centre_off:
-      return " The first place is not where the settings put it. Possible causes: settings of "
-             "another frame, belts at the wrong anchors, or belts that were not retracted before "
-             "they were extended. Retract all, extend all, tape the frame and enter its size.";
-    case StopKind::went_back:
-      return " The machine went back to \"Belts Extended\" without a message: it was stopped, "
-             "its power failed for a moment, or it lost the connection. Start again.";
-    case StopKind::other_error:
-      return " Read the machine's message there, and start again.";
-    case StopKind::log_ends:
-      return " Either the run was stopped there or the text was cut off when it was copied: paste "
-             "it again from beginning to end, or continue measuring.";
-  }
-  return "";
-}
+constexpr std::string_view kReadingsDisagree =
+    " The readings at one place did not agree. Possible causes: a slack belt, a belt that "
+    "catches, or an encoder that loses turns. Watch the four belts at that place: each "
+    "must be taut, and its spool must not turn while it is read.";
+
+/// What happened and what to do, for each kind in their order.
+constexpr std::string_view kByKind[] = {
+    kReadingsDisagree,
+    kReadingsDisagree,
+    " The machine gives up if one belt's misfit is twice another's, which good readings "
+    "at six places can produce by chance. The belts may be fine: start it again, or use "
+    "the readings so far.",
+    " The machine's solver stalled, which shows little about the readings. Possible "
+    "causes: a frame far from the set size, belts at the wrong anchors, or chance. Tape "
+    "the frame, enter its size in the settings and start again.",
+    " By the machine's criterion the readings contradict each other. Possible causes: "
+    "belts at the wrong anchors, a slack belt at some place, an encoder that lost turns, "
+    "or arms that are swapped. Make sure that each belt goes to its own anchor (tl, tr, "
+    "bl, br) and that all are taut.",
+    " The first place is not where the settings put it. Possible causes: settings of "
+    "another frame, belts at the wrong anchors, or belts that were not retracted before "
+    "they were extended. Retract all, extend all, tape the frame and enter its size.",
+    " The machine went back to \"Belts Extended\" without a message: it was stopped, "
+    "its power failed for a moment, or it lost the connection. Start again.",
+    " Read the machine's message there, and start again.",
+    " Either the run was stopped there or the text was cut off when it was copied: paste "
+    "it again from beginning to end, or continue measuring."};
+static_assert(std::size(kByKind) == static_cast<std::size_t>(StopKind::log_ends) + 1);
 
 }  // namespace
 
@@ -215,7 +210,7 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   text += ".";
   const std::string found =
       shown_by_readings(stopped, belts.machine.belt_turn_mm) + shown_by_commands(belts);
-  text += found.empty() ? std::string(by_kind(stopped.kind)) : found;
+  text += found.empty() ? std::string(kByKind[static_cast<std::size_t>(stopped.kind)]) : found;
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {
     text +=

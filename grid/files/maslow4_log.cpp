@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 
 #include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
 #include "grid/files/maslow4_places.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/sources.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -89,13 +89,13 @@ namespace {
 void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
   if (log.refused) {
     problems.explain(
-        line_words(log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
+        line_place(log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
     return;
   }
   if (log.stopped) {
     MeasuredBelts none;
     none.machine = machine;
-    problems.add(line_words(log.stopped->line),
+    problems.add(line_place(log.stopped->line),
                  log.stopped->said.empty() ? "the log's end" : log.stopped->said,
                  ProblemKind::missing,
                  "a list of readings, CLBM:[...]. " + words_of(*log.stopped, none));
@@ -138,7 +138,7 @@ void check_all(MeasuredBelts& belts,
                Problems& problems) {
   const BeltPlaces places{
       "the readings",
-      [&lines](std::size_t index, std::string_view) { return line_words(lines[index]); },
+      [&lines](std::size_t index, std::string_view) { return line_place(lines[index]); },
       "the settings"};
   leave_out_copies(belts, lines, problems);
   check_belt_points(belts, places, problems);
@@ -160,7 +160,7 @@ Maslow4Import parse_maslow4(const std::string& text,
   // A run cannot be judged with an impossible machine.
   problems.throw_if_any();
   if (log.refused && !log.runs.empty()) {
-    problems.warn(line_words(log.refused->line), words_of(*log.refused));
+    problems.warn(line_place(log.refused->line), words_of(*log.refused));
   }
   const std::vector<ScannedRun> runs = runs_of(log, result.belts.machine, problems);
   if (runs.empty()) report_nothing(log, result.belts.machine, problems);
@@ -169,7 +169,7 @@ Maslow4Import parse_maslow4(const std::string& text,
   check_choice(options, result.runs, problems);
   problems.throw_if_any();
   MeasuredBelts& belts = result.belts;
-  belts.name = std::filesystem::path(file).filename().string();
+  belts.name = name_without_folders(file);
   const auto& [run, points] = options.part;
   result.taken = run ? as_size(*run - 1) : runs.size() - 1;
   const PointRange wanted = points.value_or(result.runs[result.taken].points);
@@ -188,7 +188,7 @@ Maslow4Import parse_maslow4(const std::string& text,
                   "list continues, paste it again from beginning to end");
   }
   if (log.first_passed_over) {
-    problems.warn(line_words(*log.first_passed_over),
+    problems.warn(line_place(*log.first_passed_over),
                   "ignored: this line and others like it contain no reading, place, pull or fit");
   }
   check_all(belts, places.lines, result, problems);

@@ -11,20 +11,18 @@
 #include "grid/belts/two_frames.hpp"
 #include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
+#include "grid/files/measured_entries.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-using model::Belt;
-using model::kBelts;
 
 /// Medians of single readings; empty if a belt has none or they disagree.
 std::optional<model::PerBelt<double>> agreed(
     const model::PerBelt<std::vector<double>>& readings_mm) {
   constexpr double kAgreeMm = 10.0;
   model::PerBelt<double> lengths_mm;
-  for (const Belt belt : kBelts) {
+  for (const model::Belt belt : model::kBelts) {
     const auto& own = readings_mm[belt];
     if (own.empty()) return std::nullopt;
     const auto [least, most] = minmax_element(own);
@@ -74,7 +72,7 @@ void rebuild_from_singles(ScannedRun& run, Problems& problems) {
     rebuilt.push_back(waypoint);
   }
   if (rebuilt.empty()) return;
-  problems.warn(line_words(run.first_line),
+  problems.warn(line_place(run.first_line),
                 "{} of the run's places {} taken from single readings, because no list in the "
                 "log has {}: waypoint{} {}",
                 rebuilt.size(),
@@ -101,19 +99,16 @@ void leave_out(const std::vector<LeftOutPlace>& places,
   for (const LeftOutPlace& own : places) {
     is_out[own.index] = true;
     left_out.push_back({problems.file(),
-                        line_words(lines[own.index]),
+                        line_place(lines[own.index]),
                         fmt::format("this reading is left out: {}", own.why)});
   }
   warn_of(left_out, rest, problems);
-  std::vector<BeltPoint> kept;
-  std::vector<std::size_t> kept_lines;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (is_out[i]) continue;
-    kept.push_back(std::move(belts.points[i]));
-    kept_lines.push_back(lines[i]);
+    if (!is_out[i]) kept.push_back(i);
   }
-  belts.points = std::move(kept);
-  lines = std::move(kept_lines);
+  keep_only(kept, belts.points);
+  keep_only(kept, lines);
 }
 
 /// Runs with places in two frames are split.
@@ -145,7 +140,7 @@ void part_frames(const model::BeltMachine& machine,
     run.points.erase(from, run.points.end());
     run.fit.reset();
     problems.warn(
-        line_words(other.first_line),
+        line_place(other.first_line),
         "from here on the readings are from another frame; they are treated as a second run");
     parted.push_back(std::move(run));
     parted.push_back(std::move(other));
@@ -202,7 +197,7 @@ void report_unreadable(const ScannedRun& run,
   }
   warn_of(left_out, "further readings are damaged and left out", problems);
   if (run.list_is_short && !run.commanded.empty()) {
-    problems.warn(line_words(run.points[within.first].line),
+    problems.warn(line_place(run.points[within.first].line),
                   "the list has fewer readings than measured places, and which are missing is "
                   "unknown, so the commanded places are left out");
   }

@@ -4,8 +4,6 @@
 /// lines. Private to grid/files.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -21,10 +19,6 @@ struct PlacesOfLog {
   std::vector<BeltPoint> points;
   std::vector<std::size_t> lines;  ///< of each point
 };
-
-[[nodiscard]] inline std::string line_words(std::size_t line) {
-  return fmt::format("line {}", line);
-}
 
 /// The runs with places, each of one frame.
 [[nodiscard]] std::vector<ScannedRun> runs_of(ScannedLog& log,

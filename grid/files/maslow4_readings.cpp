@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/files/belts_record.hpp"
 #include "grid/files/maslow4_scan.hpp"
 #include "grid/files/maslow4_text.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/ranges.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -91,8 +91,8 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
       continue;
     }
     known[*belt] = true;
-    const auto value = checked_number(
-        unquoted(part.substr(colon + 1)), place, name(*belt), kBeltLengthMm, problems);
+    const auto value =
+        checked_number(unquoted(part.substr(colon + 1)), place, name(*belt), kLengthMm, problems);
     if (value) lengths_mm[*belt] = *value;
   }
   // Objects of other programs.

@@ -5,15 +5,14 @@
 #include <array>
 
 #include "grid/containers.hpp"
-#include "grid/files/belts_record.hpp"
 #include "grid/files/maslow4_text.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/ranges.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 using model::Belt;
-using model::kBelts;
 using Singles = model::PerBelt<std::vector<double>>;
 
 /// Unreadable entries match anything.
@@ -217,7 +216,7 @@ class Scanner {
     bool is_reading = false;
     for (const auto& [label, belt] : kLabels) {
       const auto value = number_after(line, label);
-      if (!value || !kBeltLengthMm.holds(*value)) continue;
+      if (!value || !kLengthMm.holds(*value)) continue;
       is_reading = true;
       loose_[belt].push_back(*value);
       attempt_[belt].push_back(*value);

@@ -13,7 +13,6 @@ namespace chaintrue::grid::files {
 namespace {
 
 using diagnosis::Cause;
-using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 using model::BeltMachine;
 
@@ -105,7 +104,7 @@ Maslow4Settings write_maslow4_settings(const BeltsFit& fit) {
   return settings;
 }
 
-Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
+Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found) {
   if (!found.belts) throw precondition("settings of four belts from a diagnosis of none");
   const BeltMachine& machine = found.belts->machine;
   Maslow4Settings settings = anchors_of(machine);
@@ -116,10 +115,8 @@ Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
         "Several causes are possible; the anchors are for the most probable one. First find out "
         "which one acts; the diagnosis proposes measurements.");
   }
-  add_scale(machine,
-            found.belts->scale,
-            "no distance was taped, or none fits the causes",
-            settings);
+  add_scale(
+      machine, found.belts->scale, "no distance was taped, or none fits the causes", settings);
   return settings;
 }
 

@@ -31,12 +31,18 @@ void fetch_machine(std::optional<model::Machine>& machine,
                    const MeasuredOptions& options,
                    Problems& problems);
 
-/// The other entries are dropped; places are then those of what is kept.
+/// The other entries are dropped.
+template <class T>
+void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& entries) {
+  std::vector<T> own;
+  for (const std::size_t i : kept) own.push_back(std::move(entries[i]));
+  entries = std::move(own);
+}
+
+/// As above; places are then those of what is kept.
 template <class T>
 void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& entries, PlaceOf& place_of) {
-  std::vector<T> others;
-  for (const std::size_t i : kept) others.push_back(std::move(entries[i]));
-  entries = std::move(others);
+  keep_only(kept, entries);
   place_of = [kept, of = std::move(place_of)](std::size_t index, std::string_view field) {
     return of(kept[index], field);
   };

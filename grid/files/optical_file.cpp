@@ -5,12 +5,12 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 
 #include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/grid_checks.hpp"
 #include "grid/files/ranges.hpp"
+#include "grid/files/sources.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -145,7 +145,7 @@ ReadOptical parse_optical(const std::string& text,
   if (options.order) number_visits(stated);
   ReadOptical read;
   read.squares = kRows * kColumns;
-  read.grid.name = std::filesystem::path(file).filename().string();
+  read.grid.name = name_without_folders(file);
   read.grid.machine = options.machine;
   read.grid.sheet = SheetUncertainty{};
   const PointPlaces places{"the visited squares",

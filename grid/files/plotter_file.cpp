@@ -3,19 +3,18 @@
 
 #include <fmt/format.h>
 
-#include "grid/files/plotter_record.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 auto found_setting_record() {
-  return Record<FoundSetting>("an estimated setting")
-      .required("value", "Its value.", &FoundSetting::value, kMillimetres)
-      .required("sigma", "Its uncertainty, 1 sigma.", &FoundSetting::sigma, kSigmaMm);
+  RECORD(FoundSetting, "an estimated setting")
+  REQUIRED(value, "Its value.", kMillimetres)
+  REQUIRED(sigma, "Its uncertainty, 1 sigma.", kSigmaMm);
 }
 
 void check_correlations(const Cursor& at, FoundPlotter& found) {
@@ -45,33 +44,21 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
 }
 
 auto found_plotter_record() {
-  using Found = FoundPlotter;
   const auto setting = found_setting_record();
-  return Record<Found>("settings estimated from a drawing")
-      .required("pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting)
-      .required(
-          "pin_rise_mm", "Height of the right pin above the left.", &Found::pin_rise_mm, setting)
-      .required("zero_left_mm",
-                "Excess of the controller's length of the left cord.",
-                &Found::zero_left_mm,
-                setting)
-      .required("zero_right_mm",
-                "Excess of the controller's length of the right cord.",
-                &Found::zero_right_mm,
-                setting)
-      .required("scale_left_mm_per_m",
-                "Excess of the controller's length per metre of the left cord.",
-                &Found::scale_left_mm_per_m,
-                setting)
-      .required("scale_right_mm_per_m",
-                "Excess of the controller's length per metre of the right cord.",
-                &Found::scale_right_mm_per_m,
-                setting)
-      .required("correlations",
-                "Correlations of each of these six, in this order, with those after it: 15 "
-                "numbers, used for the expected error of compensated drawings.",
-                &Found::correlations,
-                list({"", -1.0, 1.0}))
+  RECORD(FoundPlotter, "settings estimated from a drawing")
+  REQUIRED(pin_spacing_mm, "Distance between the pins.", setting)
+  REQUIRED(pin_rise_mm, "Height of the right pin above the left.", setting)
+  REQUIRED(zero_left_mm, "Excess of the controller's length of the left cord.", setting)
+  REQUIRED(zero_right_mm, "Excess of the controller's length of the right cord.", setting)
+  REQUIRED(
+      scale_left_mm_per_m, "Excess of the controller's length per metre of the left cord.", setting)
+  REQUIRED(scale_right_mm_per_m,
+           "Excess of the controller's length per metre of the right cord.",
+           setting)
+  REQUIRED(correlations,
+           "Correlations of each of these six, in this order, with those after it: 15 "
+           "numbers, used for the expected error of compensated drawings.",
+           list({"", -1.0, 1.0}))
       .check(check_correlations);
 }
 
@@ -87,18 +74,11 @@ void check_found(const Cursor& at, KnownPlotter& plotter) {
 
 const Record<KnownPlotter>& plotter_record() {
   static const auto record = [] {
-    Record<KnownPlotter> plotter("a V-plotter", kPlotterFormat);
-    plotter
-        .required("set",
-                  "The plotter with its controller's settings.",
-                  &KnownPlotter::set,
-                  set_plotter_record())
-        .optional("found",
-                  "Results of a test drawing; absent before one was measured.",
-                  &KnownPlotter::found,
-                  found_plotter_record());
-    add_made_by_key(plotter).check(check_found);
-    return plotter;
+    RECORD(KnownPlotter, "a V-plotter", kPlotterFormat)
+    REQUIRED(set, "The plotter with its controller's settings.", set_plotter_record())
+    OPTIONAL(
+        found, "Results of a test drawing; absent before one was measured.", found_plotter_record())
+    ALSO(add_made_by_key).check(check_found);
   }();
   return record;
 }

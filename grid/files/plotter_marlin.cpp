@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "grid/files/marlin_defines.hpp"
+#include "grid/files/ranges.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-using model::PlotterFirmware;
 using model::PlotterMachine;
 
 /// The words of the last line of such a code: "L-325.00" of M665 as M665/L.
@@ -28,8 +28,7 @@ void add_code(const std::string& text, const std::string& code, SettingTexts& te
     if (at == std::string::npos) continue;
     std::istringstream words(line.substr(at + code.size()));
     for (std::string word; words >> word && word[0] != ';';) {
-      if (word.size() > 1)
-        texts[code + "/" + word[0]] = {word.substr(1), fmt::format("line {}", line_number)};
+      if (word.size() > 1) texts[code + "/" + word[0]] = {word.substr(1), line_place(line_number)};
     }
   }
 }
@@ -41,10 +40,10 @@ struct MarlinArea {
 };
 
 MarlinArea logged_area(SettingReader& settings) {
-  return {needed(settings, "M665/L", kOnTheWall),
-          needed(settings, "M665/R", kOnTheWall),
-          needed(settings, "M665/T", kOnTheWall),
-          needed(settings, "M665/B", kOnTheWall),
+  return {needed(settings, "M665/L", kCoordinateMm),
+          needed(settings, "M665/R", kCoordinateMm),
+          needed(settings, "M665/T", kCoordinateMm),
+          needed(settings, "M665/B", kCoordinateMm),
           {},
           {}};
 }
@@ -65,19 +64,19 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
   MarlinArea area;
   bool is_assumed = false;
   const auto ends = [&](const std::string& axis, double& least, double& most) {
-    const auto from = settings.find(axis + "_MIN_POS", kOnTheWall);
-    const auto to = settings.find(axis + "_MAX_POS", kOnTheWall);
+    const auto from = settings.find(axis + "_MIN_POS", kCoordinateMm);
+    const auto to = settings.find(axis + "_MAX_POS", kCoordinateMm);
     const std::string size_name = axis + "_BED_SIZE";
-    const auto size =
-        from && to ? settings.find(size_name, kOnTheWall) : settings.need(size_name, kOnTheWall);
+    const auto size = from && to ? settings.find(size_name, kCoordinateMm)
+                                 : settings.need(size_name, kCoordinateMm);
     is_assumed = is_assumed || !from || !to;
     least = from.value_or(-0.5 * size.value_or(0.0));
     most = to.value_or(least + size.value_or(0.0));
   };
   ends("X", area.left, area.right);
   ends("Y", area.bottom, area.top);
-  area.home_x = settings.find("MANUAL_X_HOME_POS", kOnTheWall);
-  area.home_y = settings.find("MANUAL_Y_HOME_POS", kOnTheWall);
+  area.home_x = settings.find("MANUAL_X_HOME_POS", kCoordinateMm);
+  area.home_y = settings.find("MANUAL_Y_HOME_POS", kCoordinateMm);
   if (is_assumed) {
     problems.warn("",
                   "the settings lack some of X_MIN_POS, X_MAX_POS, Y_MIN_POS and Y_MAX_POS. "
@@ -184,14 +183,15 @@ SetPlotter plotter_of_marlin(const std::string& text, Problems& problems) {
   }
   SettingReader settings(std::move(texts), problems);
   const MarlinArea area = is_log ? logged_area(settings) : defined_area(settings, problems);
-  const double belt = needed(settings, is_log ? "M665/H" : "POLARGRAPH_MAX_BELT_LEN", kOnTheWall);
+  const double belt =
+      needed(settings, is_log ? "M665/H" : "POLARGRAPH_MAX_BELT_LEN", kCoordinateMm);
   const auto steps = [&](const char* logged, int place) {
     const std::string key = is_log ? std::string("M92/") + logged
                                    : fmt::format("DEFAULT_AXIS_STEPS_PER_UNIT/{}", place);
     return settings.find(key, kPositive).value_or(0.0);
   };
   SetPlotter set;
-  set.firmware = PlotterFirmware::marlin;
+  set.firmware = model::PlotterFirmware::marlin;
   set.steps_per_mm = {steps("X", 0), steps("Y", 1)};
   constexpr Range kASecond{"1/s", 0.1, 1e4};
   if (const auto pieces =

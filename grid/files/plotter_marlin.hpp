@@ -10,7 +10,6 @@
 
 namespace chaintrue::grid::files {
 
-inline constexpr Range kOnTheWall{"mm", -20000.0, 20000.0};
 inline constexpr Range kPositive{"", 1e-6, 1e6};
 inline constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
 

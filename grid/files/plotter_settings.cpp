@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/plotter_marlin.hpp"
+#include "grid/files/ranges.hpp"
+#include "grid/files/sources.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -59,10 +60,10 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
 SetPlotter of_fluidnc(const std::string& text, Problems& problems) {
   SettingReader settings(yaml_texts(text, problems), problems);
   const std::string anchors = "kinematics/WallPlotter/";
-  const double left_x = needed(settings, anchors + "left_anchor_x", kOnTheWall);
-  const double left_y = needed(settings, anchors + "left_anchor_y", kOnTheWall);
-  const double right_x = needed(settings, anchors + "right_anchor_x", kOnTheWall);
-  const double right_y = needed(settings, anchors + "right_anchor_y", kOnTheWall);
+  const double left_x = needed(settings, anchors + "left_anchor_x", kCoordinateMm);
+  const double left_y = needed(settings, anchors + "left_anchor_y", kCoordinateMm);
+  const double right_x = needed(settings, anchors + "right_anchor_x", kCoordinateMm);
+  const double right_y = needed(settings, anchors + "right_anchor_y", kCoordinateMm);
   SetPlotter set;
   set.firmware = PlotterFirmware::fluidnc;
   set.machine.pin_spacing_mm = right_x - left_x;
@@ -102,13 +103,13 @@ model::BedPoint polargraph_home(SettingReader& settings,
                                 bool is_boot_log,
                                 Problems& problems) {
   // PenPlotter's own: half of the width, and how far down.
-  if (const auto down = settings.find("machine.homepoint.y", kOnTheWall)) {
-    const auto more = settings.find("machine.homepoint.offsety", kOnTheWall);
+  if (const auto down = settings.find("machine.homepoint.y", kCoordinateMm)) {
+    const auto more = settings.find("machine.homepoint.offsety", kCoordinateMm);
     return {0.5 * width, *down + more.value_or(0.0)};
   }
   if (!is_boot_log) {
-    return {needed(settings, "controller.homepoint.x", kOnTheWall),
-            needed(settings, "controller.homepoint.y", kOnTheWall)};
+    return {needed(settings, "controller.homepoint.x", kCoordinateMm),
+            needed(settings, "controller.homepoint.y", kCoordinateMm)};
   }
   constexpr double kUsualDownMm = 120.0;
   problems.warn("",
@@ -148,7 +149,7 @@ SetPlotter of_polargraph(const std::string& text, Problems& problems) {
   SettingReader settings(is_boot_log ? boot_log_texts(text) : line_texts(text, '='), problems);
   SetPlotter set;
   set.firmware = PlotterFirmware::polargraph;
-  const double width = needed(settings, kPolargraphWidth, kOnTheWall);
+  const double width = needed(settings, kPolargraphWidth, kCoordinateMm);
   const model::BedPoint home = polargraph_home(settings, width, is_boot_log, problems);
   const double turn = needed(settings, "machine.motors.mmPerRev", kPositive);
   const double steps = needed(settings, "machine.motors.stepsPerRev", kPositive) *
@@ -159,10 +160,10 @@ SetPlotter of_polargraph(const std::string& text, Problems& problems) {
   set.pins_middle = {0.5 * width, 0.0};
   set.home = model::BedPoint{home.x_mm - 0.5 * width, -home.y_mm};
   const auto height = settings.find("machine.height", kPositive);
-  const auto page_left = settings.find("controller.page.position.x", kOnTheWall);
-  const auto page_top = settings.find("controller.page.position.y", kOnTheWall);
-  const auto page_width = settings.find("controller.page.width", kOnTheWall);
-  const auto page_height = settings.find("controller.page.height", kOnTheWall);
+  const auto page_left = settings.find("controller.page.position.x", kCoordinateMm);
+  const auto page_top = settings.find("controller.page.position.y", kCoordinateMm);
+  const auto page_width = settings.find("controller.page.width", kCoordinateMm);
+  const auto page_height = settings.find("controller.page.height", kCoordinateMm);
   if (page_left && page_top && page_width && page_height) {
     const double left = *page_left - 0.5 * width;
     set.machine.area = {left, left + *page_width, -*page_top, -*page_top - *page_height};
@@ -194,7 +195,7 @@ SetPlotter of_mural(const std::string& text, Problems& problems) {
   SettingReader settings(line_texts(text, ':'), problems);
   SetPlotter set;
   set.firmware = PlotterFirmware::mural;
-  set.machine = model::mural(needed(settings, kTopDistance, kOnTheWall));
+  set.machine = model::mural(needed(settings, kTopDistance, kCoordinateMm));
   if (const auto diameter = settings.find(kPulleyDiameter, kPositive))
     set.machine.pulley_radius_mm = 0.5 * *diameter;
   if (const auto offset = settings.find(kHomedOffset, {"mm", -1000.0, 1000.0}))
@@ -245,7 +246,7 @@ ReadPlotter parse_plotter_settings(const std::string& text, const std::string& f
   read.plotter.set = settings_of(text, problems);
   problems.throw_if_any();
   PlotterMachine& machine = read.plotter.set.machine;
-  machine.name = std::filesystem::path(file).filename().string();
+  machine.name = name_without_folders(file);
   problems.add_all("the plotter's ", model::problems_of(machine));
   problems.throw_if_any();
   read.warnings = problems.warnings();

@@ -3,29 +3,28 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 
 std::vector<model::MarkPoint> parse_points(const std::string& text, const std::string& file) {
-  constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
   // A plan numbers its points in the order of visits, which is the order of the lines. Columns of
   // readings are ignored.
   constexpr Range kNumber{"", 0.0, 1e9};
-  constexpr Range kLength{"mm", 1.0, 20000.0};
   Problems problems(file);
   // A list of commands: the positions that the tool was sent to.
   const std::vector<std::string> header = csv_header(text);
   const bool is_sheet = contains(header, "commanded_x_mm");
   const CsvTable table = read_csv(text,
-                                  {{"x_mm", kCoordinate, true, is_sheet},
-                                   {"y_mm", kCoordinate, true, is_sheet},
+                                  {{"x_mm", kCoordinateMm, true, is_sheet},
+                                   {"y_mm", kCoordinateMm, true, is_sheet},
                                    {"number", kNumber, false},
                                    {"order", kNumber, false},
-                                   {"left_mm", kLength, false},
-                                   {"right_mm", kLength, false},
-                                   {"commanded_x_mm", kCoordinate, is_sheet},
-                                   {"commanded_y_mm", kCoordinate, is_sheet}},
+                                   {"left_mm", kLengthMm, false},
+                                   {"right_mm", kLengthMm, false},
+                                   {"commanded_x_mm", kCoordinateMm, is_sheet},
+                                   {"commanded_y_mm", kCoordinateMm, is_sheet}},
                                   problems);
   if (table.rows.empty() && !problems.any()) {
     problems.add(

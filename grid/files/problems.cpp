@@ -137,6 +137,8 @@ std::string shortened(std::string_view text) {
   return printable;
 }
 
+std::string line_place(std::size_t line) { return fmt::format("line {}", line); }
+
 std::string line_and_column(std::size_t line, std::size_t column) {
   return fmt::format("line {}, column {}", line, column);
 }

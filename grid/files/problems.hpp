@@ -79,6 +79,8 @@ class Problems {
 
 /// At most 60 characters, on one line, without control characters; cut between UTF-8 characters.
 [[nodiscard]] std::string shortened(std::string_view text);
+/// `line 4`
+[[nodiscard]] std::string line_place(std::size_t line);
 /// `line 4, column 12`, both from 1; the column counts bytes.
 [[nodiscard]] std::string line_and_column(std::size_t line, std::size_t column);
 [[nodiscard]] std::string line_and_column_of(std::string_view text, std::size_t offset);

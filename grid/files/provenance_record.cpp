@@ -13,27 +13,21 @@ namespace chaintrue::grid::files {
 namespace {
 
 auto source_file_record() {
-  return Record<SourceFile>("a file that was read")
-      .required("name", "Its name, without folders.", &SourceFile::name)
-      .required("sha256",
-                "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.",
-                &SourceFile::sha256);
+  RECORD(SourceFile, "a file that was read")
+  REQUIRED(name, "Its name, without folders.")
+  REQUIRED(sha256, "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.");
 }
 
 }  // namespace
 
 Record<Provenance> provenance_record() {
-  return Record<Provenance>("where a result comes from")
-      .required("version", "Version of chaintrue.", &Provenance::version)
-      .required("verb", "Verb of the command, or function, that made it.", &Provenance::verb)
-      .required("options",
-                "Options as given, with files without their folders and without those that "
-                "name an output.",
-                &Provenance::options)
-      .required("inputs",
-                "The files that were read, in order.",
-                &Provenance::inputs,
-                source_file_record());
+  RECORD(Provenance, "where a result comes from")
+  REQUIRED(version, "Version of chaintrue.")
+  REQUIRED(verb, "Verb of the command, or function, that made it.")
+  REQUIRED(options,
+           "Options as given, with files without their folders and without those that "
+           "name an output.")
+  REQUIRED(inputs, "The files that were read, in order.", source_file_record());
 }
 
 Json with_made_by(Json document, const std::optional<Provenance>& made_by) {

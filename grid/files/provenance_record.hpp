@@ -13,18 +13,13 @@
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] Record<Provenance> provenance_record();
+Record<Provenance> provenance_record();
 
 /// The key, for a record whose files are completed by with_made_by.
 template <class T>
 Record<T>& add_made_by_key(Record<T>& record) {
-  return record.custom(
-      "made_by",
-      "Provenance; absent if unknown.",
-      false,
-      provenance_record().expected(),
-      [](const Cursor& at, T&) { (void)provenance_record().read(at); },
-      [](const T&) { return kLeftOut; });
+  return record.beside(
+      "made_by", "Provenance; absent if unknown.", false, object(provenance_record()));
 }
 
 /// The document with that key at its end, if known.
@@ -48,13 +43,9 @@ void check_content(const Cursor& at);
 /// check_content. It belongs to the file, not to the object.
 template <class T>
 Record<T>& add_content_hash(Record<T>& record, std::string_view meaning) {
-  return record.custom(
-      "content_hash",
-      meaning,
-      true,
-      {"the hash of this file's content", text().expected.schema},
-      [](const Cursor& at, T&) { (void)at.text(); },
-      [](const T&) { return kLeftOut; });
+  Value<std::string> hash = text();
+  hash.expected.words = "the hash of this file's content";
+  return record.beside("content_hash", meaning, true, hash);
 }
 
 }  // namespace chaintrue::grid::files

@@ -7,6 +7,11 @@
 
 namespace chaintrue::grid::files {
 
+/// A coordinate of any hanging router or plotter: wide enough for each, narrow enough to catch a misplaced
+/// decimal point or another unit.
+inline constexpr Range kCoordinateMm{"mm", -20000.0, 20000.0};
+/// Length of a chain or a belt.
+inline constexpr Range kLengthMm{"mm", 1.0, 20000.0};
 /// One sigma of a chain length, or of a position on each axis.
 inline constexpr Range kNoiseMm{"mm", 0.0, 100.0};
 /// Degrees of freedom of a noise estimate.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/files/reading_record.hpp"
+#include "grid/files/records.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ void check_reading(const Cursor& at, ExtraReading& reading) {
   if (!at.json().contains("what") || !at.child("what").clean()) return;
   for (const ReadingKind& kind : reading_kinds()) {
     if (reading.what != kind.what) continue;
-    if (at.child("value").clean()) (void)at.child("value").number(kind.value);
+    if (at.child("value").clean()) (void)number(kind.value).read(at.child("value"));
     const auto& sides = kind.sides;
     if (reading.side.empty() || !at.child("side").clean()) continue;
     if (sides.empty())
@@ -58,19 +58,13 @@ Value<ReadingOf> reading_name() {
 Record<ExtraReading> reading_record() {
   constexpr double kAny = 1e6;
   constexpr double kSmallestSigma = 1e-9;
-  return Record<ExtraReading>("a reading")
-      .required("what", "The quantity that was measured.", &ExtraReading::what, reading_name())
-      .sparse("side",
-              "For a pitch: left, right or both; for a tape error: x, y or both.",
-              &ExtraReading::side,
-              one_of({"left", "right", "both", "x", "y"}))
-      .required("value",
-                "Its value, in the unit at the end of the quantity's name.",
-                &ExtraReading::value,
-                {"", -kAny, kAny})
-      .required(
-          "sigma", "1 sigma, in the same unit.", &ExtraReading::sigma, {"", kSmallestSigma, kAny})
-      .check(check_reading);
+  RECORD(ExtraReading, "a reading")
+  REQUIRED(what, "The quantity that was measured.", reading_name())
+  SPARSE(side,
+         "For a pitch: left, right or both; for a tape error: x, y or both.",
+         one_of({"left", "right", "both", "x", "y"}))
+  REQUIRED(value, "Its value, in the unit at the end of the quantity's name.", {"", -kAny, kAny})
+  REQUIRED(sigma, "1 sigma, in the same unit.", {"", kSmallestSigma, kAny}).check(check_reading);
 }
 
 }  // namespace chaintrue::grid::files

@@ -16,19 +16,6 @@ Value<std::size_t> index_number(int least, int most) {
       [](std::size_t value) { return static_cast<int>(value); });
 }
 
-Value<std::uint64_t> seed_number() {
-  const std::string expected = "a whole number of at least 0";
-  return {[expected](const Cursor& at) -> std::optional<std::uint64_t> {
-            if (at.json().is_number_unsigned()) return at.json().get<std::uint64_t>();
-            at.expect(expected);
-            return std::nullopt;
-          },
-          [](const std::uint64_t& value) { return Json(value); },
-          {expected, [] {
-             return Json{{"type", "integer"}, {"minimum", 0}};
-           }}};
-}
-
 Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order) {
   const Value<std::vector<double>> numbers = list(number(range), 2);
   const std::string expected = fmt::format("a pair of numbers{}{}{}",
@@ -100,9 +87,9 @@ Value<model::Setting> setting_word() {
 }
 
 Record<ErrorSummary> error_summary_record() {
-  return Record<ErrorSummary>("rms and maximum")
-      .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, kNotNegative)
-      .required("maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, kNotNegative);
+  RECORD(ErrorSummary, "rms and maximum")
+  REQUIRED(rms_mm, "Root mean square.", kNotNegative)
+  REQUIRED(maximum_mm, "Largest value.", kNotNegative);
 }
 
 }  // namespace chaintrue::grid::files

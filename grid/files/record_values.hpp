@@ -23,18 +23,14 @@ inline constexpr Range kShare{"", 0.0, 1.0};
 inline constexpr Range kMillimetres{"mm", -1e6, 1e6};
 inline constexpr Range kSigmaMm{"mm", 0.0, 1e6};
 inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
-/// A seed of random numbers.
-[[nodiscard]] Value<std::uint64_t> seed_number();
 
 /// A vector in the plane, or a number for each chain, as a pair of numbers; `in_order`: the lower
 /// one first.
-[[nodiscard]] Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order = false);
+Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order = false);
 
 /// Two members of an object as such a pair.
 template <class T>
-[[nodiscard]] Value<T> members_as_pair(const Value<Eigen::Vector2d>& pair,
-                                       double T::*first,
-                                       double T::*second) {
+Value<T> members_as_pair(const Value<Eigen::Vector2d>& pair, double T::*first, double T::*second) {
   return partial<T>(
       pair.expected,
       [=](const Cursor& at, T& object) {
@@ -49,19 +45,19 @@ template <class T>
 }
 
 /// A list of numbers, or rows of numbers; rows of different lengths give a 0 x 0 matrix.
-[[nodiscard]] Value<Eigen::VectorXd> vector_of_numbers();
-[[nodiscard]] Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest);
+Value<Eigen::VectorXd> vector_of_numbers();
+Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest);
 
 /// A dimension of a machine: its range is checked by model::problems_of, for files and programs in
 /// one place.
-[[nodiscard]] inline Value<double> number_in(std::string_view unit) {
+inline Value<double> number_in(std::string_view unit) {
   constexpr double kBeyondMeaning = 1e6;
   return number({unit, -kBeyondMeaning, kBeyondMeaning});
 }
 
 /// Exactly N of them; `words` say so: "five coordinates".
 template <std::size_t N, class V>
-[[nodiscard]] Value<std::array<V, N>> exactly(const Value<V>& element, const std::string& words) {
+Value<std::array<V, N>> exactly(const Value<V>& element, const std::string& words) {
   const Value<std::vector<V>> all = list(element);
   return {[all, words](const Cursor& at) -> std::optional<std::array<V, N>> {
             const auto found = all.read(at);
@@ -85,9 +81,9 @@ template <std::size_t N, class V>
 void report_impossible(const Cursor& at, const std::vector<model::MachineProblem>& found);
 
 /// The name of a setting of the machine or of the sheet.
-[[nodiscard]] Value<model::Setting> setting_word();
+Value<model::Setting> setting_word();
 
 /// An rms and a maximum, mm.
-[[nodiscard]] Record<ErrorSummary> error_summary_record();
+Record<ErrorSummary> error_summary_record();
 
 }  // namespace chaintrue::grid::files

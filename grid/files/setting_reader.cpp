@@ -24,8 +24,6 @@ constexpr std::size_t kMostSettings = 5000;
 /// Longer lists of ignored settings end in a count.
 constexpr std::size_t kMostNamed = 60;
 
-std::string line_place(std::size_t number) { return fmt::format("line {}", number); }
-
 /// \param places of the keys so far \return false, and reports it, if the key is already there
 bool is_first(std::map<std::string, std::string>& places,
               const std::string& key,

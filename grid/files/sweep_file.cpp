@@ -11,14 +11,13 @@
 #include "grid/files/effect_file.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/machine_file.hpp"
-#include "grid/files/machine_record.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
-#include "grid/files/schemas.hpp"
+#include "grid/files/records.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::files {
@@ -26,12 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using model::Model;
-using sweep::EffectsLevel;
 using sweep::GridLevel;
 using sweep::NoiseLevel;
 using sweep::SurfaceLevel;
 using sweep::SweepSpec;
-using sweep::UseLevel;
 using synthetic::DesignKind;
 
 struct StatedMachine {
@@ -45,7 +42,7 @@ struct StatedMachine {
 Value<GridLevel> grid_size(int least) {
   const std::string expected = fmt::format("columns x rows, each {} to 1000, as in \"7x4\"", least);
   return {[expected, least](const Cursor& at) -> std::optional<GridLevel> {
-            const auto word = at.text();
+            const auto word = text().read(at);
             if (!word) return std::nullopt;
             constexpr int kMost = 1000;
             const auto size = pair_of(*word, 'x', least, kMost);
@@ -60,52 +57,32 @@ Value<GridLevel> grid_size(int least) {
 }
 
 auto noise_level_record() {
-  return Record<NoiseLevel>("a noise")
-      .required("length_mm",
-                "Noise of a chain reading, 1 sigma.",
-                &NoiseLevel::length_mm,
-                {"mm", 0.0, 100.0})
-      .required("position_mm",
-                "Noise of a mark's position, 1 sigma on each axis.",
-                &NoiseLevel::position_mm,
-                {"mm", 0.0, 100.0});
+  RECORD(NoiseLevel, "a noise")
+  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNoiseMm)
+  REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNoiseMm);
 }
 
 auto stated_machine_record() {
-  return Record<StatedMachine>("a machine")
-      .required("name", "Name of the machine in messages and pages.", &StatedMachine::name)
-      .required(
-          "machine_file", "Path of the true machine, from this file.", &StatedMachine::machine_file)
-      .sparse("stated_file",
-              "Path of the machine that the owner assumes; default: the true one.",
-              &StatedMachine::stated_file)
-      .optional(
-          "model", "The physics used to simulate readings.", &StatedMachine::model, choice(kModels))
-      .optional("unmodelled_mm",
-                "Size of smooth errors outside every model.",
-                &StatedMachine::unmodelled_mm,
-                {"mm", 0.0, 100.0});
+  RECORD(StatedMachine, "a machine")
+  REQUIRED(name, "Name of the machine in messages and pages.")
+  REQUIRED(machine_file, "Path of the true machine, from this file.")
+  SPARSE(stated_file, "Path of the machine that the owner assumes; default: the true one.")
+  OPTIONAL(model, "The physics used to simulate readings.", choice(kModels))
+  OPTIONAL(unmodelled_mm, "Size of smooth errors outside every model.", kNoiseMm);
 }
 
 auto effects_record() {
-  return Record<EffectsLevel>("hidden effects")
-      .required("name", "Name of this level in results.", &EffectsLevel::name)
-      .required("effects",
-                "Effects of the true machine that are hidden from the fit.",
-                &EffectsLevel::effects,
-                effect_record());
+  RECORD(sweep::EffectsLevel, "hidden effects")
+  REQUIRED(name, "Name of this level in results.")
+  REQUIRED(effects, "Effects of the true machine that are hidden from the fit.", effect_record());
 }
 
 auto use_record() {
-  return Record<UseLevel>("a machine that the map is used on")
-      .required("name", "Name of this level in results.", &UseLevel::name)
-      .sparse("effects",
-              "Effects in addition to those of the measured machine.",
-              &UseLevel::effects,
-              effect_record())
-      .optional("another_of_the_build",
-                "A different machine of the same build, with its settings drawn anew.",
-                &UseLevel::another_of_the_build);
+  RECORD(sweep::UseLevel, "a machine that the map is used on")
+  REQUIRED(name, "Name of this level in results.")
+  SPARSE(effects, "Effects in addition to those of the measured machine.", effect_record())
+  OPTIONAL(another_of_the_build,
+           "A different machine of the same build, with its settings drawn anew.");
 }
 
 SweepSpec default_sweep() {
@@ -120,90 +97,57 @@ SweepSpec default_sweep() {
   return spec;
 }
 
-/// The content of the file.
-struct StatedSweep {
-  SweepSpec spec = default_sweep();
-  std::vector<StatedMachine> machines;
+/// The content of the file, with machines by their files.
+struct StatedSweep : SweepSpec {
+  StatedSweep() : SweepSpec(default_sweep()) {}
+  std::vector<StatedMachine> machine_files;
 };
 
-/// A member of the specification.
-template <class V>
-MemberPath<StatedSweep, V> of_spec(V SweepSpec::*member) {
-  return path(&StatedSweep::spec, member);
-}
-
-auto make_record() {
-  const auto spacing =
-      choice<DesignKind>({{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
-  const auto surface = by_name_to(SurfaceLevel::direct_natural);
-  return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
-      .required("name", "Name of the sweep.", of_spec(&SweepSpec::name))
-      .optional(
-          "question", "The question it answers, in a sentence.", of_spec(&SweepSpec::question))
-      .optional("seed",
-                "Seed of the random draws; the same seed gives the same numbers.",
-                of_spec(&SweepSpec::seed),
-                seed_number())
-      .required("repetitions",
-                "Number of machines drawn for each combination.",
-                of_spec(&SweepSpec::repetitions),
-                integer(1, 1'000'000))
-      .optional("repeats",
-                "Number of marks that are visited twice.",
-                of_spec(&SweepSpec::repeats),
-                integer(0, 10'000))
-      .optional("draw_settings",
-                "Draw motors and zeros from the machine's uncertainty.",
-                of_spec(&SweepSpec::draw_settings))
-      .optional("whole_bed",
-                "Evaluate the map over the whole bed, not only the measured part.",
-                of_spec(&SweepSpec::whole_bed))
-      .computed(
-          "evaluation",
-          "Columns x rows of places where the map is compared with the truth.",
-          false,
-          grid_size(1),
-          [](StatedSweep& stated, const GridLevel& size) {
-            stated.spec.evaluation_columns = size.columns;
-            stated.spec.evaluation_rows = size.rows;
-          },
-          [](const StatedSweep& stated) {
-            return GridLevel{stated.spec.evaluation_columns, stated.spec.evaluation_rows};
-          })
-      .optional("grids",
-                "Columns x rows of marks; a factor.",
-                of_spec(&SweepSpec::grids),
-                list(grid_size(2), 1))
-      .optional("spacings",
-                "Spacing of the marks; a factor.",
-                of_spec(&SweepSpec::spacings),
-                list(spacing, 1))
-      .optional("noises",
-                "Noise of the readings; a factor.",
-                of_spec(&SweepSpec::noises),
-                list(noise_level_record(), 1))
-      .optional("jitters_mm",
-                "Largest distance of the sled from its mark; a factor.",
-                of_spec(&SweepSpec::jitters_mm),
-                list(number({"mm", 0.0, 1000.0}), 1))
-      .optional(
-          "surfaces", "Kind of map; a factor.", of_spec(&SweepSpec::surfaces), list(surface, 1))
-      .required("machines",
-                "The machines; a factor.",
-                &StatedSweep::machines,
-                list(stated_machine_record(), 1))
-      .optional("effects",
-                "Hidden effects; a factor.",
-                of_spec(&SweepSpec::effects),
-                list(effects_record(), 1))
-      .optional("used_on",
-                "The machine that the map is used on; a factor.",
-                of_spec(&SweepSpec::uses),
-                list(use_record(), 1));
-}
-
 const Record<StatedSweep>& sweep_record() {
-  static const auto record = make_record();
+  static const auto record = [] {
+    const auto spacing = choice<DesignKind>(
+        {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
+    const auto surface = by_name_to(SurfaceLevel::direct_natural);
+    RECORD(StatedSweep, "a chaintrue_sweep file", kSweepFormat)
+    REQUIRED(name, "Name of the sweep.")
+    OPTIONAL(question, "The question it answers, in a sentence.")
+    OPTIONAL(seed, "Seed of the random draws; the same seed gives the same numbers.", seed_number())
+    REQUIRED(repetitions, "Number of machines drawn for each combination.", integer(1, 1'000'000))
+    OPTIONAL(repeats, "Number of marks that are visited twice.", integer(0, 10'000))
+    OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
+    OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
+    FIELD(
+        computed,
+        "evaluation",
+        "Columns x rows of places where the map is compared with the truth.",
+        false,
+        grid_size(1),
+        [](StatedSweep& stated, const GridLevel& size) {
+          stated.evaluation_columns = size.columns;
+          stated.evaluation_rows = size.rows;
+        },
+        [](const StatedSweep& stated) {
+          return GridLevel{stated.evaluation_columns, stated.evaluation_rows};
+        })
+    OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
+    OPTIONAL(spacings, "Spacing of the marks; a factor.", list(spacing, 1))
+    OPTIONAL(noises, "Noise of the readings; a factor.", list(noise_level_record(), 1))
+    OPTIONAL(jitters_mm,
+             "Largest distance of the sled from its mark; a factor.",
+             list(number({"mm", 0.0, 1000.0}), 1))
+    OPTIONAL(surfaces, "Kind of map; a factor.", list(surface, 1))
+    NAMED(required,
+          "machines",
+          machine_files,
+          "The machines; a factor.",
+          list(stated_machine_record(), 1))
+    OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
+    NAMED(optional,
+          "used_on",
+          uses,
+          "The machine that the map is used on; a factor.",
+          list(use_record(), 1));
+  }();
   return record;
 }
 
@@ -236,11 +180,11 @@ void read_machines(const fs::path& path,
     }
     return at->second;
   };
-  for (const StatedMachine& from : stated.machines) {
+  for (const StatedMachine& from : stated.machine_files) {
     sweep::MachineLevel level{from.name, {}, {}, from.model, from.unmodelled_mm};
     level.truth = alongside(from.machine_file);
     level.stated = from.stated_file.empty() ? level.truth : alongside(from.stated_file);
-    stated.spec.machines.push_back(level);
+    stated.machines.push_back(level);
   }
 }
 
@@ -278,13 +222,6 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
                  id);
 }
 
-Json median_and_worst(const std::vector<sweep::CellResult>& done,
-                      double sweep::CellResult::*member) {
-  std::vector<double> values;
-  for (const sweep::CellResult& result : done) values.push_back(result.*member);
-  return {{"median", median(values)}, {"worst", *max_element(values)}};
-}
-
 }  // namespace
 
 ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effects) {
@@ -293,54 +230,17 @@ ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effec
   std::set<std::string> given;
   read_machines(path, effects, stated, given, problems);
   problems.throw_if_any();
-  check_effects(stated.spec, problems);
-  check_given(stated.spec, std::move(given), problems);
+  check_effects(stated, problems);
+  check_given(stated, std::move(given), problems);
   problems.throw_if_any();
   Sha256 hash;
   hash.add(write_document(sweep_record(), stated));
-  for (const sweep::MachineLevel& level : stated.spec.machines) {
+  for (const sweep::MachineLevel& level : stated.machines) {
     hash.add(write_machine(level.truth));
     hash.add(write_machine(level.stated));
   }
-  return {stated.spec, hash.text(), problems.warnings()};
+  return {stated, hash.text(), problems.warnings()};
 }
-
-std::string sweep_summary_head(const SweepSpec& spec) {
-  return fmt::format(
-      "{{\n  \"file_type\": \"{}\",\n  \"format_version\": \"{}\",\n  \"name\": {},\n"
-      "  \"question\": {},\n  \"repetitions\": {},\n  \"combinations\": [\n",
-      kSweepSummaryFormat.file_type,
-      kSweepSummaryFormat.version,
-      compact_json(spec.name),
-      compact_json(spec.question),
-      spec.repetitions);
-}
-
-std::string sweep_summary_line(const SweepSpec& spec,
-                               const sweep::Levels& levels,
-                               const std::vector<sweep::CellResult>& repetitions) {
-  Json line = Json::object();
-  for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
-    line[std::string(sweep::kFactorNames[factor])] = level_name(spec, factor, levels[factor]);
-  }
-  const GridLevel& grid = spec.grids[levels[sweep::kFactors - 1]];
-  line["points"] = grid.columns * grid.rows;
-  std::vector<sweep::CellResult> done;
-  for (const sweep::CellResult& result : repetitions) {
-    if (result.status == sweep::CellStatus::done) done.push_back(result);
-  }
-  line["done"] = done.size();
-  if (!done.empty()) {
-    line["chain_rms_mm"] = median_and_worst(done, &sweep::CellResult::chain_rms_mm);
-    line["chain_max_mm"] = median_and_worst(done, &sweep::CellResult::chain_max_mm);
-    line["tool_rms_mm"] = median_and_worst(done, &sweep::CellResult::tool_rms_mm);
-    line["tool_max_mm"] = median_and_worst(done, &sweep::CellResult::tool_max_mm);
-    line["expected_tool_rms_mm"] = median_and_worst(done, &sweep::CellResult::expected_tool_rms_mm);
-  }
-  return "    " + compact_json(line);
-}
-
-std::string sweep_summary_tail() { return "  ]\n}\n"; }
 
 Json sweep_schema() { return sweep_record().schema(); }
 

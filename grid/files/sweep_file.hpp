@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_sweep files: the specification of a sweep, and the lines of its summary.
+/// chaintrue_sweep files: the specification of a sweep.
 ///
 ///   { "file_type": "chaintrue_sweep", "format_version": "1.0",
 ///     "name": "how many points", "question": "How many points do I need?",
@@ -37,13 +37,5 @@ struct ReadSweep {
 /// \throws InputError with every problem of the file, of those it names and of these.
 [[nodiscard]] ReadSweep read_sweep(const std::filesystem::path& path,
                                    const std::vector<std::string>& effects = {});
-
-/// The parts of summary.json, written one after the other: head, one line for each combination with
-/// commas between, tail.
-[[nodiscard]] std::string sweep_summary_head(const sweep::SweepSpec& spec);
-[[nodiscard]] std::string sweep_summary_line(const sweep::SweepSpec& spec,
-                                             const sweep::Levels& levels,
-                                             const std::vector<sweep::CellResult>& repetitions);
-[[nodiscard]] std::string sweep_summary_tail();
 
 }  // namespace chaintrue::grid::files

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/files/formats.hpp"
+#include "grid/files/json_text.hpp"
 #include "grid/files/pending_file.hpp"
-#include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -32,9 +34,9 @@ std::string csv_text(const std::string& word) {
 std::string csv_header() {
   std::string line = "cell";
   for (const std::string_view factor : kFactorNames) line += fmt::format(",{}", factor);
-  return line +
-         ",points,repetition,status,chain_rms_mm,chain_max_mm,tool_rms_mm,tool_max_mm,expected_"
-         "tool_rms_mm\n";
+  line += ",points,repetition,status";
+  for (const auto& [name, error] : kCellErrors) line += fmt::format(",{}", name);
+  return line + "\n";
 }
 
 std::string csv_levels(const SweepSpec& spec, const Levels& levels) {
@@ -48,12 +50,41 @@ std::string csv_levels(const SweepSpec& spec, const Levels& levels) {
 
 std::string csv_values(const CellResult& r) {
   if (r.status == CellStatus::no_map || r.status == CellStatus::not_reached) return ",,,,,";
-  return fmt::format(",{},{},{},{},{}",
-                     r.chain_rms_mm,
-                     r.chain_max_mm,
-                     r.tool_rms_mm,
-                     r.tool_max_mm,
-                     r.expected_tool_rms_mm);
+  std::string values;
+  for (const auto& [name, error] : kCellErrors) values += fmt::format(",{}", r.*error);
+  return values;
+}
+
+std::string summary_head(const SweepSpec& spec) {
+  return fmt::format(
+      "{{\n  \"file_type\": \"{}\",\n  \"format_version\": \"{}\",\n  \"name\": {},\n"
+      "  \"question\": {},\n  \"repetitions\": {},\n  \"combinations\": [\n",
+      kSweepSummaryFormat.file_type,
+      kSweepSummaryFormat.version,
+      compact_json(spec.name),
+      compact_json(spec.question),
+      spec.repetitions);
+}
+
+/// The line of one combination.
+std::string summary_line(const SweepSpec& spec,
+                         const Levels& levels,
+                         const std::vector<CellResult>& repetitions) {
+  Json line = Json::object();
+  for (std::size_t factor = 0; factor < kFactors; ++factor)
+    line[std::string(kFactorNames[factor])] = level_name(spec, factor, levels[factor]);
+  const GridLevel& grid = spec.grids[levels[kFactors - 1]];
+  line["points"] = grid.columns * grid.rows;
+  std::vector<CellResult> done = repetitions;
+  std::erase_if(done, [](const CellResult& result) { return result.status != CellStatus::done; });
+  line["done"] = done.size();
+  if (done.empty()) return "    " + compact_json(line);
+  for (const auto& [name, error] : kCellErrors) {
+    std::vector<double> values;
+    for (const CellResult& result : done) values.push_back(result.*error);
+    line[std::string(name)] = {{"median", median(values)}, {"worst", *max_element(values)}};
+  }
+  return "    " + compact_json(line);
 }
 
 // Sums of the report's lines, one for each factor, level and grid.
@@ -100,7 +131,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
   PendingFile csv(directory / "results.csv");
   PendingFile summary(directory / "summary.json");
   csv.write(csv_header());
-  summary.write(sweep_summary_head(spec));
+  summary.write(summary_head(spec));
   LevelSums sums(spec);
   const auto repetitions = static_cast<std::uint64_t>(spec.repetitions);
   std::vector<CellResult> combination;
@@ -120,10 +151,10 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
     combination.push_back(result);
     if (repetition + 1 == repetitions) {
       const bool last = cell + 1 == cells.size();
-      summary.write(sweep_summary_line(spec, levels, combination) + (last ? "\n" : ",\n"));
+      summary.write(summary_line(spec, levels, combination) + (last ? "\n" : ",\n"));
     }
   }
-  summary.write(sweep_summary_tail());
+  summary.write("  ]\n}\n");
   take_places({&csv, &summary});
   return std::move(sums).finished();
 }

@@ -37,14 +37,8 @@ std::string check_of(std::string_view line) {
 }
 
 std::string line_of(std::uint64_t cell, const CellResult& r) {
-  const std::string line = fmt::format("{},{},{},{},{},{},{}",
-                                       cell,
-                                       name(r.status),
-                                       r.chain_rms_mm,
-                                       r.chain_max_mm,
-                                       r.tool_rms_mm,
-                                       r.tool_max_mm,
-                                       r.expected_tool_rms_mm);
+  std::string line = fmt::format("{},{}", cell, name(r.status));
+  for (const auto& [name, error] : kCellErrors) line += fmt::format(",{}", r.*error);
   return fmt::format("{},{}\n", line, check_of(line));
 }
 
@@ -65,12 +59,7 @@ void take_line(std::string_view line, FinishedCells& cells) {
        {CellStatus::done, CellStatus::no_map, CellStatus::not_reached, CellStatus::no_answer}) {
     if (status == name(known)) result.status = known;
   }
-  for (double* value : {&result.chain_rms_mm,
-                        &result.chain_max_mm,
-                        &result.tool_rms_mm,
-                        &result.tool_max_mm,
-                        &result.expected_tool_rms_mm})
-    *value = number_of(next_word()).value();
+  for (const auto& [name, error] : kCellErrors) result.*error = number_of(next_word()).value();
   if (cell < cells.size()) cells[cell] = result;
 }
 

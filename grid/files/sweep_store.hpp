@@ -12,12 +12,22 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "grid/files/sweep_file.hpp"
 #include "grid/sweep/run_sweep.hpp"
 
 namespace chaintrue::grid::files {
+
+/// The errors of a cell by their names in files.
+inline constexpr std::pair<std::string_view, double sweep::CellResult::*> kCellErrors[] = {
+    {"chain_rms_mm", &sweep::CellResult::chain_rms_mm},
+    {"chain_max_mm", &sweep::CellResult::chain_max_mm},
+    {"tool_rms_mm", &sweep::CellResult::tool_rms_mm},
+    {"tool_max_mm", &sweep::CellResult::tool_max_mm},
+    {"expected_tool_rms_mm", &sweep::CellResult::expected_tool_rms_mm}};
 
 /// By number; empty if a cell is not finished.
 using FinishedCells = std::vector<std::optional<sweep::CellResult>>;
