@@ -39,13 +39,13 @@ std::optional<cli::FollowUpTexts> follow_up(const grid::diagnosis::Diagnosis& fo
       sets.push_back(files::parse_holes(text, "", {.few = true}).holes);
     }
   }
-  for (grid::MeasuredHoles& set : sets) measured.add(std::move(set));
+  for (const grid::MeasuredHoles& set : sets) measured.add(set);
   return cli::follow_up_texts(found, measured);
 }
 
 py::dict plan_after(const std::string& diagnosis, const Texts& texts) {
-  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(diagnosis, "");
-  const std::optional<cli::FollowUpTexts> plan = follow_up(found, texts);
+  const auto found = files::parse_diagnosis(diagnosis, "");
+  const auto plan = follow_up(found, texts);
   if (!plan) {
     throw std::invalid_argument(
         "the diagnosis was made from other readings than these: diagnose these first");
