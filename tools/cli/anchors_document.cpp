@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -170,7 +171,7 @@ Document anchors_document(const FittedBelts& fitted,
   if (!fit.places.empty()) document.sections.push_back(places_section(fitted));
   if (fitted.holes != nullptr) document.sections.push_back(taped_section(*fitted.holes));
   document.has_glossary = true;
-  document.provenance = fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);
+  document.provenance = provenance_of(source);
   return document;
 }
 

@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Verbs and options of the command line, each option bound to a variable. Cheap handles; valid as
-/// long as the parser that made them. CLI11 is not in this header, since it costs eight seconds of
-/// compiling for each file that includes it.
+/// Verbs and options of the command line. An option is a row: its names, the variable that it sets,
+/// the help, and the inputs that it acts on. The variable's type says what the option takes. Cheap
+/// handles; valid as long as the parser that made them. CLI11 is not in this header, since it costs
+/// eight seconds of compiling for each file that includes it.
 ///
 /// \code
-///   Verb verb = app.add_verb("square", "Predict a test square");
-///   verb.add_option("--at", options->at, "X Y of the lower left corner, mm").takes(2);
-///   verb.add_flag("--json", options->json, "JSON, all digits");
-///   verb.footer("Example:\n  chaintrue square --map map.json");
-///   verb.runs(options, run_square);
+///   auto [verb, c] = app.add_verb<ReportCommand>(
+///       "report", "Write a map as a page", "Example:\n  chaintrue report map.json", run_report);
+///   verb.has({{"file", required(reads(c.input)), "A chaintrue_map file"},
+///             {"--certificate", c.certificate, "One page", facts::map, "to be left out: ..."},
+///             {"--size-mm", {c.size_mm, {"mm", 1.0, 5000.0}}, "Length of a side"}});
 /// \endcode
 ///
-/// Names that CLI11 rejects throw its exception when the verb is added.
+/// Names that CLI11 rejects throw its exception when the verb is added. Numbers follow the rules of
+/// numbers in files (grid/files/number_text.hpp): the same ranges and messages, all problems at once,
+/// exit code 3. NaN and infinity are rejected.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "grid/files/number_text.hpp"
+#include "tools/cli/names.hpp"
 
 namespace CLI {
 class App;
@@ -44,104 +53,145 @@ enum ExitCode {
 
 // The kinds of input that an option applies to. An option without effect on its verb's input
 // is refused before any work; tests/inputs tries each with every kind of input.
-//
-// \code
-//   verb.add_flag("--below", ...).acts_on(facts::map | facts::machine, "to be left out: ...");
-//   ...
-//   verb.refuse_idle_options(facts::plotter);
-// \endcode
 
 /// Facts about a verb's input on which options depend; several hold at once.
 using Facts = std::uint32_t;
 
 namespace facts {
-// Kinds of files.
-inline constexpr Facts grid = 1U << 0;
-inline constexpr Facts holes = 1U << 1;
-inline constexpr Facts belts = 1U << 2;
-inline constexpr Facts belt_holes = 1U << 3;  ///< on four belts, alone or with their lengths
-inline constexpr Facts chains = grid | holes;
-inline constexpr Facts taped = holes | belt_holes;
-inline constexpr Facts map = 1U << 4;
-inline constexpr Facts anchors = 1U << 5;
-inline constexpr Facts diagnosis = 1U << 6;
-inline constexpr Facts machine = 1U << 7;
-/// A single grid.
-inline constexpr Facts one_grid = 1U << 8;
-/// fit: a smooth correction on the calibrated machine, or splines through the lengths.
-inline constexpr Facts residual = 1U << 9;
-inline constexpr Facts direct = 1U << 10;
-/// --outside fade.
-inline constexpr Facts fade = 1U << 11;
-// plan and simulate: the kind of plan or data.
-inline constexpr Facts lattice = 1U << 12;    ///< marks in columns and rows
-inline constexpr Facts scattered = 1U << 13;  ///< marks anywhere
-inline constexpr Facts marks = 1U << 14;      ///< marks of a list
-inline constexpr Facts places = 1U << 15;     ///< true places of a list
-inline constexpr Facts tape = 1U << 16;       ///< holes and a tape
-inline constexpr Facts check = 1U << 17;      ///< points that check a map
-inline constexpr Facts follow_up = 1U << 18;  ///< after a diagnosis
-/// A program is written (--gcode).
-inline constexpr Facts program = 1U << 21;
-/// It drills, rather than stopping above the marks.
-inline constexpr Facts drilled = 1U << 22;
-/// A program without --map.
-inline constexpr Facts no_map = 1U << 23;
-/// fit: without --plain.
-inline constexpr Facts causes = 1U << 24;
-/// A table (CSV) is among the files.
-inline constexpr Facts table = 1U << 28;
-/// fit and diagnose: a V-plotter's test drawing, alone.
-inline constexpr Facts drawing = 1U << 29;
-/// Every input of fit and diagnose except a test drawing.
-inline constexpr Facts no_drawing = grid | holes | belts | belt_holes;
-/// Instead of a map: a V-plotter with a measured drawing.
-inline constexpr Facts plotter = 1U << 30;
-/// plan: without --after; of those, at marks.
-inline constexpr Facts planned = lattice | tape | check;
-inline constexpr Facts planned_marks = lattice | check;
-/// simulate: marks that are visited; readings that are drawn.
-inline constexpr Facts session = lattice | scattered | marks;
-inline constexpr Facts drawn = session | tape | belts;
-/// What a program is compensated with.
-inline constexpr Facts target = map | anchors | plotter;
-/// For an option that other verbs also have.
-inline constexpr Facts nothing = 0;
-inline constexpr Facts any = ~0U;
+
+enum : Facts {
+  // Kinds of files, in the order of files::FileKind.
+  machine = 1U << 0,
+  grid = 1U << 1,
+  holes = 1U << 2,
+  belt_holes = 1U << 3,  ///< on four belts, alone or with their lengths
+  belts = 1U << 4,
+  map = 1U << 5,
+  anchors = 1U << 6,
+  diagnosis = 1U << 7,
+  /// Instead of a map: a V-plotter with a measured drawing.
+  plotter = 1U << 8,
+  /// fit and diagnose: a V-plotter's test drawing, alone.
+  drawing = 1U << 9,
+  other = 1U << 10,
+  chains = grid | holes,
+  taped = holes | belt_holes,
+  /// A single grid.
+  one_grid = 1U << 11,
+  /// fit: a smooth correction on the calibrated machine, or splines through the lengths.
+  residual = 1U << 12,
+  direct = 1U << 13,
+  /// --outside fade.
+  fade = 1U << 14,
+  // plan and simulate: the kind of plan or data.
+  lattice = 1U << 15,    ///< marks in columns and rows
+  scattered = 1U << 16,  ///< marks anywhere
+  marks = 1U << 17,      ///< marks of a list
+  places = 1U << 18,     ///< true places of a list
+  tape = 1U << 19,       ///< holes and a tape
+  check = 1U << 20,      ///< points that check a map
+  follow_up = 1U << 21,  ///< after a diagnosis
+  /// A program is written (--gcode).
+  program = 1U << 22,
+  /// It drills, rather than stopping above the marks.
+  drilled = 1U << 23,
+  /// A program without --map.
+  no_map = 1U << 24,
+  /// fit: without --plain.
+  causes = 1U << 25,
+  /// A table (CSV) is among the files.
+  table = 1U << 26,
+  /// Every input of fit and diagnose except a test drawing.
+  no_drawing = grid | holes | belts | belt_holes,
+  /// plan: without --after; of those, at marks.
+  planned = lattice | tape | check,
+  planned_marks = lattice | check,
+  /// simulate: marks that are visited; readings that are drawn.
+  session = lattice | scattered | marks,
+  drawn = session | tape | belts,
+  /// What a program is compensated with.
+  target = map | anchors | plotter,
+  /// For an option that other verbs also have.
+  nothing = 0,
+  any = ~0U,
+};
 
 }  // namespace facts
 
 /// The work of a verb; throws InputError for bad input.
 using Run = std::function<int()>;
 
-class Option {
- public:
-  Option() = default;
-  explicit Option(CLI::Option& option) : option_(&option) {}
+class Verb;
 
-  Option required() const;
-  Option one_of(const Words& words) const;
-  /// Using this without `other` is an error; `excludes`: with it.
-  Option needs(Option other) const;
-  Option excludes(Option other) const;
-  Option takes(int values) const;
-  /// Shows the variable's current value, or `text`, in the help.
-  Option shows_default() const;
-  Option shows_default(const std::string& text) const;
-  /// The word for a value in the help.
-  Option value_word(const std::string& word) const;
-  /// `fault` returns what is wrong with a value; empty if it is valid.
-  Option refuses(std::function<std::string(const std::string&)> fault) const;
-  /// The option has an effect if one of these holds; `otherwise` states what is expected if none
-  /// does: "to be left out of holes: ...". A value that states the default behaviour is `harmless`
-  /// and is not refused. If an option has several rules, the first that refuses it is reported.
-  Option acts_on(Facts facts, std::string otherwise, std::string harmless = "") const;
+/// A variable that an option sets. A default is shown in the help, unless it is an empty text or a
+/// number out of the option's range.
+struct Value {
+  using Take = std::function<void(double)>;
+
+  /// \param one_of the words that are taken; none: any text
+  Value(std::string& text, Words one_of = {});
+  Value(Words& texts);
+  Value(bool& flag);
+  /// A double or a whole number, or optional of either.
+  template <class Number>
+  Value(Number& number, const files::Range& range)
+      : Value(
+            range,
+            std::is_integral_v<Number>,
+            [&number](double given) { number = static_cast<Number>(given); },
+            static_cast<double>(number)) {}
+  template <class Number>
+  Value(std::optional<Number>& number, const files::Range& range)
+      : Value(range, std::is_integral_v<Number>, [&number](double given) {
+          number = static_cast<Number>(given);
+        }) {}
+  /// A word, of which `named` knows the meaning. \param usual the default's word
+  /// \param expected what is said if `named` does not know it, with exit code 3
+  template <class Meaning>
+  Value(Meaning& meaning,
+        std::optional<Meaning> (*named)(std::string_view word),
+        std::string usual,
+        std::string expected)
+      : Value(std::move(usual), std::move(expected), [&meaning, named](const std::string& word) {
+          const auto known = named(word);
+          meaning = known.value_or(meaning);
+          return known.has_value();
+        }) {}
+  /// \param count how many numbers are taken; 0: any
+  Value(std::vector<double>& numbers, const files::Range& range, int count = 0);
+
+  /// Declares an option that sets the variable.
+  std::function<CLI::Option*(Verb verb, const std::string& names, const std::string& help)> declare;
 
  private:
-  CLI::Option* option_ = nullptr;
+  Value(const files::Range& range, bool is_whole, Take take, std::optional<double> usual = {});
+  Value(std::string usual, std::string expected, std::function<bool(const std::string&)> take);
+};
+[[nodiscard]] Value required(Value value);
+/// Its default is not shown.
+[[nodiscard]] Value without_default(Value value);
+
+/// An option has an effect if one of the facts holds; `otherwise` states what is expected if none
+/// does: "to be left out of holes: ...". If an option has several rules, the first that refuses it is
+/// reported.
+struct ActsOn {
+  Facts facts = facts::nothing;
+  std::string otherwise;
 };
 
-/// A rule of Option::acts_on, by names.
+struct OptionRow {
+  std::string names;  ///< "-o,--output"; without dashes: an argument
+  Value value;
+  std::string help;
+  /// The option's first rule, if it has any, and its others.
+  Facts facts = facts::any;
+  std::string otherwise = {};
+  std::vector<ActsOn> more = {};
+  /// A value that states the default behaviour, which no rule refuses.
+  std::string harmless = {};
+};
+
+/// A rule of an option, by names.
 struct OptionRule {
   std::string verb;  ///< "fit", "gcode check"
   std::string option;
@@ -151,8 +201,6 @@ struct OptionRule {
 };
 /// Of all verbs, in the order in which they were made.
 [[nodiscard]] std::vector<OptionRule> option_rules();
-/// Those of an earlier command line in this process.
-void forget_option_rules();
 
 /// An option of the command line, by its longest name, with the words given for it: none for a
 /// flag.
@@ -166,25 +214,22 @@ class Verb {
   Verb() = default;
   explicit Verb(CLI::App& app) : app_(&app) {}
 
-  Verb add_verb(const std::string& name, const std::string& help) const;
+  /// \param footer the end of the help, with an example; empty: that of the verb above
+  Verb add_verb(const std::string& name,
+                const std::string& help,
+                const std::string& footer = {}) const;
   /// Options of which exactly one is to be given.
   Verb add_choice(const std::string& name) const;
   /// One of the verbs below is required.
   void require_verb() const;
-  Option add_option(const std::string& names, std::string& value, const std::string& help) const;
-  Option add_option(const std::string& names, Words& values, const std::string& help) const;
-  /// `take` gets all texts that were given.
-  Option add_option(const std::string& names,
-                    std::function<void(const Words&)> take,
-                    const std::string& help) const;
-  /// `take` gets the text of each occurrence.
-  Option add_option(const std::string& names,
-                    std::function<void(const std::string&)> take,
-                    const std::string& help) const;
-  Option add_flag(const std::string& names, bool& value, const std::string& help) const;
-  /// A flag, queried by is_given().
-  void add_flag(const std::string& name, const std::string& help) const;
-  void footer(const std::string& text) const;
+  void has(const std::vector<OptionRow>& rows) const;
+  /// Further rules of an option.
+  void acts_on(const std::string& option,
+               const std::vector<ActsOn>& rules,
+               const std::string& harmless = {}) const;
+  /// Using these options without the other is an error; `excludes`: with it.
+  void needs(const Words& options, const std::string& other) const;
+  void excludes(const Words& options, const std::string& other) const;
   /// The work done if the verb is chosen: `act(verb, *command)` or `act(*command)`, whose answer is
   /// the exit code. `check(*command)` is asked first, for usage_error().
   template <class Command, class Act>
@@ -200,11 +245,21 @@ class Verb {
       when_chosen([command, act] { return act(*command); }, first);
   }
 
-  [[nodiscard]] Option option(const std::string& name) const;
+  /// A verb below that works on a Command, which lives as long as the parser, as runs() does.
+  template <class Command, class Act>
+  std::pair<Verb, Command&> add_verb(const std::string& name,
+                                     const std::string& help,
+                                     const std::string& footer,
+                                     Act act,
+                                     std::function<void(const Command&)> check = {}) const {
+    const auto command = std::make_shared<Command>();
+    const Verb verb = add_verb(name, help, footer);
+    verb.runs(command, act, std::move(check));
+    return {verb, *command};
+  }
+
   [[nodiscard]] bool has_option(const std::string& name) const;
   [[nodiscard]] bool is_given(const std::string& name) const;
-  /// Its words, separated by blanks; for a flag "given".
-  [[nodiscard]] std::string value_of(const std::string& name) const;
   /// In the verb's order; without positional arguments.
   [[nodiscard]] std::vector<GivenOption> given_options() const;
   /// \throws InputError with a sentence for each given option that would have no effect on this

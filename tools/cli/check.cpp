@@ -3,16 +3,14 @@
 /// chaintrue check: checks by a few new points whether a map, or anchors, are still valid.
 #include <fmt/format.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "grid/map/check.hpp"
 #include "grid/belts/anchors_check.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/controller_settings.hpp"
-#include "tools/cli/effect_argument.hpp"
+#include "grid/map/check.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/progress.hpp"
@@ -202,44 +200,42 @@ int run_check(Verb verb, const CheckCommand& command) {
 }  // namespace
 
 void add_check(Verb app) {
-  auto command = std::make_shared<CheckCommand>();
-  Verb verb = app.add_verb(
+  auto [verb, c] = app.add_verb<CheckCommand>(
       "check",
-      "Check with a few new points whether a map is still valid, or valid after re-zeroing");
-  add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
-  add_grid_options(verb, command->input);
-  add_tape_options(verb, command->tape);
-  verb.option("--noise-dof")
-      .acts_on(facts::nothing, "to be left out, because a check assumes that the noise is known");
-  add_input(verb,
-            "--with",
-            command->with,
-            "More new points, or holes and distances, to compare with the map")
-      .acts_on(facts::map,
-               "to be left out, because anchors are checked against a single file of new places");
-  add_input(verb,
-            "--settings",
-            command->settings,
-            "The controller's settings when the new points were commanded, if they had changed "
-            "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file")
-      .acts_on(facts::map,
-               "to be left out, because the anchors' file already contains the settings");
-  verb.add_flag("--json", command->json, "Print all numbers as JSON");
-  add_output(
-      verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
-      .shows_default();
-  add_output(verb, "--report", command->report, {Origin::page}, "The answer as a web page (HTML)");
-  verb.footer(
-      "Three to five points far apart are enough, or holes and the distances between "
-      "them;\nchaintrue plan --check picks the most informative points.\n\"Still valid (74 %)\" is "
-      "the probability that nothing has changed, given the new points and\nwhat usually changes. "
-      "From 80 % on it is the verdict. The exit code is 0 if the map is valid\nunchanged; "
-      "otherwise 1: it is valid after re-zeroing, must be measured again, was made for\nother "
-      "settings than the controller's, or needs more points.\nAnchors of four belts are checked "
-      "against new places in a chaintrue_belts file.\n\nExample:\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue check map.json "
-      "fixtures/grids/five_new_points.json");
-  verb.runs(command, run_check);
+      "Check with a few new points whether a map is still valid, or valid after re-zeroing",
+      R"help(Three to five points far apart are enough, or holes and the distances between them;
+chaintrue plan --check picks the most informative points.
+"Still valid (74 %)" is the probability that nothing has changed, given the new points and
+what usually changes. From 80 % on it is the verdict. The exit code is 0 if the map is valid
+unchanged; otherwise 1: it is valid after re-zeroing, must be measured again, was made for
+other settings than the controller's, or needs more points.
+Anchors of four belts are checked against new places in a chaintrue_belts file.
+
+Example:
+  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
+  build/chaintrue check map.json fixtures/grids/five_new_points.json)help",
+      run_check);
+  verb.has({{"map", required(reads(c.map)), "A chaintrue_map or chaintrue_anchors file"}});
+  add_grid_options(verb, c.input);
+  add_tape_options(verb, c.tape);
+  verb.acts_on(
+      "--noise-dof",
+      {{facts::nothing, "to be left out, because a check assumes that the noise is known"}});
+  verb.has(
+      {{"--with",
+        reads(c.with),
+        "More new points, or holes and distances, to compare with the map",
+        facts::map,
+        "to be left out, because anchors are checked against a single file of new places"},
+       {"--settings",
+        reads(c.settings),
+        "The controller's settings when the new points were commanded, if they had changed "
+        "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file",
+        facts::map,
+        "to be left out, because the anchors' file already contains the settings"},
+       {"--json", c.json, "Print all numbers as JSON"},
+       {"-o,--output", writes(c.output, {Origin::table, Origin::check}), "- is standard output"},
+       {"--report", writes(c.report, {Origin::page}), "The answer as a web page (HTML)"}});
 }
 
 }  // namespace chaintrue::cli

@@ -4,7 +4,6 @@
 /// verbs and options themselves, the text of --help.
 #include <fmt/format.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 
 #include "grid/containers.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/report/typeset.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -116,12 +116,7 @@ compdef _chaintrue chaintrue
 
 /// Within single quotes of fish.
 std::string fish_quoted(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\'' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
+  return report::replaced(text, {{"\\", "\\\\"}, {"'", "\\'"}, {"\n", " "}});
 }
 
 std::string fish(const std::vector<Command>& commands) {
@@ -152,20 +147,9 @@ std::string fish(const std::vector<Command>& commands) {
 
 /// troff interprets a backslash, and a dot or a quote at the start of a line.
 std::string troff(const std::string& text) {
-  std::string out;
-  bool begins = true;
-  for (const char c : text) {
-    if (begins && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\') {
-      out += "\\e";
-    } else if (c == '-') {
-      out += "\\-";
-    } else {
-      out += c;
-    }
-    begins = c == '\n';
-  }
-  return out;
+  return report::replaced("\n" + text,
+                          {{"\\", "\\e"}, {"-", "\\-"}, {"\n.", "\n\\&."}, {"\n'", "\n\\&'"}})
+      .substr(1);
 }
 
 std::string item_of(const CLI::Option& option) {
@@ -221,26 +205,31 @@ int print_manual(CLI::App& app, const Words& words) {
 }  // namespace
 
 void add_completion(Verb app) {
-  auto shell = std::make_shared<std::string>();
-  Verb verb = app.add_verb("completion", "Print what bash, zsh or fish need to complete commands");
-  verb.add_option("shell", *shell, "bash, zsh or fish").required().one_of({"bash", "zsh", "fish"});
-  verb.footer("Example:\n  build/chaintrue completion bash > chaintrue.bash");
-  verb.runs(shell, [app](const std::string& name) {
+  const auto print = [app](const std::string& name) {
     const std::vector<Command> commands = commands_of(app.app());
     fmt::print("{}",
                name == "bash"  ? bash(commands)
                : name == "zsh" ? zsh(commands)
                                : fish(commands));
     return kDone;
-  });
+  };
+  auto [verb, shell] =
+      app.add_verb<std::string>("completion",
+                                "Print what bash, zsh or fish need to complete commands",
+                                R"(Example:
+  build/chaintrue completion bash > chaintrue.bash)",
+                                print);
+  verb.has({{"shell", required({shell, {"bash", "zsh", "fish"}}), "bash, zsh or fish"}});
 }
 
 void add_man(Verb app) {
-  auto words = std::make_shared<Words>();
-  Verb verb = app.add_verb("man", "Print a manual page (troff), as man -l - shows it");
-  verb.add_option("verb", *words, "The verb; by default the command itself");
-  verb.footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
-  verb.runs(words, [app](const Words& own) { return print_manual(app.app(), own); });
+  auto [verb, words] =
+      app.add_verb<Words>("man",
+                          "Print a manual page (troff), as man -l - shows it",
+                          R"(Example:
+  build/chaintrue man gcode verify > chaintrue-gcode-verify.1)",
+                          [app](const Words& own) { return print_manual(app.app(), own); });
+  verb.has({{"verb", words, "The verb; by default the command itself"}});
 }
 
 }  // namespace chaintrue::cli

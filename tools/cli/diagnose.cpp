@@ -6,15 +6,14 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
-#include "grid/diagnosis/diagnose.hpp"
 #include "grid/containers.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/files/diagnosis_file.hpp"
@@ -29,7 +28,6 @@
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/made_by.hpp"
@@ -50,10 +48,9 @@ struct DiagnoseCommand {
   std::string law;
   std::string held_out;
   std::string assume_order;
-  bool accept_class = false;
   bool without_gain = false;
-  std::string without;  ///< points of belts, from 1
-  std::uint64_t seed = 1;
+  std::string without;                  ///< points of belts, from 1
+  diagnosis::DiagnosisOptions options;  ///< as stated; diagnosis_options() adds the rest
   bool json = false;
 };
 
@@ -109,10 +106,8 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
 }
 
 diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
-  diagnosis::DiagnosisOptions options;
-  options.seed = command.seed;
+  diagnosis::DiagnosisOptions options = command.options;
   options.order_assumed = !command.assume_order.empty();
-  options.accept_class = command.accept_class;
   options.improvement = !command.without_gain;
   options.progress = shown_progress();
   return options;
@@ -190,13 +185,19 @@ Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& fil
 
 /// The grid for a fit on the extended machine: true positions of marks, readings without effects of
 /// the visit. An assumed order is not written.
-std::string corrected_grid_text(const Diagnosis& found, MeasuredGrid measured, bool order_assumed) {
+std::string corrected_grid_text(const DiagnoseCommand& command,
+                                const Diagnosis& found,
+                                const grid::Measured& input) {
+  const auto ordered = found.visiting_order
+                           ? diagnosis::visited_in(input, found.visiting_order->order)
+                           : std::nullopt;
+  MeasuredGrid measured = *(ordered ? *ordered : input).grids().front();
   measured.machine = found.extended_machine;
   grid::append_all(measured.machine->effects, found.data_corrections);
   auto corrected = grid::corrected_data(measured);
   if (!corrected) throw InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});
   for (auto& point : corrected->grid.points) {
-    if (order_assumed) point.order.reset();
+    if (ordered || !command.assume_order.empty()) point.order.reset();
   }
   return files::write_grid(corrected->grid);
 }
@@ -257,16 +258,14 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   const InputFiles opened = open_inputs(command.input.grid, command.with);
   const InputFile& file = opened.front();
   require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belts, FileKind::drawing});
-  const bool of_belts = file.kind == FileKind::belts;
-  const bool of_drawing = file.kind == FileKind::drawing;
   // Belts and drawings are diagnosed alone, whatever is given with them.
-  verb.refuse_idle_options(of_belts || of_drawing ? file.fact() : facts_of(opened));
+  const bool is_alone = file.kind == FileKind::belts || file.kind == FileKind::drawing;
+  verb.refuse_idle_options(is_alone ? file.fact() : facts_of(opened));
   grid::Measured input;
-  if (!of_belts && !of_drawing)
-    input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
-  const Diagnosis found = of_belts     ? diagnosed_belts(command, file)
-                          : of_drawing ? diagnosed_drawing(command, file)
-                                       : diagnosed(command, input);
+  if (!is_alone) input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
+  const Diagnosis found = !is_alone                      ? diagnosed(command, input)
+                          : file.kind == FileKind::belts ? diagnosed_belts(command, file)
+                                                         : diagnosed_drawing(command, file);
   const std::string source = files::name_without_folders(command.input.grid);
   const grid::Provenance origin = made_by(verb);
   const std::string written = files::write_diagnosis(found, origin);
@@ -280,17 +279,10 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   add_made_by(origin, document.sections);
   add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(found, source); });
-  add(command.corrected_grid, [&] {
-    const auto ordered = found.visiting_order
-                             ? diagnosis::visited_in(input, found.visiting_order->order)
-                             : std::nullopt;
-    MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
-    return corrected_grid_text(
-        found, std::move(corrected), ordered || !command.assume_order.empty());
-  });
+  add(command.corrected_grid, [&] { return corrected_grid_text(command, found, input); });
   tl::expected<std::string, std::string> law;
   if (!command.law.empty()) law = law_text(found);
-  if (law && !law->empty()) outputs.push_back({command.law, *law});
+  if (law) outputs.push_back({command.law, *law});
   const bool is_stdout_taken =
       grid::any_of(outputs, [](const auto& output) { return output.path == "-"; });
   write_outputs(outputs);
@@ -309,101 +301,83 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   return kDone;
 }
 
-void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
-  add_output(verb,
-             "-o,--output",
-             command.output,
-             {Origin::diagnosis},
-             "The diagnosis with all its numbers (JSON)");
-  add_output(
-      verb, "--report", command.report, {Origin::page}, "The diagnosis as a web page (HTML)");
-  add_output(verb,
-             "--extended-machine",
-             command.extended_machine,
-             {Origin::machine},
-             "The machine with calibrated settings and the causes that were named")
-      .acts_on(facts::chains,
-               "to be left out, because belts and drawings are diagnosed with the machine in their "
-               "file");
-  add_output(verb,
-             "--corrected-grid",
-             command.corrected_grid,
-             {Origin::measured},
-             "The points with that machine, with marks and readings corrected where they were the "
-             "cause; input for fit")
-      .acts_on(facts::one_grid, "to be left out, because only a single grid can be corrected");
-  // A file of an effect is edited by hand, and replaced with --force alone.
-  add_output(
-      verb,
-      "--law",
-      command.law,
-      {Origin::list},
-      "The most probable law of the unexplained pattern (90 % or more), as a file for --effects")
-      .acts_on(facts::chains, "to be left out, because a declared cause acts on chains");
-  verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
-}
-
 }  // namespace
 
 void add_diagnose(Verb app) {
-  auto command = std::make_shared<DiagnoseCommand>();
-  Verb verb = app.add_verb(
+  using namespace facts;
+  auto [verb, c] = app.add_verb<DiagnoseCommand>(
       "diagnose",
-      "Find what the machine does wrong and why, and how much knowing the cause improves the map");
-  add_grid_options(verb, command->input);
-  add_tape_options(verb, command->tape);
-  add_effects_option(verb, command->input);
-  add_input(
-      verb, "--with", command->with, "More grids and holes of the same machine, used together")
-      .acts_on(facts::chains,
-               "to be left out, because belts and drawings are diagnosed with the machine in their "
-               "file");
-  add_diagnose_outputs(verb, *command);
-  add_input(verb,
-            "--held-out",
-            command->held_out,
-            "Another grid of the same machine, to test how well the result predicts it")
-      .acts_on(facts::one_grid, "to be left out, because it compares two grids");
-  verb.add_option("--assume-order",
-                  command->assume_order,
-                  "Order of visits to assume if the points have none, in lines from the top left. "
-                  "Drift, skips and hysteresis need an order; the report notes the assumption")
-      .one_of(files::words_of(files::kVisitingOrders))
-      .acts_on(facts::grid, "to be left out, because it applies to the points of a grid only");
-  add_without_option(verb, command->without);
-  verb.add_flag("--accept-class",
-                command->accept_class,
-                "If the points cannot distinguish long links from a long tape, assume the links, "
-                "without measuring them")
-      .acts_on(facts::chains,
-               "to be left out, because it applies to chains and the tape for marks only");
-  verb.add_flag("--no-gain",
-                command->without_gain,
-                "Do not compute how much naming the causes improves the map, which takes most of "
-                "the time")
-      .acts_on(facts::chains,
-               "to be left out for belts and drawings, because the gain applies to a map");
-  add_number(verb,
-             "--seed",
-             command->seed,
-             {"", 0.0, 9e15},
-             "Seed of the simulations: same seed, same answer")
-      .shows_default();
-  verb.footer(
-      "The exit code is 0 even if nothing was found.\n"
-      "\n"
-      "Example:\n"
-      "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x5 --repeats 6 "
-      "\\\n"
-      "    --length-noise-mm 0.2 --position-noise-mm 0.3 --effect "
-      "chain_pitch_error:left:elongation=0.0012 -o worn.json\n"
-      "  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
-      "--extended-machine worn_machine.json\n"
-      "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json\n"
-      "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
-      "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
-      "  build/chaintrue diagnose fixtures/plotter/mural_drawing.json");
-  verb.runs(command, run_diagnose);
+      "Find what the machine does wrong and why, and how much knowing the cause improves the map",
+      R"(The exit code is 0 even if nothing was found.
+
+Example:
+  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x5 --repeats 6 \
+    --length-noise-mm 0.2 --position-noise-mm 0.3 --effect chain_pitch_error:left:elongation=0.0012 -o worn.json
+  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html --extended-machine worn_machine.json
+  build/chaintrue fit worn.json --machine worn_machine.json -o map.json
+  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html
+  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json
+  build/chaintrue diagnose fixtures/plotter/mural_drawing.json)",
+      run_diagnose);
+  add_grid_options(verb, c.input);
+  add_tape_options(verb, c.tape);
+  verb.has(
+      {effects_row(c.input),
+       {"--with",
+        reads(c.with),
+        "More grids and holes of the same machine, used together",
+        chains,
+        "to be left out, because belts and drawings are diagnosed with the machine in their "
+        "file"},
+       {"-o,--output",
+        writes(c.output, {Origin::diagnosis}),
+        "The diagnosis with all its numbers (JSON)"},
+       {"--report", writes(c.report, {Origin::page}), "The diagnosis as a web page (HTML)"},
+       {"--extended-machine",
+        writes(c.extended_machine, {Origin::machine}),
+        "The machine with calibrated settings and the causes that were named",
+        chains,
+        "to be left out, because belts and drawings are diagnosed with the machine in their "
+        "file"},
+       {"--corrected-grid",
+        writes(c.corrected_grid, {Origin::measured}),
+        "The points with that machine, with marks and readings corrected where they were the "
+        "cause; input for fit",
+        one_grid,
+        "to be left out, because only a single grid can be corrected"},
+       {"--law",
+        writes(c.law, {Origin::list}),  // edited by hand: replaced with --force alone
+        "The most probable law of the unexplained pattern (90 % or more), as a file for --effects",
+        chains,
+        "to be left out, because a declared cause acts on chains"},
+       {"--json", c.json, "Print the diagnosis file on standard output"},
+       {"--held-out",
+        reads(c.held_out),
+        "Another grid of the same machine, to test how well the result predicts it",
+        one_grid,
+        "to be left out, because it compares two grids"},
+       {"--assume-order",
+        {c.assume_order, files::words_of(files::kVisitingOrders)},
+        "Order of visits to assume if the points have none, in lines from the top left. "
+        "Drift, skips and hysteresis need an order; the report notes the assumption",
+        grid,
+        "to be left out, because it applies to the points of a grid only"},
+       without_row(c.without),
+       {"--accept-class",
+        c.options.accept_class,
+        "If the points cannot distinguish long links from a long tape, assume the links, "
+        "without measuring them",
+        chains,
+        "to be left out, because it applies to chains and the tape for marks only"},
+       {"--no-gain",
+        c.without_gain,
+        "Do not compute how much naming the causes improves the map, which takes most of "
+        "the time",
+        chains,
+        "to be left out for belts and drawings, because the gain applies to a map"},
+       {"--seed",
+        {c.options.seed, {"", 0.0, 9e15}},
+        "Seed of the simulations: same seed, same answer"}});
 }
 
 }  // namespace chaintrue::cli

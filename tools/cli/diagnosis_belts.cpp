@@ -5,7 +5,6 @@
 
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
 

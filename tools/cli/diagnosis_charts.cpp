@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
 
@@ -145,6 +146,8 @@ std::string title_of_rival(const Diagnosis& found) {
   return fmt::format("Rival: {}", cause_title(*found.causes.front().rival));
 }
 
+namespace {
+
 std::vector<ChartRow> arrow_charts(const Diagnosis& found) {
   return report::arrow_rows(
       bed_of(found),
@@ -167,6 +170,26 @@ std::vector<Chart> strip_charts(const Diagnosis& found) {
   for (int chain = 0; chain < 2; ++chain)
     charts.push_back(strip_chart(found, panels, chain, full_mm));
   return charts;
+}
+
+}  // namespace
+
+Section arrows_section(const Diagnosis& found) {
+  if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
+  Section section{"What it does to the tool"};
+  grid::append_all(section.blocks, arrow_charts(found));
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_chart(found));
+  return section;
+}
+
+Section signature_section(const Diagnosis& found) {
+  Section section{"Why this cause"};
+  section.say(
+      "Measured errors next to the effect of the cause, both after refitting the "
+      "settings. The cause is right if both pictures agree and only noise remains.");
+  grid::append_all(section.blocks, strip_charts(found));
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
+  return section;
 }
 
 Chart next_points_chart(const Diagnosis& found) {

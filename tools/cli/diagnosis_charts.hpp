@@ -3,8 +3,7 @@
 /// The pictures of a diagnosis' page. Residuals are measured less predicted; vermilion is before,
 /// blue is with the causes named.
 /// The places on the bed are drawn in diagnosis_charts.cpp, what the residuals follow in
-/// diagnosis_scatter_charts.cpp and diagnosis_law_charts.cpp, bars and the matrix in
-/// diagnosis_bar_charts.cpp; the sections of pictures are assembled in diagnosis_pictures.cpp.
+/// diagnosis_scatter_charts.cpp, the causes alone in diagnosis_pictures.cpp.
 #pragma once
 
 #include <string>
@@ -26,34 +25,8 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string title_of_causes(const Diagnosis& found);
 [[nodiscard]] std::string title_of_rival(const Diagnosis& found);
 
-/// The tool, or the distances, before and with the causes. Precondition of this and the next two:
-/// readings.
-[[nodiscard]] Section arrows_section(const Diagnosis& found);
-/// The measured residuals, and those that the cause and its rival predict. Precondition: a cause is
-/// named.
-[[nodiscard]] Section signature_section(const Diagnosis& found);
-/// Residuals against lengths, angles and visits.
-[[nodiscard]] Section residuals_section(const Diagnosis& found);
-
-/// Arrows of the tool before and after, at one scale, and after again if it is much smaller.
-[[nodiscard]] std::vector<ChartRow> arrow_charts(const Diagnosis& found);
-/// Measured, best cause, rival, remainder: one chart a chain. Empty if no cause is named.
-[[nodiscard]] std::vector<Chart> strip_charts(const Diagnosis& found);
-/// The likeliest law's curve among the points' partial residuals, and its best rival's. Precondition of this
-/// and the next: the law has points.
-[[nodiscard]] ChartRow law_charts(const Diagnosis& found);
-/// The tool's residual error without the likeliest law, and with it.
-[[nodiscard]] std::vector<ChartRow> law_rest_charts(const Diagnosis& found);
-/// Against the chain's length, and alongside the same folded at one turn of the sprocket; a row a
-/// chain.
-[[nodiscard]] std::vector<ChartRow> length_charts(const Diagnosis& found);
-[[nodiscard]] ChartRow angle_charts(const Diagnosis& found);
-/// Coloured by which way the chain moved; only where the points have an order (has_order).
-[[nodiscard]] ChartRow order_charts(const Diagnosis& found);
+/// The visits of all points are numbered.
 [[nodiscard]] bool has_order(const Diagnosis& found);
-[[nodiscard]] Chart probability_chart(const Diagnosis& found);
-/// Precondition: the diagnosis has a gain.
-[[nodiscard]] Chart improvement_chart(const Diagnosis& found);
 /// The follow-up's places on the bed.
 [[nodiscard]] Chart next_points_chart(const Diagnosis& found);
 

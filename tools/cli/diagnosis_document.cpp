@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
 
@@ -16,7 +15,6 @@ using diagnosis::Verdict;
 
 /// A verdict at a glance.
 struct VerdictLights {
-  Verdict verdict;
   Tone tone;
   Tone found_tone;
   std::string_view found;
@@ -25,35 +23,14 @@ struct VerdictLights {
 };
 
 constexpr VerdictLights kVerdicts[] = {
-    {Verdict::named, Tone::good, Tone::good, "yes", Tone::good, "yes, one cause"},
-    {Verdict::named_set, Tone::caution, Tone::good, "yes", Tone::caution, "one of a few"},
-    {Verdict::several_causes, Tone::good, Tone::good, "yes", Tone::good, "yes, several together"},
-    {Verdict::model_discrepancy,
-     Tone::bad,
-     Tone::good,
-     "yes, a pattern",
-     Tone::bad,
-     "no known cause"},
-    {Verdict::noise_larger_than_stated,
-     Tone::caution,
-     Tone::caution,
-     "readings, worse than entered",
-     Tone::caution,
-     "no cause"},
-    {Verdict::outliers, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
-    {Verdict::nothing_found,
-     Tone::good,
-     Tone::good,
-     "nothing hidden",
-     Tone::good,
-     "nothing to name"},
-};
-
-const VerdictLights& lights_of(Verdict verdict) {
-  return *std::find_if(std::begin(kVerdicts), std::end(kVerdicts), [verdict](const auto& lights) {
-    return lights.verdict == verdict;
-  });
-}
+    {Tone::good, Tone::good, "yes", Tone::good, "yes, one cause"},
+    {Tone::caution, Tone::good, "yes", Tone::caution, "one of a few"},
+    {Tone::good, Tone::good, "yes", Tone::good, "yes, several together"},
+    {Tone::bad, Tone::good, "yes, a pattern", Tone::bad, "no known cause"},
+    {Tone::caution, Tone::caution, "readings, worse than entered", Tone::caution, "no cause"},
+    {Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
+    {Tone::good, Tone::good, "nothing hidden", Tone::good, "nothing to name"},
+};  // by Verdict
 
 /// In addition to the causes.
 bool is_something_left(const Diagnosis& found) {
@@ -78,7 +55,7 @@ Light data_light(const Diagnosis& found) {
 }
 
 void put_the_verdict(const Diagnosis& found, Document& document) {
-  const VerdictLights& lights = lights_of(found.verdict);
+  const VerdictLights& lights = kVerdicts[static_cast<std::size_t>(found.verdict)];
   const bool left = is_something_left(found);
   // The error comes first, the same number as a fit begins with.
   document.verdict = {found.tool_today ? fmt::format("Your machine misses by about {} mm. {}",
@@ -109,7 +86,7 @@ void put_the_verdict(const Diagnosis& found, Document& document) {
 enum Show { kOpen, kFolded, kOpenOnPage, kFoldedOnPage };
 
 void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& sections) {
-  const auto add = [&](Show show, bool has_any, Section (*section_of)(const Diagnosis&)) {
+  const auto add = [&](Show show, bool has_any, SectionOf* section_of) {
     const bool is_of_page = show >= kOpenOnPage;
     if (!has_any || (is_of_page && detail != Detail::page)) return;
     Section& section = sections.emplace_back(section_of(found));

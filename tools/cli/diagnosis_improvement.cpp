@@ -1,17 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include "model/effects/effect.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-using diagnosis::Hypothesis;
 using report::number_column;
+
+/// A line of the table.
+struct ImprovementRow {
+  std::string_view what;
+  const diagnosis::HeldOut* held_out = nullptr;
+};
+
+/// Distances were held out: no points were read, or too few.
+bool is_improvement_of_distances(const diagnosis::HeldOutImprovement& improvement) {
+  return improvement.scheme.find("distances") != std::string::npos;
+}
+
+/// Rows of an extension are left out where nothing was named.
+std::vector<ImprovementRow> improvement_rows(const Diagnosis& diagnosis) {
+  const diagnosis::HeldOutImprovement& improvement = *diagnosis.improvement;
+  std::vector<ImprovementRow> rows = {
+      {is_improvement_of_distances(improvement) ? "uncorrected" : "uncorrected, at these points",
+       &improvement.uncalibrated}};
+  if (improvement.placed) rows.push_back({"uncorrected, sheet placed", &*improvement.placed});
+  rows.push_back({"calibrated", &improvement.calibrated});
+  if (!diagnosis.causes.empty()) {
+    rows.push_back({"with the cause", &improvement.extended});
+    rows.push_back({"with the cause and a surface", &improvement.extended_and_surface});
+  }
+  rows.push_back({"a surface only", &improvement.surface_only});
+  return rows;
+}
 
 std::vector<ImprovementRow> transfer_rows(const Diagnosis& diagnosis) {
   const diagnosis::Transfer& transfer = *diagnosis.transferred;
@@ -48,26 +72,33 @@ Table error_table(const std::vector<ImprovementRow>& rows,
   return table;
 }
 
-}  // namespace
-
-bool is_improvement_of_distances(const diagnosis::HeldOutImprovement& improvement) {
-  return improvement.scheme.find("distances") != std::string::npos;
-}
-
-std::vector<ImprovementRow> improvement_rows(const Diagnosis& diagnosis) {
-  const diagnosis::HeldOutImprovement& improvement = *diagnosis.improvement;
-  std::vector<ImprovementRow> rows = {
-      {is_improvement_of_distances(improvement) ? "uncorrected" : "uncorrected, at these points",
-       &improvement.uncalibrated}};
-  if (improvement.placed) rows.push_back({"uncorrected, sheet placed", &*improvement.placed});
-  rows.push_back({"calibrated", &improvement.calibrated});
-  if (!diagnosis.causes.empty()) {
-    rows.push_back({"with the cause", &improvement.extended});
-    rows.push_back({"with the cause and a surface", &improvement.extended_and_surface});
+Chart improvement_chart(const Diagnosis& found) {
+  Chart chart{.specification = "gain_bars",
+              .title = is_improvement_of_distances(*found.improvement)
+                           ? "Error of distances left out, rms"
+                           : "Error of the tool at points left out, rms",
+              .caption = "The thin line on a bar is its 90 % interval. Left out: " +
+                         found.improvement->scheme + "."};
+  DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}};
+  const auto color_of = [&](const diagnosis::HeldOut* row) {
+    if (row == &found.improvement->extended || row == &found.improvement->extended_and_surface)
+      return report::kAfterColor;
+    return row == &found.improvement->surface_only ? report::kNeutralColor : report::kBeforeColor;
+  };
+  for (const ImprovementRow& row : improvement_rows(found)) {
+    table.rows.push_back({std::string(row.what),
+                          row.held_out->rms_mm,
+                          row.held_out->low_mm,
+                          row.held_out->high_mm,
+                          row.held_out->percentile_95_mm,
+                          std::string(color_of(row.held_out))});
   }
-  rows.push_back({"a surface only", &improvement.surface_only});
-  return rows;
+  chart.data.push_back(std::move(table));
+  chart.signals = {{"floor_mm", found.improvement->noise_floor_mm}};
+  return chart;
 }
+
+}  // namespace
 
 Light corrected_light(const Diagnosis& found) {
   constexpr double kNearTheNoise = 1.25, kFarFromIt = 2.0;
@@ -132,70 +163,6 @@ Section transfer_section(const Diagnosis& found) {
   return {fmt::format(
               "Error of the tool on \"{}\", {} points not used here, mm", other.to, other.points),
           {std::move(table)}};
-}
-
-namespace {
-
-/// The likeliest ones are shown; the rest is below one per cent.
-std::vector<Hypothesis> likeliest_hypotheses(const Diagnosis& found) {
-  constexpr double kLeast = 0.002;
-  constexpr std::size_t kMost = 12;
-  std::vector<Hypothesis> leading;
-  for (const Hypothesis& hypothesis : found.hypotheses) {
-    if (leading.size() < kMost && (hypothesis.probability >= kLeast || leading.empty()))
-      leading.push_back(hypothesis);
-  }
-  return leading;
-}
-
-}  // namespace
-
-Chart probability_chart(const Diagnosis& found) {
-  Chart chart{.specification = "probability_bars",
-              .title = "How probable each explanation is",
-              .caption =
-                  "Causes can act together, so the probabilities need not add up to 100 %. Those "
-                  "below 0.2 % are omitted. Blue: named by the verdict."};
-  DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}};
-  for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {
-    std::string what = hypothesis_title(hypothesis);
-    bool is_named = false;
-    for (const auto& cause : found.causes) {
-      if (cause.cause.effect->id != hypothesis.effect || name(cause.cause.side) != hypothesis.side)
-        continue;
-      is_named = true;
-      for (const auto& same : cause.same_as) what += fmt::format(" = {}", cause_title(same.cause));
-    }
-    table.rows.push_back({what, hypothesis.probability, percent(hypothesis.probability), is_named});
-  }
-  chart.data.push_back(std::move(table));
-  return chart;
-}
-
-Chart improvement_chart(const Diagnosis& found) {
-  Chart chart{.specification = "gain_bars",
-              .title = is_improvement_of_distances(*found.improvement)
-                           ? "Error of distances left out, rms"
-                           : "Error of the tool at points left out, rms",
-              .caption = "The thin line on a bar is its 90 % interval. Left out: " +
-                         found.improvement->scheme + "."};
-  DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}};
-  const auto color_of = [&](const diagnosis::HeldOut* row) {
-    if (row == &found.improvement->extended || row == &found.improvement->extended_and_surface)
-      return report::kAfterColor;
-    return row == &found.improvement->surface_only ? report::kNeutralColor : report::kBeforeColor;
-  };
-  for (const ImprovementRow& row : improvement_rows(found)) {
-    table.rows.push_back({std::string(row.what),
-                          row.held_out->rms_mm,
-                          row.held_out->low_mm,
-                          row.held_out->high_mm,
-                          row.held_out->percentile_95_mm,
-                          std::string(color_of(row.held_out))});
-  }
-  chart.data.push_back(std::move(table));
-  chart.signals = {{"floor_mm", found.improvement->noise_floor_mm}};
-  return chart;
 }
 
 }  // namespace chaintrue::cli

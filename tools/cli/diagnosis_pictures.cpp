@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sections of a diagnosis that are pictures.
+// A picture of each named cause.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,46 +15,6 @@
 #include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
-
-Section arrows_section(const Diagnosis& found) {
-  if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
-  Section section{"What it does to the tool"};
-  grid::append_all(section.blocks, arrow_charts(found));
-  if (!found.distances.empty()) section.blocks.emplace_back(distance_chart(found));
-  return section;
-}
-
-Section signature_section(const Diagnosis& found) {
-  Section section{"Why this cause"};
-  section.say(
-      "Measured errors next to the effect of the cause, both after refitting the "
-      "settings. The cause is right if both pictures agree and only noise remains.");
-  grid::append_all(section.blocks, strip_charts(found));
-  if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
-  return section;
-}
-
-Section residuals_section(const Diagnosis& found) {
-  Section section{"What the error follows"};
-  if (is_of_distances(found)) {
-    section.blocks.emplace_back(distance_scatter_charts(found));
-    section.say(
-        "Distances do not show the chain's length at a hole or the order of the holes, "
-        "so drift, skipped links and friction cannot be detected.");
-    return section;
-  }
-  grid::append_all(section.blocks, length_charts(found));
-  section.blocks.emplace_back(angle_charts(found));
-  if (has_order(found)) {
-    section.blocks.emplace_back(order_charts(found));
-  } else {
-    section.say(
-        "The order in which the points were visited is not recorded, so drift, skipped "
-        "links and friction cannot be detected.");
-  }
-  if (!found.distances.empty()) section.blocks.emplace_back(distance_scatter_charts(found));
-  return section;
-}
 
 namespace {
 

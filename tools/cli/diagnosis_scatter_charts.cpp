@@ -11,6 +11,7 @@
 #include "grid/containers.hpp"
 #include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
@@ -48,8 +49,8 @@ std::vector<std::pair<double, double>> means_of(const Diagnosis& found, const Sc
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (found.points[i].bad) continue;
     const double share = (all[i] - *low) / std::max(*high - *low, 1e-12);
-    const auto bin = std::min(
-        bins - 1, static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(bins)));
+    const auto bin =
+        std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, share) * grid::as_double(bins)));
     x[bin] += all[i];
     y[bin] += found.points[i].chain_before_mm[row_of(scatter.chain)];
     count[bin] += 1.0;
@@ -99,8 +100,6 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
 }
 
 double length_mm(const PointPicture& point, Side chain) { return point.lengths[chain]; }
-
-}  // namespace
 
 std::vector<ChartRow> length_charts(const Diagnosis& found) {
   const model::Sprocket& sprocket = found.extended_machine.sprocket;
@@ -153,12 +152,6 @@ ChartRow angle_charts(const Diagnosis& found) {
   return row;
 }
 
-bool has_order(const Diagnosis& found) {
-  return !found.points.empty() && grid::all_of(found.points, [](const PointPicture& point) {
-    return point.order.has_value();
-  });
-}
-
 ChartRow order_charts(const Diagnosis& found) {
   // A cause of the visit shows before it is removed; without one, other causes would only hide the
   // remainder.
@@ -177,12 +170,42 @@ ChartRow order_charts(const Diagnosis& found) {
                                           "drift, a step a skipped link."
                                         : "",
          .x_title = "number of the visit",
-         .x = [](const PointPicture& point, Side) { return static_cast<double>(*point.order); },
+         .x = [](const PointPicture& point, Side) { return grid::as_double(*point.order); },
          .chain = chain,
          .by_direction = true,
          .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm}));
   }
   return row;
+}
+
+}  // namespace
+
+bool has_order(const Diagnosis& found) {
+  return !found.points.empty() && grid::all_of(found.points, [](const PointPicture& point) {
+    return point.order.has_value();
+  });
+}
+
+Section residuals_section(const Diagnosis& found) {
+  Section section{"What the error follows"};
+  if (is_of_distances(found)) {
+    section.blocks.emplace_back(distance_scatter_charts(found));
+    section.say(
+        "Distances do not show the chain's length at a hole or the order of the holes, "
+        "so drift, skipped links and friction cannot be detected.");
+    return section;
+  }
+  grid::append_all(section.blocks, length_charts(found));
+  section.blocks.emplace_back(angle_charts(found));
+  if (has_order(found)) {
+    section.blocks.emplace_back(order_charts(found));
+  } else {
+    section.say(
+        "The order in which the points were visited is not recorded, so drift, skipped "
+        "links and friction cannot be detected.");
+  }
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_scatter_charts(found));
+  return section;
 }
 
 namespace {

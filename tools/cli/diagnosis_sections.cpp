@@ -24,19 +24,12 @@ using report::number_column;
 constexpr double kWorthALine = 0.001;
 
 std::string what_words(const BudgetLine& line) {
-  switch (line.what) {
-    case BudgetLine::What::settings:
-      return "settings, and position of the sheet";
-    case BudgetLine::What::cause:
-      return cause_title(*line.cause);
-    case BudgetLine::What::unexplained:
-      return "a pattern that no listed cause explains";
-    case BudgetLine::What::noise:
-      return "remaining in these readings";
-    case BudgetLine::What::inseparable:
-      break;
-  }
-  return "";
+  constexpr std::string_view kWords[] = {"settings, and position of the sheet",
+                                         "",
+                                         "a pattern that no listed cause explains",
+                                         "remaining in these readings"};  // by What
+  if (line.what == BudgetLine::What::cause) return cause_title(*line.cause);
+  return std::string(kWords[static_cast<std::size_t>(line.what)]);
 }
 
 std::string_view changes_words(const BudgetLine& line) {
@@ -115,6 +108,44 @@ Section causes_section(const Diagnosis& found) {
   return section;
 }
 
+namespace {
+
+/// The likeliest ones are shown; the rest is below one per cent.
+std::vector<diagnosis::Hypothesis> likeliest_hypotheses(const Diagnosis& found) {
+  constexpr double kLeast = 0.002;
+  constexpr std::size_t kMost = 12;
+  std::vector<diagnosis::Hypothesis> leading;
+  for (const diagnosis::Hypothesis& hypothesis : found.hypotheses) {
+    if (leading.size() < kMost && (hypothesis.probability >= kLeast || leading.empty()))
+      leading.push_back(hypothesis);
+  }
+  return leading;
+}
+
+Chart probability_chart(const Diagnosis& found) {
+  Chart chart{.specification = "probability_bars",
+              .title = "How probable each explanation is",
+              .caption =
+                  "Causes can act together, so the probabilities need not add up to 100 %. Those "
+                  "below 0.2 % are omitted. Blue: named by the verdict."};
+  DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}};
+  for (const diagnosis::Hypothesis& hypothesis : likeliest_hypotheses(found)) {
+    std::string what = hypothesis_title(hypothesis);
+    bool is_named = false;
+    for (const auto& cause : found.causes) {
+      if (cause.cause.effect->id != hypothesis.effect || name(cause.cause.side) != hypothesis.side)
+        continue;
+      is_named = true;
+      for (const auto& same : cause.same_as) what += fmt::format(" = {}", cause_title(same.cause));
+    }
+    table.rows.push_back({what, hypothesis.probability, percent(hypothesis.probability), is_named});
+  }
+  chart.data.push_back(std::move(table));
+  return chart;
+}
+
+}  // namespace
+
 Section probabilities_section(const Diagnosis& found) {
   Table table{.columns = {{.is_number = true, .width = 13}, {.gap = 2}}};
   for (const auto& hypothesis : found.hypotheses) {
@@ -167,7 +198,7 @@ Table removals_table(const Diagnosis& found) {
   });
   const auto changes =
       std::count_if(order.begin(), order.end(), [](const Removal* r) { return !r->stands; });
-  order.resize(std::min(order.size(), kShown + static_cast<std::size_t>(changes)));
+  order.resize(std::min(order.size(), kShown + grid::as_size(changes)));
   Table table{{{"left out"},
                {std::string(name(found.observations)), true},
                {"probability then", true},

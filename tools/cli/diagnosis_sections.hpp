@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A diagnosis as a document for the terminal and for a browser: the answer first, then its basis. Its
-/// sections that consist of text and tables, for chains and belts.
+/// A diagnosis as a document for the terminal and for a browser: the answer first, then its basis.
 #pragma once
 
 #include <string_view>
@@ -19,43 +18,44 @@ namespace chaintrue::cli {
                                           std::string_view source,
                                           Detail detail = Detail::page);
 
+/// Every section is made from the diagnosis alone.
+using SectionOf = Section(const Diagnosis& found);
+
 /// The parts of the error. Precondition: the diagnosis has a budget.
-[[nodiscard]] Section budget_section(const Diagnosis& found);
+SectionOf budget_section;
 /// The named causes with size, probability and remedy. Precondition: a cause is named.
-[[nodiscard]] Section causes_section(const Diagnosis& found);
+SectionOf causes_section;
 /// Possible variables of the rest. Precondition: some law is reported.
-[[nodiscard]] Section laws_section(const Diagnosis& found);
+SectionOf laws_section;
 /// The result for each declared effect. Precondition: there are some.
-[[nodiscard]] Section declared_section(const Diagnosis& found);
+SectionOf declared_section;
 /// The next measurements, numbered. Precondition: there are some.
-[[nodiscard]] Section next_section(const Diagnosis& found);
+SectionOf next_section;
 /// The relevant hypotheses, and the remainder.
-[[nodiscard]] Section probabilities_section(const Diagnosis& found);
-[[nodiscard]] Section settings_section(const Diagnosis& found);
-[[nodiscard]] Section outliers_section(const Diagnosis& found);
+SectionOf probabilities_section;
+SectionOf settings_section;
+SectionOf outliers_section;
 /// Causes that were looked for and are absent.
-[[nodiscard]] Section bounds_section(const Diagnosis& found);
-[[nodiscard]] Section not_testable_section(const Diagnosis& found);
+SectionOf bounds_section;
+SectionOf not_testable_section;
 /// Assumptions, noise and corrections of the data.
-[[nodiscard]] Section remarks_section(const Diagnosis& found);
+SectionOf remarks_section;
+
+/// The tool, or the distances, before and with the causes. Precondition of this and the next two:
+/// readings.
+SectionOf arrows_section;
+/// The measured residuals, and those that the cause and its rival predict. Precondition: a cause is
+/// named.
+SectionOf signature_section;
+/// Residuals against lengths, angles and visits.
+SectionOf residuals_section;
 
 // The gain of naming: errors at held-out points and distances.
 
-/// A line of the table.
-struct ImprovementRow {
-  std::string_view what;
-  const diagnosis::HeldOut* held_out = nullptr;
-};
-/// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
-/// where nothing was named.
-[[nodiscard]] std::vector<ImprovementRow> improvement_rows(const Diagnosis& diagnosis);
-/// Distances were held out: no points were read, or too few.
-[[nodiscard]] bool is_improvement_of_distances(const diagnosis::HeldOutImprovement& improvement);
-
 /// Precondition: the diagnosis has a gain.
-[[nodiscard]] Section improvement_section(const Diagnosis& found);
+SectionOf improvement_section;
 /// On the points of another grid. Precondition: there is one.
-[[nodiscard]] Section transfer_section(const Diagnosis& found);
+SectionOf transfer_section;
 /// For both; empty if there is no gain.
 [[nodiscard]] Light corrected_light(const Diagnosis& found);
 [[nodiscard]] std::vector<Figure> figures_of_improvement(const Diagnosis& found);
@@ -63,25 +63,25 @@ struct ImprovementRow {
 // Sections specific to a diagnosis of four belts. Precondition of all: it is one of belts.
 
 /// The frame with its residuals, before and with the causes.
-[[nodiscard]] Section frame_section(const Diagnosis& found);
+SectionOf frame_section;
 /// The anchors before and with the causes.
-[[nodiscard]] Section anchors_section(const Diagnosis& found);
+SectionOf anchors_section;
 /// Errors of the belts and of the tool, before and with the causes.
-[[nodiscard]] Section belts_improvement_section(const Diagnosis& found);
+SectionOf belts_improvement_section;
 [[nodiscard]] Light scale_light(const Diagnosis& found);
 [[nodiscard]] std::vector<Figure> figures_of_belts(const Diagnosis& found);
 
 // The section on the verdict without some of the readings.
 
 /// Which readings influence the name. Precondition: the diagnosis has a stability.
-[[nodiscard]] Section stability_section(const Diagnosis& found);
+SectionOf stability_section;
 
 // Sections specific to a diagnosis of a test drawing. Precondition of all: it is one of a drawing.
 
 /// The settings in force and as estimated with the causes.
-[[nodiscard]] Section drawn_settings_section(const Diagnosis& found);
+SectionOf drawn_settings_section;
 /// The measures, and their prediction by settings and causes.
-[[nodiscard]] Section drawn_measures_section(const Diagnosis& found);
+SectionOf drawn_measures_section;
 [[nodiscard]] Light drawn_settings_light(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

@@ -29,17 +29,16 @@ constexpr HypothesisWords kHypotheses[] = {{"nothing", "nothing hidden"},
 
 /// A reading covers this many of the file's quantity, in this unit.
 struct ReadingUnit {
-  grid::ReadingOf what;
   double count;
   std::string_view unit;
 };
-constexpr ReadingUnit kReadings[] = {{grid::ReadingOf::motor_spacing, 1.0, "mm"},
-                                     {grid::ReadingOf::beam_rise, 1.0, "mm"},
-                                     {grid::ReadingOf::ring_radius, 1.0, "mm"},
-                                     {grid::ReadingOf::sled_mass, 1.0, "kg"},
-                                     {grid::ReadingOf::link_pitch, 100.0, "mm"},
-                                     {grid::ReadingOf::chain_mass, 1.0, "kg"},
-                                     {grid::ReadingOf::tape_error, 1.0, "mm per metre"}};
+constexpr ReadingUnit kReadings[] = {{1.0, "mm"},
+                                     {1.0, "kg"},
+                                     {100.0, "mm"},
+                                     {1.0, "mm"},
+                                     {1.0, "mm"},
+                                     {1.0, "kg"},
+                                     {1.0, "mm per metre"}};  // by ReadingOf
 
 std::string spaced(std::string_view id) {
   std::string text(id);
@@ -68,12 +67,9 @@ std::string share_percent(double share) {
 
 std::string reading_in_words(const NextMeasurement& next) {
   std::string text = fmt::format("Measure {}", diagnosis::reading_words(*next.reading, next.side));
-  const auto* known = std::find_if(std::begin(kReadings),
-                                   std::end(kReadings),
-                                   [&](const auto& one) { return one.what == *next.reading; });
-  if (known == std::end(kReadings)) return text + ".";
-  if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", known->count * next.sigma, known->unit);
-  if (known->count > 1.0) text += fmt::format("; divide it by {:g} for the file", known->count);
+  const auto& [count, unit] = kReadings[static_cast<std::size_t>(*next.reading)];
+  if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", count * next.sigma, unit);
+  if (count > 1.0) text += fmt::format("; divide it by {:g} for the file", count);
   return text + ".";
 }
 
@@ -214,10 +210,9 @@ std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis) {
   const auto& list = diagnosis.next_measurements;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].mark) continue;
-    const auto known = std::find_if(places.begin(), places.end(), [&](const auto& place) {
-      return same_place(place.mark, *list[i].mark);
-    });
-    if (known != places.end()) {
+    auto* known = grid::find_where(
+        places, [&](const auto& place) { return same_place(place.mark, *list[i].mark); });
+    if (known != nullptr) {
       known->numbers += fmt::format(", {}", i + 1);
       known->raises_probability_to = list[i].raises_probability_to;
     } else {

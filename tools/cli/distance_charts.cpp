@@ -9,6 +9,7 @@
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/plan_drawing.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -28,11 +29,11 @@ MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPo
   for (const auto& hole : found.holes) {
     if (hole.name == name) return hole.mark;
   }
-  const Bed& bed = found.extended_machine.bed;
-  if (name == "left") return {-0.5 * bed.width_mm, alongside.y_mm};
-  if (name == "right") return {0.5 * bed.width_mm, alongside.y_mm};
-  if (name == "top") return {alongside.x_mm, 0.5 * bed.height_mm};
-  if (name == "bottom") return {alongside.x_mm, -0.5 * bed.height_mm};
+  for (const grid::SheetEdge edge : grid::kSheetEdges) {
+    if (grid::name(edge) != name) continue;
+    return model::identity_placement(
+        on_edge(model::identity_placement(alongside), edge, found.extended_machine.bed));
+  }
   return alongside;
 }
 
@@ -65,7 +66,7 @@ class Panels {
 
   /// A panel with its holes; lines are drawn in the one begun last.
   void begin(const std::string& title, const std::string& note) {
-    number_ = static_cast<double>(heads_.rows.size());
+    number_ = grid::as_double(heads_.rows.size());
     heads_.rows.push_back({number_, title, note});
     for (const auto& hole : found_.holes)
       holes_.rows.push_back({number_, hole.name, hole.mark.x_mm, hole.mark.y_mm});
@@ -96,7 +97,7 @@ class Panels {
     std::vector<Arrow> marks = marks_of(found_);
     grid::append_all(marks, marks_);
     chart.signals = report::bed_signals(bed_of(found_), marks);
-    chart.signals.push_back({"panels", static_cast<double>(heads_.rows.size())});
+    chart.signals.push_back({"panels", grid::as_double(heads_.rows.size())});
     chart.data = {std::move(heads_), std::move(lines_), std::move(holes_)};
     return chart;
   }
@@ -143,24 +144,16 @@ Chart residual_panels(const Diagnosis& found,
            noise_mm)});
 }
 
-/// Dots of one kind against something of the distance.
-struct DistanceScatter {
-  std::string title;
-  std::string caption;
-  std::string x_title;
-  double (*x)(const DistancePicture&, const Ends&);
-};
-
-Chart scatter_chart(const Diagnosis& found, const DistanceScatter& scatter) {
+/// Dots of one kind against something of the distance. \param chart its titles
+Chart scatter_chart(const Diagnosis& found,
+                    ResidualScatter chart,
+                    double (*x_of)(const DistancePicture&, const Ends&)) {
   const bool has_after = !found.causes.empty();
-  ResidualScatter chart{.title = scatter.title,
-                        .caption = scatter.caption,
-                        .x_title = scatter.x_title,
-                        .least_span_mm = 0.5,
-                        .first_label = "calibrated",
-                        .second_label = has_after ? "with the cause" : ""};
+  chart.least_span_mm = 0.5;
+  chart.first_label = "calibrated";
+  chart.second_label = has_after ? "with the cause" : "";
   for (const DistancePicture& distance : found.distances) {
-    const double x = scatter.x(distance, ends_of(found, distance));
+    const double x = x_of(distance, ends_of(found, distance));
     const auto add = [&](double mm, bool is_first) {
       chart.dots.push_back({words_of_ends(distance), x, mm, is_first, distance.bad});
     };
@@ -194,17 +187,15 @@ ChartRow distance_scatter_charts(const Diagnosis& found) {
                found,
                {"Against the distance's length",
                 "A slope means a scale error: the tape, or both chains, are too long or short.",
-                "distance, mm",
-                [](const DistancePicture& d, const Ends&) { return d.read_mm; }}),
+                "distance, mm"},
+               [](const DistancePicture& d, const Ends&) { return d.read_mm; }),
            scatter_chart(found,
-                         {"Against the tape's direction",
-                          "",
-                          "degrees from the horizontal",
-                          [](const DistancePicture&, const Ends& ends) {
-                            return std::atan2(std::abs(ends.to.y_mm - ends.from.y_mm),
-                                              std::abs(ends.to.x_mm - ends.from.x_mm)) *
-                                   180.0 / std::numbers::pi;
-                          }})}};
+                         {"Against the tape's direction", "", "degrees from the horizontal"},
+                         [](const DistancePicture&, const Ends& ends) {
+                           return std::atan2(std::abs(ends.to.y_mm - ends.from.y_mm),
+                                             std::abs(ends.to.x_mm - ends.from.x_mm)) *
+                                  180.0 / std::numbers::pi;
+                         })}};
 }
 
 Chart next_distances_chart(const Diagnosis& found) {

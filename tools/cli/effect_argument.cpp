@@ -53,34 +53,6 @@ std::optional<AppliedEffect> parse_form(const std::string& argument, OptionProbl
 
 }  // namespace
 
-void OptionProblems::add(std::string_view option,
-                         std::string value,
-                         std::string expected,
-                         ProblemKind kind) {
-  problems_.push_back(
-      {"command line", std::string(option), std::move(value), std::move(expected), {}, kind});
-}
-
-void OptionProblems::require(std::string_view option, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  add(option,
-      fmt::format("{}", value),
-      fmt::format("a number from {} to {}", least, most),
-      ProblemKind::out_of_range);
-}
-
-void OptionProblems::take_from(const std::function<void()>& check) {
-  try {
-    check();
-  } catch (const InputError& error) {
-    grid::append_all(problems_, error.problems());
-  }
-}
-
-void OptionProblems::throw_if_any() const {
-  if (!problems_.empty()) throw InputError(problems_);
-}
-
 std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProblems& problems) {
   std::vector<AppliedEffect> effects;
   for (const std::string& argument : arguments) {

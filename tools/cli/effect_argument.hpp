@@ -3,32 +3,16 @@
 /// Effects on the command line: `id:side:key=value,key=value`, `-` for no side.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "grid/files/input_error.hpp"
 #include "model/machine.hpp"
-#include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
+#include "tools/cli/option_checks.hpp"
 
 namespace chaintrue::cli {
-
-/// Collects all problems of a command's values and throws them together.
-class OptionProblems {
- public:
-  void add(std::string_view option, std::string value, std::string expected, ProblemKind kind);
-  /// `value` is finite and within [least, most].
-  void require(std::string_view option, double value, double least, double most);
-  /// Adds the problems of an InputError thrown by `check`.
-  void take_from(const std::function<void()>& check);
-  void throw_if_any() const;
-
- private:
-  std::vector<files::InputProblem> problems_;
-};
 
 /// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
 /// argument of another form is a problem, as is an effect without a name.

@@ -5,18 +5,18 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "model/reading_model.hpp"
+#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
-#include "tools/cli/option_checks.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -32,8 +32,7 @@ struct EffectsOptions {
   std::string machine;
   std::string side;
   Words values;
-  double length_noise_mm = StatedNoise{}.length_mm;
-  double position_noise_mm = StatedNoise{}.position_mm;
+  StatedNoise noise;
   std::string drawing;
   /// A machine to draw every cause on, and the page.
   std::string atlas;
@@ -122,16 +121,16 @@ std::string_view glyph(const Eigen::Vector2d& shift) {
   constexpr std::string_view kArrows[] = {"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};
   if (shift.norm() < kNothingMm) return "·";
   const double eighths = std::atan2(shift.y(), shift.x()) / (std::numbers::pi / 4.0);
-  return kArrows[static_cast<std::size_t>(std::lround(eighths) + 8) % 8];
+  return kArrows[grid::as_size(std::lround(eighths) + 8) % 8];
 }
 
 template <class Member>
 void print_bed(const synthetic::EffectPicture& picture, Member member) {
-  const auto columns = static_cast<std::size_t>(picture.columns);
+  const auto columns = grid::as_size(picture.columns);
   fmt::print("      x");
   for (std::size_t k = 0; k < columns; ++k) fmt::print("{:>10.0f}", picture.marks[k].mark.x_mm);
   fmt::print("\n");
-  for (std::size_t row = static_cast<std::size_t>(picture.rows); row-- > 0;) {
+  for (std::size_t row = grid::as_size(picture.rows); row-- > 0;) {
     fmt::print("  y{:>5.0f}", picture.marks[row * columns].mark.y_mm);
     for (std::size_t k = 0; k < columns; ++k) {
       const Eigen::Vector2d& shift = picture.marks[row * columns + k].*member;
@@ -287,15 +286,12 @@ int show_picture(const Effect& effect, const EffectsOptions& options, const Mach
   const EffectSide side = chosen_side(effect, options.side, sound);
   sound.throw_if_any();
   const std::vector<double> values = chosen_values(effect, side, options, machine);
-  StatedNoise noise;
-  noise.length_mm = options.length_noise_mm;
-  noise.position_mm = options.position_noise_mm;
   if (const auto why = unreachable(machine, model::effects::applied(effect, side, values))) {
     say("{}: {}", options.machine, *why);
     return kNotSupportedOrOutside;
   }
   const synthetic::EffectPicture picture =
-      synthetic::picture_effect(machine, effect, side, values, noise);
+      synthetic::picture_effect(machine, effect, side, values, options.noise);
   if (!options.drawing.empty()) write_output(options.drawing, draw_effect(machine, picture));
   end_progress();
   if (options.json) {
@@ -353,53 +349,38 @@ int run_effects(const EffectsOptions& options) {
 }  // namespace
 
 void add_effects(Verb app) {
-  auto options = std::make_shared<EffectsOptions>();
-  Verb verb = app.add_verb(
-      "effects", "List the catalogue of effects, or show what one of them does to a machine");
-  verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
-  auto machine = add_input(
-      verb, "--machine", options->machine, "chaintrue_machine file of the machine to show it on");
-  verb.add_option(
-          "--side", options->side, "left, right, both, x or y; by default the effect's first")
-      .needs(machine);
-  verb.add_option("--set", options->values, "Size as parameter=number instead of the usual one")
-      .needs(machine);
-  add_number(verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma")
-      .needs(machine);
-  add_number(verb, "--position-noise-mm", options->position_noise_mm, files::kNoiseMm, "One sigma")
-      .needs(machine);
-  add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also write it as an SVG picture")
-      .needs(machine);
-  auto json = verb.add_flag("--json", options->json, "For programs");
-  auto markdown =
-      verb.add_flag("--markdown", options->markdown, "Print the catalogue as in docs/effects.md");
-  add_input(verb,
-            "--effects",
-            options->declared,
-            "chaintrue_effect files: declared effects, in addition to the catalogue's")
-      .excludes(markdown);
-  auto atlas =
-      add_input(verb,
-                "--atlas",
-                options->atlas,
-                "Write a page with a picture of each cause for a machine with two chains, four "
-                "belts or a pen; with the name of an effect or a setting, only that one")
-          .excludes(machine)
-          .excludes(json)
-          .excludes(markdown);
-  auto output = add_output(
-      verb, "-o,--output", options->output, {Origin::page}, "The page (HTML) of --atlas");
-  output.needs(atlas);
-  atlas.needs(output);
-  verb.footer(
-      "Examples:\n"
-      "  build/chaintrue effects\n"
-      "  build/chaintrue effects --atlas fixtures/plotter/mural.txt -o atlas.html\n"
-      "  build/chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
-      "stretch.svg");
-  add_option_check(verb,
-                   [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb.runs(options, run_effects);
+  auto [verb, c] = app.add_verb<EffectsOptions>(
+      "effects",
+      "List the catalogue of effects, or show what one of them does to a machine",
+      R"(Examples:
+  build/chaintrue effects
+  build/chaintrue effects --atlas fixtures/plotter/mural.txt -o atlas.html
+  build/chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw stretch.svg)",
+      run_effects);
+  verb.has({{"id", c.id, "Effect; without it the catalogue is listed"},
+            {"--machine", reads(c.machine), "chaintrue_machine file of the machine to show it on"},
+            {"--side", c.side, "left, right, both, x or y; by default the effect's first"},
+            {"--set", c.values, "Size as parameter=number instead of the usual one"},
+            {"--length-noise-mm", {c.noise.length_mm, {"mm", 1e-6, 100.0}}, "One sigma"},
+            {"--position-noise-mm", {c.noise.position_mm, files::kNoiseMm}, "One sigma"},
+            {"--draw", writes(c.drawing, {Origin::drawing}), "Also write it as an SVG picture"},
+            {"--json", c.json, "For programs"},
+            {"--markdown", c.markdown, "Print the catalogue as in docs/effects.md"},
+            {"--effects",
+             reads(c.declared),
+             "chaintrue_effect files: declared effects, in addition to the catalogue's"},
+            {"--atlas",
+             reads(c.atlas),
+             "Write a page with a picture of each cause for a machine with two chains, four "
+             "belts or a pen; with the name of an effect or a setting, only that one"},
+            {"-o,--output", writes(c.output, {Origin::page}), "The page (HTML) of --atlas"}});
+  verb.needs({"--side", "--set", "--length-noise-mm", "--position-noise-mm", "--draw"},
+             "--machine");
+  verb.excludes({"--effects"}, "--markdown");
+  verb.excludes({"--machine", "--json", "--markdown"}, "--atlas");
+  verb.needs({"--output"}, "--atlas");
+  verb.needs({"--atlas"}, "--output");
+  add_option_check(verb, c, check_options);
 }
 
 }  // namespace chaintrue::cli

@@ -255,13 +255,14 @@ std::string section_of(const View& view, const Atlas& atlas, bool of_settings) {
 std::string atlas_page(const Atlas& atlas, const std::string& machine) {
   const View view = view_of(atlas.lines);
   return fmt::format(
-             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-             "<title>What each cause draws: {0}</title>\n<style>{1}</style></head><body>\n"
-             "<h1>What each cause draws</h1>\n"
-             "<p>{0}. Grey: the lines as they were sent. Orange: the lines as the machine draws "
-             "them with one thing wrong. Find the picture that looks like your sheet; the slider "
-             "makes the cause larger, smaller, or turns it round.</p>\n{2}",
+             R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>What each cause draws: {0}</title>
+<style>{1}</style></head><body>
+<h1>What each cause draws</h1>
+<p>{0}. Grey: the lines as they were sent. Orange: the lines as the machine draws them with one thing wrong. Find the picture that looks like your sheet; the slider makes the cause larger, smaller, or turns it round.</p>
+{2})",
              escaped(machine),
              kStyle,
              atlas.calibrates_first

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,7 +122,7 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
                  {command.output, exported.settings.text}});
   for (const std::string& remark : exported.settings.remarks) say("{}", remark);
   if (exported.settings.remarks.empty() && exported.words.empty()) say("No number changes.");
-  fmt::print(stderr, "{}", exported.words);
+  say_lines(exported.words);
   say_next(exported.next);
   return kDone;
 }
@@ -148,19 +147,20 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
 }
 
 void add_maslow4(Verb verb) {
-  auto command = std::make_shared<ExportCommand>();
-  Verb maslow4 = verb.add_verb("maslow4", "Print the lines to paste into a Maslow 4's terminal");
-  add_input(
-      maslow4, "file", command->input, "A chaintrue_anchors file from fit, or a diagnosis of belts")
-      .required();
-  add_output(
-      maslow4, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
-      .shows_default();
-  maslow4.footer(
-      "The fitted anchors, in millimetres of belt; with a taped distance also the scales, if they "
-      "change.\n\nExample:\n  build/chaintrue fit fixtures/belts/thirty_one_places.json -o "
-      "anchors.json\n  build/chaintrue export maslow4 anchors.json");
-  maslow4.runs(command, export_maslow4);
+  auto [maslow4, c] = verb.add_verb<ExportCommand>(
+      "maslow4",
+      "Print the lines to paste into a Maslow 4's terminal",
+      R"(The fitted anchors, in millimetres of belt; with a taped distance also the scales, if they change.
+
+Example:
+  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json
+  build/chaintrue export maslow4 anchors.json)",
+      export_maslow4);
+  maslow4.has(
+      {{"file",
+        required(reads(c.input)),
+        "A chaintrue_anchors file from fit, or a diagnosis of belts"},
+       {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"}});
 }
 
 int export_plotter(const ExportCommand& command) {
@@ -177,63 +177,51 @@ int export_plotter(const ExportCommand& command) {
 }
 
 void add_plotter(Verb export_verb) {
-  auto command = std::make_shared<ExportCommand>();
-  Verb verb = export_verb.add_verb(
-      "plotter", "Print the numbers to type into a V-plotter's controller after a test drawing");
-  add_input(verb, "file", command->input, "A chaintrue_plotter file that fit wrote from a drawing")
-      .required();
-  add_output(
-      verb, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
-      .shows_default();
-  verb.footer(
-      "Example:\n"
-      "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json\n"
-      "  build/chaintrue export plotter found.json");
-  verb.runs(command, export_plotter);
+  auto [verb, c] = export_verb.add_verb<ExportCommand>(
+      "plotter",
+      "Print the numbers to type into a V-plotter's controller after a test drawing",
+      R"(Example:
+  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json
+  build/chaintrue export plotter found.json)",
+      export_plotter);
+  verb.has(
+      {{"file", required(reads(c.input)), "A chaintrue_plotter file that fit wrote from a drawing"},
+       {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"}});
 }
 
 }  // namespace
 
 void add_export(Verb app) {
   Verb verb = app.add_verb("export",
-                           "Convert a map, machine or diagnosis into settings for other programs");
+                           "Convert a map, machine or diagnosis into settings for other programs",
+                           R"(Example:
+  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json)");
   verb.require_verb();
-  constexpr const char* kExample =
-      "Example:\n  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json";
-  verb.footer(kExample);
-  auto command = std::make_shared<ExportCommand>();
-  Verb groundcontrol =
-      verb.add_verb("groundcontrol", "Print the numbers to type into GroundControl");
-  add_input(groundcontrol,
-            "file",
-            command->input,
-            "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis")
-      .required();
-  add_output(groundcontrol,
-             "-o,--output",
-             command->output,
-             {Origin::list},
-             "Output file; - is standard output")
-      .shows_default();
-  add_output(groundcontrol,
-             "--map-after",
-             command->map_after,
-             {Origin::map},
-             "With a map: also write the map to use once these numbers are typed in")
-      .acts_on(facts::map,
-               "to be left out, because only a map has a successor for the new numbers");
-  groundcontrol.footer(fmt::format(
-      "Prints the settings that bring the controller closest to the map, to the machine, or to the "
-      "machine that a\ndiagnosis found, the error before and after, and the error from causes "
-      "without a setting. Other settings\nare unchanged. No number is based on a cause below 90 %: "
-      "then the exit code is 1 and nothing is written.\n\nOnce the numbers are typed in, do not "
-      "use the old map: it would correct the same error again. Use the map\nfrom --map-after, "
-      "which is for the same machine with these numbers and corrects the remaining error.\n\n{}\n  "
-      "build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
-      "-o map.json\n  build/chaintrue export groundcontrol map.json -o settings.ini --map-after "
-      "map.after.json",
-      kExample));
-  groundcontrol.runs(command, export_groundcontrol);
+  auto [groundcontrol, c] = verb.add_verb<ExportCommand>(
+      "groundcontrol",
+      "Print the numbers to type into GroundControl",
+      R"(Prints the settings that bring the controller closest to the map, to the machine, or to the machine that a
+diagnosis found, the error before and after, and the error from causes without a setting. Other settings
+are unchanged. No number is based on a cause below 90 %: then the exit code is 1 and nothing is written.
+
+Once the numbers are typed in, do not use the old map: it would correct the same error again. Use the map
+from --map-after, which is for the same machine with these numbers and corrects the remaining error.
+
+Example:
+  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json
+  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json -o map.json
+  build/chaintrue export groundcontrol map.json -o settings.ini --map-after map.after.json)",
+      export_groundcontrol);
+  groundcontrol.has(
+      {{"file",
+        required(reads(c.input)),
+        "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis"},
+       {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"},
+       {"--map-after",
+        writes(c.map_after, {Origin::map}),
+        "With a map: also write the map to use once these numbers are typed in",
+        facts::map,
+        "to be left out, because only a map has a successor for the new numbers"}});
   add_maslow4(verb);
   add_plotter(verb);
   add_export_map(verb);

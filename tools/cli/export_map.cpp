@@ -2,12 +2,9 @@
 // A map for other controllers: as a kinematics module, or as the closest settings.
 #include <fmt/format.h>
 
-#include <cctype>
 #include <filesystem>
-#include <memory>
 #include <string>
 
-#include "grid/containers.hpp"
 #include "grid/files/klipper_kinematics.hpp"
 #include "grid/files/linuxcnc_kinematics.hpp"
 #include "grid/map/map_in_frame.hpp"
@@ -67,17 +64,14 @@ std::string module_name(const std::string& output) {
   return output == "-" ? "chaintrue_kins" : std::filesystem::path(output).stem().string();
 }
 
-void check_module_name(const std::string& output, OptionProblems& problems) {
-  const std::string name = module_name(output);
-  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
-  const bool is_identifier =
-      !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
-      grid::all_of(name, [&](char c) {
-        return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
-      });
+void check_module_name(const MapCommand& command, OptionProblems& problems) {
+  const std::string name = module_name(command.output);
+  const std::string letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+  const bool is_identifier = name.find_first_of(letters) == 0 &&
+                             name.find_first_not_of(letters + "0123456789") == std::string::npos;
   if (!is_identifier) {
     problems.add("--output",
-                 output,
+                 command.output,
                  "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of "
                  "letters, digits and _",
                  ProblemKind::output_place);
@@ -107,17 +101,18 @@ WrittenOrWhy linuxcnc_module(const NamedMap& named, const std::string& output) {
 
 std::string fluidnc_lines(const grid::StraightSettings& s) {
   return fmt::format(
-      "kinematics:\n"
-      "  WallPlotter:\n"
-      "    left_anchor_x: {:.3f}\n"
-      "    left_anchor_y: {:.3f}\n"
-      "    right_anchor_x: {:.3f}\n"
-      "    right_anchor_y: {:.3f}\n"
-      "axes:\n"
-      "  x:\n"
-      "    steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>\n"
-      "  y:\n"
-      "    steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>\n",
+      R"(kinematics:
+  WallPlotter:
+    left_anchor_x: {:.3f}
+    left_anchor_y: {:.3f}
+    right_anchor_x: {:.3f}
+    right_anchor_y: {:.3f}
+axes:
+  x:
+    steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>
+  y:
+    steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>
+)",
       s.anchors.left.x_mm,
       s.anchors.left.y_mm,
       s.anchors.right.x_mm,
@@ -129,10 +124,11 @@ std::string fluidnc_lines(const grid::StraightSettings& s) {
 /// Its x counts from the left anchor, its y down from the line between them.
 std::string grblhal_lines(const grid::StraightSettings& s) {
   return fmt::format(
-      "$130={:.3f}\n"
-      "$100=<steps of a turn / mm of chain in a turn, times {:.6f}>\n"
-      "$101=<steps of a turn / mm of chain in a turn, times {:.6f}>\n"
-      "; 0, 0 of the sheet is at X{:.3f} Y{:.3f} of the controller, whose Y counts downwards\n",
+      R"($130={:.3f}
+$100=<steps of a turn / mm of chain in a turn, times {:.6f}>
+$101=<steps of a turn / mm of chain in a turn, times {:.6f}>
+; 0, 0 of the sheet is at X{:.3f} Y{:.3f} of the controller, whose Y counts downwards
+)",
       s.anchors.right.x_mm - s.anchors.left.x_mm,
       s.more_steps.left,
       s.more_steps.right,
@@ -212,31 +208,30 @@ int export_map(Verb verb, const MapCommand& command, const Controller& controlle
 
 void add_export_map(Verb export_verb) {
   for (const Controller& controller : kControllers) {
-    auto command = std::make_shared<MapCommand>(MapCommand{{}, controller.output});
-    Verb verb = export_verb.add_verb(controller.name, controller.help);
-    add_input(verb, "map", command->map, "A chaintrue_map file").required();
-    add_output(verb, "-o,--output", command->output, {controller.kind}, controller.output_help)
-        .shows_default();
     const bool is_module = controller.kind == Origin::table;
-    verb.footer(fmt::format(
-        "{}Example:\n"
-        "  build/chaintrue fit fixtures/start/marks.csv --machine "
-        "fixtures/machines/groundcontrol.json -o map.json\n"
-        "  build/chaintrue export {} map.json{}{}",
-        is_module
-            ? ""
-            : "To correct the remaining error, compensate each program (gcode compensate).\n\n",
+    auto [verb, c] = export_verb.add_verb<MapCommand>(
         controller.name,
-        is_module ? " -o " : "",
-        is_module ? controller.output : ""));
+        controller.help,
+        fmt::format(
+            R"({}Example:
+  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json -o map.json
+  build/chaintrue export {} map.json{}{})",
+            is_module
+                ? ""
+                : "To correct the remaining error, compensate each program (gcode compensate).\n\n",
+            controller.name,
+            is_module ? " -o " : "",
+            is_module ? controller.output : ""),
+        [&controller](Verb chosen, const MapCommand& own) {
+          return export_map(chosen, own, controller);
+        });
+    c.output = controller.output;
+    verb.has({{"map", required(reads(c.map)), "A chaintrue_map file"},
+              {"-o,--output", writes(c.output, {controller.kind}), controller.output_help}});
+
     if (controller.write == linuxcnc_module) {
-      add_option_check(verb, [command](OptionProblems& problems) {
-        check_module_name(command->output, problems);
-      });
+      add_option_check(verb, c, check_module_name);
     }
-    verb.runs(command, [&controller](Verb chosen, const MapCommand& own) {
-      return export_map(chosen, own, controller);
-    });
   }
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
@@ -182,104 +181,97 @@ void write_fitted(const FitCommand& command,
   Outputs outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", json});
   write_outputs(outputs);
-  fmt::print(stderr, "{}", report::render_text(document, command.detail()));
+  say_lines(report::render_text(document, command.detail()));
 }
 
 void add_fit(Verb app) {
-  auto command = std::make_shared<FitCommand>();
-  Verb verb = app.add_verb("fit",
-                           "Compute a map from measured points, anchors from belt lengths, or "
-                           "settings from a test drawing");
-  add_grid_options(verb, command->input);
-  add_tape_options(verb, command->tape);
-  add_effects_option(verb, command->input);
-  verb.option("--noise-dof")
-      .acts_on(facts::residual,
-               "to be left out for a direct surface, which passes through the readings");
-  verb.option("--effects")
-      .acts_on(facts::residual, kNoMachine)
-      .acts_on(facts::causes,
-               "to be left out with --plain: a map uses either the machine file alone or the "
-               "causes found");
-  add_input(verb,
-            "--with",
-            command->with,
-            "More files of the same machine: grids or chaintrue_holes; with belts, "
-            "chaintrue_holes. All are fitted together, in the coordinates of the first")
-      .acts_on(facts::no_drawing,
-               "to be left out for a test drawing, whose file describes the plotter")
-      .acts_on(facts::residual, "to be left out, because a direct surface needs a single grid");
-  add_output(verb,
-             "-o,--output",
-             command->output,
-             {Origin::map, Origin::anchors, Origin::machine},
+  using namespace facts;
+  auto [verb, c] = app.add_verb<FitCommand>(
+      "fit",
+      "Compute a map from measured points, anchors from belt lengths, or "
+      "settings from a test drawing",
+      R"(The result is printed on standard error.
+
+Example:
+  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
+  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json
+  build/chaintrue fit fixtures/grids/seven_by_four.json --with fixtures/holes/nine_holes.json -o map.json
+  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json
+  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json)",
+      run_fit,
+      [](const FitCommand& own) {
+        if (own.json && own.output == "-") {
+          usage_error("fit", "--json and the map cannot both go to standard output");
+        }
+      });
+  add_grid_options(verb, c.input);
+  add_tape_options(verb, c.tape);
+  verb.has({effects_row(c.input),
+            {"--with",
+             reads(c.with),
+             "More files of the same machine: grids or chaintrue_holes; with belts, "
+             "chaintrue_holes. All are fitted together, in the coordinates of the first",
+             no_drawing,
+             "to be left out for a test drawing, whose file describes the plotter",
+             {{residual, "to be left out, because a direct surface needs a single grid"}}},
+            {"-o,--output",
+             required(writes(c.output, {Origin::map, Origin::anchors, Origin::machine})),
              "The result: a map file, for belts an anchors file, for a drawing a plotter file; - "
-             "is standard output")
-      .required();
-  verb.add_option("--surface",
-                  command->surface,
-                  "residual: a smooth correction of the calibrated machine; direct: splines "
-                  "through the lengths, without a machine")
-      .one_of({"residual", "direct"})
-      .shows_default()
-      .acts_on(
-          facts::chains, "to be left out, because belts and drawings have no surface", "residual")
-      .acts_on(facts::one_grid,
+             "is standard output"},
+            {"--surface",
+             {c.surface, {"residual", "direct"}},
+             "residual: a smooth correction of the calibrated machine; direct: splines "
+             "through the lengths, without a machine",
+             chains,
+             "to be left out, because belts and drawings have no surface",
+             {{one_grid,
                "\"residual\", because a direct surface needs chain lengths at known places, from a "
-               "single grid",
-               "residual");
-  verb.add_option("--ends", command->ends, "End condition of direct splines")
-      .one_of(files::words_of(files::kEndConditions))
-      .shows_default()
-      .acts_on(facts::direct, "to be left out without --surface direct");
-  add_outside_options(verb, command->outside, "continued by default");
-  verb.option("--outside")
-      .acts_on(facts::chains, "to be left out, because belts and drawings have no surface")
-      .acts_on(facts::residual, "to be left out for a direct surface, which ends at its points");
-  verb.add_flag("--plain",
-                command->plain,
-                "Do not look for causes. By default, fit looks for causes as diagnose does and "
-                "uses those that improve the map at points left out")
-      .acts_on(facts::chains,
-               "to be left out, because only maps use causes; for belts and drawings run chaintrue "
-               "diagnose")
-      .acts_on(facts::residual, kNoMachine);
-  verb.add_flag("--accept-class",
-                command->accept_class,
-                "If the points cannot distinguish long links from a long tape, assume the links")
-      .acts_on(facts::chains,
-               "to be left out, because it applies to chains and the tape for marks only")
-      .acts_on(facts::residual, kNoMachine)
-      .acts_on(facts::causes, "to be left out with --plain, which looks for no causes");
-  add_number(verb,
-             "--wish-mm",
-             command->wish_mm,
-             kWishMm,
-             "The accuracy you want: fit reports whether the map reaches it, and how to reach it")
-      .acts_on(facts::no_drawing,
-               "to be left out for a test drawing, whose file describes the plotter")
-      .acts_on(facts::residual, "to be left out for a direct surface, whose tool error is unknown");
-  verb.add_flag("-v,--verbose",
-                command->verbose,
-                "Also print the tables: settings, errors at left-out points, each distance, left "
-                "against right");
-  add_without_option(verb, command->without);
-  verb.add_flag("--json", command->json, "Print the results as JSON");
-  verb.footer(
-      "The result is printed on standard error.\n"
-      "\n"
-      "Example:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json --with "
-      "fixtures/holes/nine_holes.json -o map.json\n"
-      "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
-      "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json");
-  verb.runs(command, run_fit, [](const auto& own) {
-    if (own.json && own.output == "-") {
-      usage_error("fit", "--json and the map cannot both go to standard output");
-    }
-  });
+               "single grid"}},
+             "residual"},
+            {"--ends",
+             {c.ends, files::words_of(files::kEndConditions)},
+             "End condition of direct splines",
+             direct,
+             "to be left out without --surface direct"}});
+  add_outside_options(verb, c.outside, "continued by default");
+  verb.has({{"--plain",
+             c.plain,
+             "Do not look for causes. By default, fit looks for causes as diagnose does and "
+             "uses those that improve the map at points left out",
+             chains,
+             "to be left out, because only maps use causes; for belts and drawings run chaintrue "
+             "diagnose",
+             {{residual, kNoMachine}}},
+            {"--accept-class",
+             c.accept_class,
+             "If the points cannot distinguish long links from a long tape, assume the links",
+             chains,
+             "to be left out, because it applies to chains and the tape for marks only",
+             {{residual, kNoMachine},
+              {causes, "to be left out with --plain, which looks for no causes"}}},
+            {"--wish-mm",
+             {c.wish_mm, kWishMm},
+             "The accuracy you want: fit reports whether the map reaches it, and how to reach it",
+             no_drawing,
+             "to be left out for a test drawing, whose file describes the plotter",
+             {{residual, "to be left out for a direct surface, whose tool error is unknown"}}},
+            {"-v,--verbose",
+             c.verbose,
+             "Also print the tables: settings, errors at left-out points, each distance, left "
+             "against right"},
+            without_row(c.without),
+            {"--json", c.json, "Print the results as JSON"}});
+  verb.acts_on(
+      "--noise-dof",
+      {{residual, "to be left out for a direct surface, which passes through the readings"}});
+  verb.acts_on("--effects",
+               {{residual, kNoMachine},
+                {causes,
+                 "to be left out with --plain: a map uses either the machine file alone or the "
+                 "causes found"}});
+  verb.acts_on("--outside",
+               {{chains, "to be left out, because belts and drawings have no surface"},
+                {residual, "to be left out for a direct surface, which ends at its points"}});
 }
 
 }  // namespace chaintrue::cli

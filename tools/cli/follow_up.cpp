@@ -101,28 +101,6 @@ std::string readings_json(const Diagnosis& found) {
 
 namespace {
 
-struct Lines {
-  std::vector<grid::Hole> holes;
-  std::vector<std::pair<std::string, std::string>> distances;
-};
-
-/// N1, N2, ... except names in use.
-class FreeNames {
- public:
-  explicit FreeNames(const MeasuredHoles& set) : set_(set) {}
-  std::string next() {
-    std::string name;
-    do {
-      name = fmt::format("N{}", ++number_);
-    } while (grid::any_of(set_.holes, [&](const grid::Hole& hole) { return hole.name == name; }));
-    return name;
-  }
-
- private:
-  const MeasuredHoles& set_;
-  int number_ = 0;
-};
-
 /// A hole's name in the diagnosis.
 std::string name_in_diagnosis(const grid::Hole& hole, std::size_t position) {
   return position == 0 ? hole.name : fmt::format("{} ({})", hole.name, position + 1);
@@ -138,39 +116,24 @@ std::string name_in_file(const MeasuredHoles& set, std::size_t position, const s
   return edge ? name : "";
 }
 
-Lines lines_of(const Diagnosis& found,
-               const std::vector<MeasuredHoles>& sets,
-               std::size_t position) {
-  const MeasuredHoles& set = sets[position];
-  Lines lines;
-  FreeNames names(set);
-  for (const NextMeasurement& next : found.next_measurements) {
-    if (next.kind != diagnosis::MeasurementKind::distance) continue;
-    // A new hole has no name yet; its set follows from the holes to which it is measured.
-    std::string from = name_in_file(set, position, next.mark ? next.to.front() : next.from);
-    if (from.empty()) continue;
-    if (next.mark) {
-      from = names.next();
-      lines.holes.push_back({from, model::identity_placement(*next.mark)});
-    }
-    for (const std::string& to : next.to) {
-      lines.distances.emplace_back(from, name_in_file(set, position, to));
-    }
-  }
-  return lines;
+/// N1, N2, ... except names in use.
+std::string free_name(const MeasuredHoles& set, int& number) {
+  const std::string name = fmt::format("N{}", ++number);
+  const bool is_used = grid::any_of(set.holes, [&](const auto& hole) { return hole.name == name; });
+  return is_used ? free_name(set, number) : name;
 }
 
 }  // namespace
 
-bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& sets) {
+bool is_diagnosis_of(const Diagnosis& found, const std::vector<const MeasuredHoles*>& sets) {
   constexpr double kSamePlaceMm = 1e-3;
   std::vector<grid::Hole> holes;
   std::size_t distances = 0;
   for (std::size_t k = 0; k < sets.size(); ++k) {
-    for (const grid::Hole& hole : sets[k].holes) {
+    for (const grid::Hole& hole : sets[k]->holes) {
       holes.push_back({name_in_diagnosis(hole, k), hole.commanded});
     }
-    distances += sets[k].distances.size();
+    distances += sets[k]->distances.size();
   }
   return found.distances.size() == distances &&
          std::equal(found.holes.begin(),
@@ -186,18 +149,29 @@ bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& s
 }
 
 std::string distance_lines(const Diagnosis& found,
-                           const std::vector<MeasuredHoles>& sets,
+                           const std::vector<const MeasuredHoles*>& sets,
                            std::size_t position,
                            bool is_json) {
-  const Lines lines = lines_of(found, sets, position);
+  const MeasuredHoles& set = *sets[position];
   std::vector<Fields> holes, distances;
-  for (const grid::Hole& hole : lines.holes) {
-    holes.push_back({{"name", hole.name, true},
-                     {"x_mm", fmt::format("{:.0f}", hole.commanded.x_mm + 0.0)},
-                     {"y_mm", fmt::format("{:.0f}", hole.commanded.y_mm + 0.0)}});
+  int number = 0;
+  for (const NextMeasurement& next : found.next_measurements) {
+    if (next.kind != MeasurementKind::distance) continue;
+    // A new hole has no name yet; its set follows from the holes to which it is measured.
+    std::string from = name_in_file(set, position, next.mark ? next.to.front() : next.from);
+    if (from.empty()) continue;
+    if (next.mark) {
+      from = free_name(set, number);
+      holes.push_back({{"name", from, true},
+                       {"x_mm", fmt::format("{:.0f}", next.mark->x_mm + 0.0)},
+                       {"y_mm", fmt::format("{:.0f}", next.mark->y_mm + 0.0)}});
+    }
+    for (const std::string& to : next.to) {
+      distances.push_back({{"from", from, true},
+                           {"to", name_in_file(set, position, to), true},
+                           {"distance_mm", ""}});
+    }
   }
-  for (const auto& [from, to] : lines.distances)
-    distances.push_back({{"from", from, true}, {"to", to, true}, {"distance_mm", ""}});
   return is_json
              ? json_lines("cut, and add to \"holes\"\n", holes) +
                    json_lines("add to \"distances\", replacing each null\n", distances)

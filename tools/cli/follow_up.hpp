@@ -34,12 +34,13 @@ namespace chaintrue::cli {
 // its own file.
 
 /// Whether the diagnosis used exactly these holes and distances.
-[[nodiscard]] bool is_diagnosis_of(const Diagnosis& found, const std::vector<MeasuredHoles>& sets);
+[[nodiscard]] bool is_diagnosis_of(const Diagnosis& found,
+                                   const std::vector<const MeasuredHoles*>& sets);
 
 /// Holes to cut, with unused names, and distances without values, for the set at this position. If
 /// none is in this set, JSON is empty, and a table has only its two headers.
 [[nodiscard]] std::string distance_lines(const Diagnosis& found,
-                                         const std::vector<MeasuredHoles>& sets,
+                                         const std::vector<const MeasuredHoles*>& sets,
                                          std::size_t position,
                                          bool is_json);
 

@@ -3,7 +3,6 @@
 /// chaintrue formats: the reference page and the JSON Schema of each file format.
 #include <fmt/format.h>
 
-#include <memory>
 #include <string>
 
 #include "grid/files/format_pages.hpp"
@@ -46,20 +45,19 @@ int run_formats(Verb verb, const FormatsCommand& command) {
 }  // namespace
 
 void add_formats(Verb app) {
-  auto command = std::make_shared<FormatsCommand>();
-  Verb verb = app.add_verb(
+  auto [verb, c] = app.add_verb<FormatsCommand>(
       "formats",
-      "Print every key of a file format with its unit, range and default, or its JSON Schema");
-  verb.add_option("name", command->name, "The format; without it all formats are listed")
-      .one_of(files::described_formats());
-  verb.add_flag("--schema", command->schema, "Print the JSON Schema");
-  add_output_folder(
-      verb, "--all", command->all, "Write pages and schemas of all formats into this folder");
-  verb.footer(
-      "Example:\n"
-      "  build/chaintrue formats machine\n"
-      "  build/chaintrue formats grid --schema");
-  verb.runs(command, run_formats);
+      "Print every key of a file format with its unit, range and default, or its JSON Schema",
+      R"(Example:
+  build/chaintrue formats machine
+  build/chaintrue formats grid --schema)",
+      run_formats);
+  verb.has(
+      {{"name",
+        {c.name, files::described_formats()},
+        "The format; without it all formats are listed"},
+       {"--schema", c.schema, "Print the JSON Schema"},
+       {"--all", writes_into(c.all), "Write pages and schemas of all formats into this folder"}});
 }
 
 }  // namespace chaintrue::cli

@@ -97,6 +97,39 @@ void say_next_of_program(const GcodeOptions& options) {
   say_next(next);
 }
 
+/// With a map: all problems that compensating would report; its output is discarded. \param found
+/// by the survey
+int check_compensation(const GcodeMachine& machine,
+                       const GcodeOptions& options,
+                       gcode::LineSource source,
+                       const gcode::Survey& survey,
+                       const Findings& found) {
+  gcode::CompensateOptions settings = compensate_options(options, machine);
+  gcode::CutPlaces cuts;
+  settings.on_command =
+      [&cuts](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+      };
+  gcode::Compensator compensator(machine.corrector, settings, [](std::string_view) {});
+  const auto outcome = compensator.run(source, options.dialect());
+  print_survey(survey, options.json);
+  int code = report(options.program, compensator.findings());
+  for (const gcode::Problem& problem : found.problems) {
+    if (problem.name != gcode::ProblemName::outside_sheet) continue;  // the others are among these
+    const int own = report(options.program, problem);
+    if (code == kDone) code = own;
+  }
+  if (!outcome) return report(options.program, outcome.error());
+  if (options.json || code != kDone) return code;
+  fmt::print("the largest correction is {:.2f} mm, on line {}\n",
+             outcome->largest_correction_mm,
+             outcome->largest_correction_line);
+  // The error of a two-chain map is reported by fit; that of anchors only along cuts.
+  if (machine.target.as<CompensationMap>() == nullptr)
+    fmt::print("{}", in_words(promised_along(cuts, machine, options.limits.tolerance_mm)));
+  return code;
+}
+
 /// `machine` is null without a map.
 int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
@@ -118,37 +151,13 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
     const auto outcome = gcode::run_program(once_more, options.dialect(), check);
     if (!outcome) return report(options.program, outcome.error());
   }
+  int code = kDone;
   if (machine == nullptr) {
     print_survey(*survey, options.json);
-    const int code = report(options.program, findings);
-    if (code == kDone) say_next_of_program(options);
-    return code;
-  }
-  // With a map: all problems that compensating would report; its output is discarded.
-  gcode::CompensateOptions settings = compensate_options(options, *machine);
-  gcode::CutPlaces cuts;
-  settings.on_command =
-      [&cuts](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
-        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
-      };
-  gcode::Compensator compensator(machine->corrector, settings, [](std::string_view) {});
-  auto again = text.open({"its compensation", steps, steps});
-  const auto outcome = compensator.run(again, options.dialect());
-  print_survey(*survey, options.json);
-  int code = report(options.program, compensator.findings());
-  for (const gcode::Problem& problem : findings.problems) {
-    if (problem.name != gcode::ProblemName::outside_sheet) continue;  // the others are among these
-    const int own = report(options.program, problem);
-    if (code == kDone) code = own;
-  }
-  if (!outcome) return report(options.program, outcome.error());
-  if (!options.json && code == kDone) {
-    fmt::print("the largest correction is {:.2f} mm, on line {}\n",
-               outcome->largest_correction_mm,
-               outcome->largest_correction_line);
-    // The error of a two-chain map is reported by fit; that of anchors only along cuts.
-    if (machine->target.as<CompensationMap>() == nullptr)
-      fmt::print("{}", in_words(promised_along(cuts, *machine, options.tolerance_mm)));
+    code = report(options.program, findings);
+  } else {
+    code = check_compensation(
+        *machine, options, text.open({"its compensation", steps, steps}), *survey, findings);
   }
   if (code == kDone) say_next_of_program(options);
   return code;

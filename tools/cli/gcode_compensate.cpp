@@ -44,8 +44,9 @@ bool is_usual(const GcodeOptions& options) {
   const GcodeOptions usual;
   return options.machine.empty() && options.controller.empty() && options.report.empty() &&
          options.frame == usual.frame && options.home == usual.home &&
-         options.tolerance_mm == usual.tolerance_mm && !options.keep_rapids_whole &&
-         !options.home_is_zero && !options.skip_deletable && !options.tools_have_no_diameter;
+         options.limits.tolerance_mm == usual.limits.tolerance_mm &&
+         !options.limits.keep_rapids_whole && !options.words.home_is_zero &&
+         !options.words.skip_deletable_blocks && !options.words.tools_have_no_diameter;
 }
 
 /// A sentence for the page: whether the file is safe to run.
@@ -66,7 +67,7 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
       "place.",
       controller,
       proof.largest_mm,
-      options.tolerance_mm);
+      options.limits.tolerance_mm);
 }
 
 report::PathPiece drawn(const gcode::Move& move,
@@ -108,7 +109,7 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
   const gcode::Firmware* firmware = &machine.corrector.firmware();
   const bool adds_home = firmware == &gcode::firmware(ControllerKind::maslow_classic) ||
                          firmware == &gcode::firmware(ControllerKind::holey);
-  if (!adds_home || options.home_is_zero) return;
+  if (!adds_home || options.words.home_is_zero) return;
   const BedPoint home = options.home_mm();
   if (home.x_mm == 0.0 && home.y_mm == 0.0) {
     say("It assumes home at 0, 0. If you have moved home (Define Home), give its position with "
@@ -201,7 +202,7 @@ std::string page_of(Compensated& result,
       picture.figures,
       std::vector<Figure>{
           {fmt::format("{:.2f} mm", summary.largest_correction_mm), "largest correction"},
-          {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
+          {fmt::format("{:g} mm", options.limits.tolerance_mm), "tolerance of the path"},
           {fmt::format("{:.1f} m", summary.path_mm / 1000.0), "path"},
           {fmt::format("{}", summary.commands), holds ? "commands written" : "commands"}});
   Document document = report::page_of(picture);
@@ -248,7 +249,7 @@ void report_result(const Compensated& result,
         "that line",
         files::name_in_messages(options.program),
         controller,
-        options.tolerance_mm,
+        options.limits.tolerance_mm,
         proof.fault);
     throw Failed("", "not_held", proof.fault, kCheckFailed);
   }
@@ -257,9 +258,9 @@ void report_result(const Compensated& result,
         "tolerance {} mm",
         controller,
         proof.largest_mm,
-        options.tolerance_mm);
+        options.limits.tolerance_mm);
   }
-  fmt::print(stderr, "{}", in_words(promised));
+  say_lines(in_words(promised));
 }
 
 int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
@@ -282,7 +283,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   result.summary = compensated(compensator, std::move(source), options);
   if (!options.no_verify) result.proof = prove(options, machine, text, output);
   result.promised = promised_along(
-      cuts, machine, options.no_verify ? options.tolerance_mm : result.proof.largest_mm);
+      cuts, machine, options.no_verify ? options.limits.tolerance_mm : result.proof.largest_mm);
   Outputs others;
   if (!options.report.empty())
     others.push_back({options.report, page_of(result, machine, options, settings.made_by)});

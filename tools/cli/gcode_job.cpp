@@ -13,12 +13,14 @@
 #include <system_error>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/file_identity.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/report/typeset.hpp"
 
 namespace chaintrue::cli {
 
@@ -38,24 +40,19 @@ std::string sentence_of(const std::vector<gcode::Problem>& problems) {
 }  // namespace
 
 void check_limits(const GcodeOptions& options, OptionProblems& problems) {
-  const double least_mm = gcode::least_tolerance_mm(options.decimals);
-  if (options.tolerance_mm > least_mm) return;
+  const double least_mm = gcode::least_tolerance_mm(options.limits.decimals);
+  if (options.map.empty() || options.limits.tolerance_mm > least_mm) return;
   problems.add("--tolerance-mm",
-               fmt::format("{}", options.tolerance_mm),
+               fmt::format("{}", options.limits.tolerance_mm),
                fmt::format("more than {:.2g} mm, the rounding to {} decimals; or more --decimals",
                            least_mm,
-                           options.decimals),
+                           options.limits.decimals),
                ProblemKind::out_of_range);
 }
 
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                             const GcodeMachine& machine) {
-  gcode::CompensateOptions result;
-  result.tolerance_mm = options.tolerance_mm;
-  result.decimals = options.decimals;
-  result.largest_correction_mm = options.largest_correction_mm;
-  result.steepest_correction = options.steepest_correction;
-  result.keep_rapids_whole = options.keep_rapids_whole;
+  gcode::CompensateOptions result = options.limits;
   result.clamp_box = machine.controller.clamp_box;
   result.half_play_mm = machine.controller.half_play_mm;
   for (const files::NamedSetting& setting : machine.controller.settings)
@@ -92,10 +89,10 @@ gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
   const std::uintmax_t size = text_ ? text_->size() : std::filesystem::file_size(path_, unknown);
   shown_progress()(step);
   // Loops go back; the file's progress does not.
-  source.on_line([total = unknown ? 0.0 : static_cast<double>(size),
+  source.on_line([total = unknown ? 0.0 : grid::as_double(size),
                   furthest = std::uint64_t{0}](std::uint64_t offset) mutable {
     furthest = std::max(furthest, offset);
-    progress_is(static_cast<double>(furthest), total);
+    progress_is(grid::as_double(furthest), total);
   });
   return source;
 }
@@ -110,7 +107,7 @@ grid::SourceFile GcodeText::source() const {
   std::ifstream file(path_, std::ios::binary);
   std::array<char, 65536> bytes{};
   while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
-    hash.add({bytes.data(), static_cast<std::size_t>(file.gcount())});
+    hash.add({bytes.data(), grid::as_size(file.gcount())});
   }
   return {std::move(name), hash.text()};
 }
@@ -133,12 +130,8 @@ GcodeRefused::GcodeRefused(std::vector<gcode::Problem> found)
       problems(std::move(found)) {}
 
 std::string in_quotes(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
+  return fmt::format("\"{}\"",
+                     report::replaced(std::string(text), {{"\\", "\\\\"}, {"\"", "\\\""}}));
 }
 
 int report(const std::string& file, const gcode::Problem& problem) {

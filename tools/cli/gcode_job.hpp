@@ -13,7 +13,6 @@
 #include "grid/files/pending_file.hpp"
 #include "grid/progress.hpp"
 #include "grid/provenance.hpp"
-#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/target.hpp"
 #include "tools/gcode/compensator.hpp"
@@ -40,17 +39,10 @@ struct GcodeOptions {
   std::string frame = "marks";
   std::string home = "0,0";
   std::string output = "-";
-  std::string report;  ///< compensate: a page with a picture
-  double tolerance_mm = 0.05;
+  std::string report;               ///< compensate: a page with a picture
+  gcode::CompensateOptions limits;  ///< as stated; compensate_options() adds the controller's
+  gcode::Dialect words;             ///< as stated; dialect() adds the home and the codes
   double every_mm = 10.0;
-  double largest_correction_mm = 30.0;
-  double steepest_correction = 0.05;
-  int decimals = 3;
-  std::uint64_t step_budget = gcode::Dialect{}.step_budget;
-  bool keep_rapids_whole = false;
-  bool home_is_zero = false;
-  bool skip_deletable = false;
-  bool tools_have_no_diameter = false;
   bool no_verify = false;  ///< compensate: write without having run the output
   bool forced = false;     ///< compensate: even with a map that is unfit for cutting
   bool json = false;
@@ -99,7 +91,7 @@ struct GcodeMachine {
 /// The area for programs with --machine; without it the usual bed. \throws InputError.
 [[nodiscard]] interp::Rectangle sheet_of(const GcodeOptions& options);
 
-/// Checks that the tolerance exceeds the rounding.
+/// With a map: checks that the tolerance exceeds the rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);
 /// Inputs of compensating, except the program.
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
@@ -150,16 +142,17 @@ int report(const std::string& file, const gcode::Findings& findings);
 [[nodiscard]] gcode::LineSource written_so_far(files::PendingFile& file);
 
 // The verbs of `chaintrue gcode`; each returns the exit code. \throws files::InputError.
+using GcodeVerb = int(const GcodeOptions& options);
 
 /// A program's extent and, with a map, all problems that compensating would report.
-[[nodiscard]] int run_gcode_check(const GcodeOptions& options);
+GcodeVerb run_gcode_check;
 /// Chain lengths along the path, as a CSV.
-[[nodiscard]] int run_gcode_lengths(const GcodeOptions& options);
-[[nodiscard]] int run_gcode_compensate(const GcodeOptions& options);
+GcodeVerb run_gcode_lengths;
+GcodeVerb run_gcode_compensate;
 /// Runs a program on a simulated controller and compares the track with another program's path.
-[[nodiscard]] int run_gcode_verify(const GcodeOptions& options);
+GcodeVerb run_gcode_verify;
 /// One line: the state before, what it does, the state after.
-[[nodiscard]] int run_gcode_explain(const GcodeOptions& options);
+GcodeVerb run_gcode_explain;
 
 // The expected error of the tool for a compensated program: the map's uncertainty along the cuts,
 // and the path's deviation.

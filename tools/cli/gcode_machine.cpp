@@ -27,16 +27,12 @@ std::optional<ControllerKind> controller_kind(std::string_view name) {
 }  // namespace
 
 gcode::Dialect GcodeOptions::dialect() const {
-  gcode::Dialect dialect;
-  dialect.skip_deletable_blocks = skip_deletable;
-  dialect.tools_have_no_diameter = tools_have_no_diameter;
+  gcode::Dialect dialect = words;
   const BedPoint zero = home_mm();
   dialect.home_mm = {zero.x_mm, zero.y_mm};
-  dialect.home_is_zero = home_is_zero;
   // Without a map nothing is written, so every controller's codes may be read.
   dialect.passes_plotter_codes =
       map_file ? map_file->kind == FileKind::plotter : controller.empty();
-  dialect.step_budget = step_budget;
   if (map_file && map_file->kind == FileKind::plotter) {
     const grid::SetPlotter set = load_plotter(*map_file).plotter.set;
     if (set.firmware == model::PlotterFirmware::marlin && set.home) {

@@ -66,7 +66,7 @@ void print_words(const gcode::VerifySummary& summary,
   if (summary.holds()) fmt::print("{}", in_words(promised));
   if (!summary.fault.empty()) fmt::print("the first fault: {}\n", summary.fault);
   fmt::print("tolerance {} mm, {} commands, {} places compared, controller {}\n",
-             options.tolerance_mm,
+             options.limits.tolerance_mm,
              summary.commands,
              summary.places,
              controller);
@@ -83,12 +83,12 @@ void print_words(const gcode::VerifySummary& summary,
 
 gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMachine& machine) {
   gcode::VerifyOptions result;
-  result.tolerance_mm = options.tolerance_mm;
-  result.decimals = options.decimals;
+  result.tolerance_mm = options.limits.tolerance_mm;
+  result.decimals = options.limits.decimals;
   result.half_play_mm = machine.controller.half_play_mm;
-  result.rapids_whole = options.keep_rapids_whole;
+  result.rapids_whole = options.limits.keep_rapids_whole;
   // The rounding of F, and of short pieces, takes a hundredth.
-  result.speed_share = options.steepest_correction + 0.01;
+  result.speed_share = options.limits.steepest_correction + 0.01;
   return result;
 }
 
@@ -167,7 +167,7 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   // If the original cannot be followed to its end, its cuts are unknown too.
   if (control) promised = promised_along(cuts, machine, summary->largest_mm());
   if (options.json) {
-    print_json(*summary, control, promised, options.tolerance_mm);
+    print_json(*summary, control, promised, options.limits.tolerance_mm);
   } else {
     print_words(*summary, control, promised, options, machine.corrector.firmware().name);
   }

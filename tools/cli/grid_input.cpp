@@ -3,66 +3,57 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/ranges.hpp"
-#include "tools/cli/effect_argument.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 
 void add_grid_options(Verb verb, GridInput& input) {
-  add_input(verb,
-            "grid",
-            input.grid,
-            "Measured points: a chaintrue_grid file or a CSV table; - is standard input")
-      .required();
-  add_input(verb,
-            "--machine",
-            input.machine,
-            "A chaintrue_machine file that replaces the grid's own machine")
-      .acts_on(facts::chains | facts::map,
-               "to be left out, because the files of belts and drawings contain their machine");
-  add_number(verb,
-             "--noise-length-mm",
-             input.length_noise_mm,
-             files::kNoiseMm,
-             "Standard deviation (1 sigma) of a measured chain length; replaces the grid's")
-      .acts_on(facts::grid, "to be left out, because it applies to chain lengths in a grid only");
-  add_number(
-      verb,
-      "--noise-position-mm",
-      input.position_noise_mm,
-      files::kNoiseMm,
-      "Standard deviation (1 sigma) of a measured position on each axis; replaces the grid's")
-      .acts_on(facts::grid, "to be left out, because it applies to positions in a grid only");
-  add_number(verb,
-             "--noise-dof",
-             input.noise_dof,
-             files::kNoiseDof,
-             "Degrees of freedom of the noise; a higher number means that it is better known (15 "
-             "by default)")
-      .acts_on(facts::grid, "to be left out, because it applies to the noise of a grid only");
-  verb.add_flag("--inches",
-                input.inches,
-                "In CSV tables, measured positions, lengths and distances are in inches, as "
-                "43.8125 or 43 13/16; commands stay in mm")
-      .acts_on(facts::table,
-               "to be left out, because it applies to CSV tables only; the numbers of a JSON file "
-               "are in mm");
+  verb.has(
+      {{"grid",
+        required(reads(input.grid)),
+        "Measured points: a chaintrue_grid file or a CSV table; - is standard input"},
+       {"--machine",
+        reads(input.machine),
+        "A chaintrue_machine file that replaces the grid's own machine",
+        facts::chains | facts::map,
+        "to be left out, because the files of belts and drawings contain their machine"},
+       {"--noise-length-mm",
+        {input.length_noise_mm, files::kNoiseMm},
+        "Standard deviation (1 sigma) of a measured chain length; replaces the grid's",
+        facts::grid,
+        "to be left out, because it applies to chain lengths in a grid only"},
+       {"--noise-position-mm",
+        {input.position_noise_mm, files::kNoiseMm},
+        "Standard deviation (1 sigma) of a measured position on each axis; replaces the grid's",
+        facts::grid,
+        "to be left out, because it applies to positions in a grid only"},
+       {"--noise-dof",
+        {input.noise_dof, files::kNoiseDof},
+        "Degrees of freedom of the noise; a higher number means that it is better known (15 "
+        "by default)",
+        facts::grid,
+        "to be left out, because it applies to the noise of a grid only"},
+       {"--inches",
+        input.inches,
+        "In CSV tables, measured positions, lengths and distances are in inches, as "
+        "43.8125 or 43 13/16; commands stay in mm",
+        facts::table,
+        "to be left out, because it applies to CSV tables only; the numbers of a JSON file "
+        "are in mm"}});
 }
 
-void add_effects_option(Verb verb, GridInput& input) {
-  add_input(verb,
-            "--effects",
-            input.effects,
-            "chaintrue_effect files: declared causes, tested along with the catalogue's")
-      .acts_on(facts::chains, "to be left out, because declared effects act on two chains");
+OptionRow effects_row(GridInput& input) {
+  return {"--effects",
+          reads(input.effects),
+          "chaintrue_effect files: declared causes, tested along with the catalogue's",
+          facts::chains,
+          "to be left out, because declared effects act on two chains"};
 }
 
 namespace {
@@ -114,32 +105,28 @@ std::optional<Machine> machine_of(const GridInput& input) {
 }  // namespace
 
 void add_tape_options(Verb verb, files::TapeOptions& input) {
-  add_number(verb,
-             "--tape-sigma-mm",
-             input.sigma_mm,
-             files::kTapeSigmaMm,
-             "Holes: standard deviation (1 sigma) of a tape reading")
-      .acts_on(facts::taped, "to be left out, because it applies to the tape for holes only");
-  add_number(verb,
-             "--hook-offset-mm",
-             input.zero_offset_mm,
-             files::kTapeZeroOffsetMm,
-             "Holes: the tape's zero error; every reading is longer than the distance by this much")
-      .acts_on(facts::taped, "to be left out, because it applies to the tape for holes only");
-  add_number(verb,
-             "--hook-sigma-mm",
-             input.zero_offset_sigma_mm,
-             files::kHoleSigmaMm,
+  verb.has({{"--tape-sigma-mm",
+             {input.sigma_mm, files::kTapeSigmaMm},
+             "Holes: standard deviation (1 sigma) of a tape reading",
+             facts::taped,
+             "to be left out, because it applies to the tape for holes only"},
+            {"--hook-offset-mm",
+             {input.zero_offset_mm, files::kTapeZeroOffsetMm},
+             "Holes: the tape's zero error; every reading is longer than the distance by this much",
+             facts::taped,
+             "to be left out, because it applies to the tape for holes only"},
+            {"--hook-sigma-mm",
+             {input.zero_offset_sigma_mm, files::kHoleSigmaMm},
              "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
-             "known exactly")
-      .acts_on(facts::taped, "to be left out, because it applies to the tape for holes only");
-  add_number(
-      verb,
-      "--hole-sigma-mm",
-      input.hole_sigma_mm,
-      files::kHoleSigmaMm,
-      "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill wanders")
-      .acts_on(facts::taped, "to be left out, because it applies to holes only");
+             "known exactly",
+             facts::taped,
+             "to be left out, because it applies to the tape for holes only"},
+            {"--hole-sigma-mm",
+             {input.hole_sigma_mm, files::kHoleSigmaMm},
+             "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill "
+             "wanders",
+             facts::taped,
+             "to be left out, because it applies to holes only"}});
 }
 
 MeasuredGrid read_grid_input(const GridInput& input) {
@@ -217,14 +204,14 @@ grid::Measured load_measured(const InputFiles& files,
   return measured;
 }
 
-void add_without_option(Verb verb, std::string& without) {
-  verb.add_option("--without",
-                  without,
-                  "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
-                  "such as 7,12")
-      .acts_on(facts::belts,
-               "to be left out, because it applies to chaintrue_belts files only; remove points of "
-               "other files from the file");
+OptionRow without_row(std::string& without) {
+  return {"--without",
+          without,
+          "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
+          "such as 7,12",
+          facts::belts,
+          "to be left out, because it applies to chaintrue_belts files only; remove points of "
+          "other files from the file"};
 }
 
 std::vector<std::size_t> points_left_out(const std::string& without) {
@@ -233,18 +220,16 @@ std::vector<std::size_t> points_left_out(const std::string& without) {
 }
 
 void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual) {
-  verb.add_option("--outside",
-                  option.way,
-                  "Beyond the measured points: continued (smoothly), refuse, fade (to the machine "
-                  "without correction), linear or clamp; " +
-                      usual)
-      .one_of(files::words_of(files::kOutsideWays));
-  add_number(verb,
-             "--fade-mm",
-             option.fade_width_mm,
-             files::kFadeWidthMm,
-             "Distance over which --outside fade ends the correction")
-      .acts_on(facts::fade, "to be left out without --outside fade");
+  verb.has({{"--outside",
+             {option.way, files::words_of(files::kOutsideWays)},
+             "Beyond the measured points: continued (smoothly), refuse, fade (to the machine "
+             "without correction), linear or clamp; " +
+                 usual},
+            {"--fade-mm",
+             {option.fade_width_mm, files::kFadeWidthMm},
+             "Distance over which --outside fade ends the correction",
+             facts::fade,
+             "to be left out without --outside fade"}});
 }
 
 grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {

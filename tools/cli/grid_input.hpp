@@ -33,8 +33,8 @@ void add_grid_options(Verb verb, GridInput& input);
 /// table.
 [[nodiscard]] Facts facts_of(const InputFiles& files);
 
-/// Adds --effects: declared effects may act on the machine of every input file.
-void add_effects_option(Verb verb, GridInput& input);
+/// --effects: declared effects may act on the machine of every input file.
+[[nodiscard]] OptionRow effects_row(GridInput& input);
 
 /// Reads all inputs; warnings go to standard error. \throws InputError.
 [[nodiscard]] MeasuredGrid read_grid_input(const GridInput& input);
@@ -42,8 +42,8 @@ void add_effects_option(Verb verb, GridInput& input);
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
 void add_tape_options(Verb verb, files::TapeOptions& input);
 
-/// Adds --without to a verb that reads belts.
-void add_without_option(Verb verb, std::string& without);
+/// --without, for a verb that reads belts.
+[[nodiscard]] OptionRow without_row(std::string& without);
 /// Its points, from 1. \throws InputError.
 [[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
 

@@ -3,7 +3,6 @@
 /// chaintrue import: converts files of other programs to a machine, a grid or belts.
 #include <fmt/format.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,14 +25,13 @@ struct OpticalCommand {
   std::string input;
   std::string machine;
   std::string output = "-";
-  double pitch_mm = 76.2;
+  files::OpticalOptions options;
   std::string order;
 };
 
 int import_optical(const OpticalCommand& command) {
-  files::OpticalOptions options;
+  files::OpticalOptions options = command.options;
   options.machine = read_machine_input(command.machine);
-  options.pitch_mm = command.pitch_mm;
   options.order = files::named(files::kVisitingOrders, command.order);
   const files::ReadOptical read = files::read(files::parse_optical, command.input, options);
   write_output(command.output, files::write_grid(read.grid));
@@ -49,37 +47,29 @@ int import_optical(const OpticalCommand& command) {
 }
 
 void add_optical(Verb import) {
-  auto command = std::make_shared<OpticalCommand>();
-  Verb verb = import.add_verb(
+  auto [verb, c] = import.add_verb<OpticalCommand>(
       "optical",
-      "Convert a scan by WebControl's or GroundControl's optical calibration into a grid");
-  add_input(verb,
-            "file",
-            command->input,
-            "The scan: 15 lines of 31 errors in x, an empty line, the same in y")
-      .required();
-  add_input(verb,
-            "--machine",
-            command->machine,
-            "The machine with the controller settings in force during the scan")
-      .required();
-  add_number(
-      verb, "--pitch-mm", command->pitch_mm, files::kOpticalPitchMm, "Distance between squares");
-  verb.add_option(
-          "--order", command->order, "Order in which the squares were visited, if it is known")
-      .one_of(files::words_of(files::kVisitingOrders));
-  add_output(verb,
-             "-o,--output",
-             command->output,
-             {Origin::measured},
-             "The grid file; - is standard output")
-      .shows_default();
-  verb.footer(
-      "A scan made with compensation switched on shows only the remaining error and cannot be "
-      "imported this way.\n\nExample:\n  build/chaintrue import optical "
-      "fixtures/good/optical_scan.csv \\\n    --machine fixtures/machines/groundcontrol.json -o "
-      "grid.json");
-  verb.runs(command, import_optical);
+      "Convert a scan by WebControl's or GroundControl's optical calibration into a grid",
+      R"(A scan made with compensation switched on shows only the remaining error and cannot be imported this way.
+
+Example:
+  build/chaintrue import optical fixtures/good/optical_scan.csv \
+    --machine fixtures/machines/groundcontrol.json -o grid.json)",
+      import_optical);
+  verb.has(
+      {{"file",
+        required(reads(c.input)),
+        "The scan: 15 lines of 31 errors in x, an empty line, the same in y"},
+       {"--machine",
+        required(reads(c.machine)),
+        "The machine with the controller settings in force during the scan"},
+       {"--pitch-mm", {c.options.pitch_mm, files::kOpticalPitchMm}, "Distance between squares"},
+       {"--order",
+        {c.order, files::words_of(files::kVisitingOrders)},
+        "Order in which the squares were visited, if it is known"},
+       {"-o,--output",
+        writes(c.output, {Origin::measured}),
+        "The grid file; - is standard output"}});
 }
 
 struct GroundcontrolCommand {
@@ -100,45 +90,24 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
 }
 
 void add_groundcontrol(Verb import) {
-  auto command = std::make_shared<GroundcontrolCommand>();
-  Verb verb =
-      import.add_verb("groundcontrol", "Convert GroundControl's settings into a machine file");
-  add_input(verb, "file", command->input, "groundcontrol.ini").required();
-  add_output(verb,
-             "-o,--output",
-             command->output,
-             {Origin::machine},
-             "The machine file; - is standard output")
-      .shows_default();
-  verb.add_flag("--nominal-pitch",
-                command->nominal_pitch,
-                "Do not use the chain tolerances as measurements of the pitch, because their "
-                "origin is unknown or they were tuned to hide another error");
-  verb.footer(
-      "Missing values are assumed, and listed here and in the file.\n\n"
-      "Example:\n"
-      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
-      "    -o machine.json");
-  verb.runs(command, import_groundcontrol);
+  auto [verb, c] = import.add_verb<GroundcontrolCommand>(
+      "groundcontrol",
+      "Convert GroundControl's settings into a machine file",
+      R"(Missing values are assumed, and listed here and in the file.
+
+Example:
+  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \
+    -o machine.json)",
+      import_groundcontrol);
+  verb.has({{"file", required(reads(c.input)), "groundcontrol.ini"},
+            {"-o,--output",
+             writes(c.output, {Origin::machine}),
+             "The machine file; - is standard output"},
+            {"--nominal-pitch",
+             c.nominal_pitch,
+             "Do not use the chain tolerances as measurements of the pitch, because their "
+             "origin is unknown or they were tuned to hide another error"}});
 }
-
-}  // namespace
-
-void add_import(Verb app) {
-  Verb verb = app.add_verb(
-      "import", "Convert files of other programs into machine, plotter, grid and belts files");
-  verb.require_verb();
-  verb.footer(
-      "Example:\n"
-      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
-      "    -o machine.json");
-  add_optical(verb);
-  add_groundcontrol(verb);
-  add_import_maslow4(verb);
-  add_import_plotter(verb);
-}
-
-namespace {
 
 struct Maslow4Command {
   Words inputs;
@@ -240,55 +209,42 @@ int import_maslow4(const Maslow4Command& command) {
   return kDone;
 }
 
-}  // namespace
-
 void add_import_maslow4(Verb import) {
-  auto command = std::make_shared<Maslow4Command>();
-  Verb verb =
-      import.add_verb("maslow4", "Convert the log of a Maslow 4's Find Anchors into a belts file");
-  add_input(verb,
-            "file",
-            command->inputs,
-            "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. "
-            "Several logs are runs of one session on one frame, each with its own pull")
-      .required();
-  add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
-  verb.add_option(
-          "--lengths",
-          command->lengths,
-          "Meaning of a length: the slanting belt alone; the belt with its extension and arm, as "
-          "printed before October 2024; or the level span from anchor to tool, as printed since")
-      .one_of({"belt", "belt_and_arm", "span"});
-  verb.add_option("--orientation", command->orientation, "Position of the frame")
-      .one_of({"upright", "flat"});
-  verb.add_option(
-      "--runs",
-      command->runs,
-      "Runs of the log to use, such as 2 or 1,2; several form one session. A run may be given by "
-      "its first and last point, counted from 0 over all runs, such as 0:98. Default: the last");
-  verb.add_option("--pulls",
-                  command->pulls,
-                  "Pull on the belts in each run: a ratio (1,1.6), the motors' current "
-                  "(1300mA,1900mA; Maslow_Calibration_Current_Threshold) or a force (150N,240N). "
-                  "Default: as the log prints that setting");
-  add_output(verb,
-             "-o,--output",
-             command->output,
-             {Origin::measured},
-             "The belts file; - is standard output")
-      .shows_default();
-  verb.footer(
-      "Missing values are assumed, and listed here and in the file.\n\n"
-      "Examples:\n"
-      "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt \\\n"
-      "    --settings fixtures/machines/maslow.yaml -o belts.json\n"
-      "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt "
-      "fixtures/good/maslow4_log.txt \\\n"
-      "    --pulls 1,1.6 -o two_pulls.json");
-  verb.runs(command, import_maslow4);
-}
+  auto [verb, c] = import.add_verb<Maslow4Command>(
+      "maslow4",
+      "Convert the log of a Maslow 4's Find Anchors into a belts file",
+      R"(Missing values are assumed, and listed here and in the file.
 
-namespace {
+Examples:
+  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt \
+    --settings fixtures/machines/maslow.yaml -o belts.json
+  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt fixtures/good/maslow4_log.txt \
+    --pulls 1,1.6 -o two_pulls.json)",
+      import_maslow4);
+  verb.has(
+      {{"file",
+        required(reads(c.inputs)),
+        "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. "
+        "Several logs are runs of one session on one frame, each with its own pull"},
+       {"--settings", reads(c.settings), "The machine's maslow.yaml"},
+       {"--lengths",
+        {c.lengths, {"belt", "belt_and_arm", "span"}},
+        "Meaning of a length: the slanting belt alone; the belt with its extension and arm, as "
+        "printed before October 2024; or the level span from anchor to tool, as printed since"},
+       {"--orientation", {c.orientation, {"upright", "flat"}}, "Position of the frame"},
+       {"--runs",
+        c.runs,
+        "Runs of the log to use, such as 2 or 1,2; several form one session. A run may be given by "
+        "its first and last point, counted from 0 over all runs, such as 0:98. Default: the last"},
+       {"--pulls",
+        c.pulls,
+        "Pull on the belts in each run: a ratio (1,1.6), the motors' current "
+        "(1300mA,1900mA; Maslow_Calibration_Current_Threshold) or a force (150N,240N). "
+        "Default: as the log prints that setting"},
+       {"-o,--output",
+        writes(c.output, {Origin::measured}),
+        "The belts file; - is standard output"}});
+}
 
 struct PlotterCommand {
   std::string input;
@@ -303,29 +259,38 @@ int import_plotter(const PlotterCommand& command) {
   return kDone;
 }
 
+void add_import_plotter(Verb import) {
+  auto [verb, c] = import.add_verb<PlotterCommand>(
+      "plotter",
+      "Convert the settings of a V-plotter's controller into a plotter file",
+      R"(Missing values are assumed, and listed here and in the file.
+
+Example:
+  build/chaintrue import plotter fixtures/plotter/mural.txt -o plotter.json)",
+      import_plotter);
+  verb.has({{"file",
+             required(reads(c.input)),
+             "FluidNC's config.yaml with a WallPlotter, Marlin's M665 and M92 or its "
+             "Configuration.h, Polargraph's properties, or a mural's numbers, one per line"},
+            {"-o,--output",
+             writes(c.output, {Origin::machine}),
+             "The plotter file; - is standard output"}});
+}
+
 }  // namespace
 
-void add_import_plotter(Verb import) {
-  auto command = std::make_shared<PlotterCommand>();
-  Verb verb = import.add_verb(
-      "plotter", "Convert the settings of a V-plotter's controller into a plotter file");
-  add_input(verb,
-            "file",
-            command->input,
-            "FluidNC's config.yaml with a WallPlotter, Marlin's M665 and M92 or its "
-            "Configuration.h, Polargraph's properties, or a mural's numbers, one per line")
-      .required();
-  add_output(verb,
-             "-o,--output",
-             command->output,
-             {Origin::machine},
-             "The plotter file; - is standard output")
-      .shows_default();
-  verb.footer(
-      "Missing values are assumed, and listed here and in the file.\n\n"
-      "Example:\n"
-      "  build/chaintrue import plotter fixtures/plotter/mural.txt -o plotter.json");
-  verb.runs(command, import_plotter);
+void add_import(Verb app) {
+  Verb verb =
+      app.add_verb("import",
+                   "Convert files of other programs into machine, plotter, grid and belts files",
+                   R"(Example:
+  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \
+    -o machine.json)");
+  verb.require_verb();
+  add_optical(verb);
+  add_groundcontrol(verb);
+  add_import_maslow4(verb);
+  add_import_plotter(verb);
 }
 
 }  // namespace chaintrue::cli

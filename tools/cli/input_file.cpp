@@ -20,20 +20,7 @@ InputFile open_input(const std::string& path) {
   return file;
 }
 
-Facts InputFile::fact() const {
-  constexpr Facts kFacts[] = {facts::machine,
-                              facts::grid,
-                              facts::holes,
-                              facts::belt_holes,
-                              facts::belts,
-                              facts::map,
-                              facts::anchors,
-                              facts::diagnosis,
-                              facts::plotter,
-                              facts::drawing,
-                              facts::nothing};  // by FileKind
-  return kFacts[static_cast<std::size_t>(kind)];
-}
+Facts InputFile::fact() const { return Facts{1} << static_cast<Facts>(kind); }
 
 void require_kind(const InputFile& file,
                   const std::vector<FileKind>& taken,

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string_view>
 
 #include "grid/containers.hpp"
@@ -16,11 +15,11 @@ namespace chaintrue::cli {
 namespace {
 
 /// These do not change the result, only what is printed or may be replaced.
-constexpr std::array<std::string_view, 6> kWithoutTrace = {
+constexpr std::string_view kWithoutTrace[] = {
     "--force", "--json", "--quiet", "--threads", "--verbose", "--wish-mm"};
 
-std::string in_words(Verb verb, const GivenOption& option) {
-  const bool is_file = use_of(verb, option.name) == PlaceUse::input;
+/// \param is_file its words name files
+std::string in_words(const GivenOption& option, bool is_file) {
   std::string text = option.name;
   for (const std::string& word : option.words)
     text += " " + (is_file ? files::name_without_folders(word) : word);
@@ -32,9 +31,10 @@ std::string in_words(Verb verb, const GivenOption& option) {
 grid::Provenance made_by(Verb verb) {
   grid::Provenance made_by{std::string(files::version()), verb.path(), {}, files::sources_read()};
   for (const GivenOption& option : verb.given_options()) {
-    const bool is_without_trace = grid::contains(kWithoutTrace, option.name);
-    if (is_without_trace || use_of(verb, option.name) == PlaceUse::output) continue;
-    made_by.options.push_back(in_words(verb, option));
+    const Place* place = place_of(option.name);
+    const bool is_output = place != nullptr && !place->kinds.empty();
+    if (is_output || grid::contains(kWithoutTrace, option.name)) continue;
+    made_by.options.push_back(in_words(option, place != nullptr));
   }
   return made_by;
 }

@@ -36,11 +36,12 @@ void put_advice(const MapContents& contents,
   }
   for (const grid::SettingResult& result : contents.settings) {
     if (!result.off) continue;
+    const SettingWords& words = setting_words(result.setting);
     say(fmt::format("Check \"{}\" with a tape: your file has {:.1f} {}, the points suggest {:.1f}.",
-                    setting_in_words(result.setting),
-                    in_unit(result.setting, result.stated),
-                    unit_of(result.setting),
-                    in_unit(result.setting, result.calibrated)));
+                    words.words,
+                    words.factor * result.stated,
+                    words.unit,
+                    words.factor * result.calibrated));
   }
   if (machine != nullptr) {
     say(fmt::format(

@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "grid/precondition.hpp"
 #include "tools/cli/failed.hpp"
 #include "tools/cli/talk.hpp"
 
@@ -32,7 +29,7 @@ std::optional<double> expected_with(const CompensationMap& map, int points) {
 /// The least number of marks that is expected to reach `wish_mm`: the planned error is scaled to the
 /// one that the map has at its own number of points.
 std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
-  constexpr std::array<int, 6> kNumbers = {28, 45, 70, 100, 140, grid::kMostPlanned};
+  constexpr int kNumbers[] = {28, 45, 70, 100, 140, grid::kMostPlanned};
   const auto now = static_cast<int>(map.contents().points.size());
   const auto here = expected_with(map, std::clamp(now, grid::kFewestPlanned, grid::kMostPlanned));
   if (!here || !(*here > 0.0)) return std::nullopt;
@@ -201,41 +198,20 @@ std::string wish_sentence(const CompensationMap& map, double wish_mm) {
                     grid::kMostPlanned);
 }
 
-namespace {
-
-using model::Setting;
-
-struct SettingWords {
-  Setting setting;
-  std::string_view words;
-  std::string_view unit;
-  double factor;
-};
-
-constexpr SettingWords kSettingWords[] = {
-    {Setting::motor_left_x_mm, "left motor, x", "mm", 1.0},
-    {Setting::motor_left_y_mm, "left motor, y", "mm", 1.0},
-    {Setting::motor_right_x_mm, "right motor, x", "mm", 1.0},
-    {Setting::motor_right_y_mm, "right motor, y", "mm", 1.0},
-    {Setting::chain_zero_left_mm, "left chain's zero", "mm", 1.0},
-    {Setting::chain_zero_right_mm, "right chain's zero", "mm", 1.0},
-    {Setting::sheet_x_mm, "sheet offset, right", "mm", 1.0},
-    {Setting::sheet_y_mm, "sheet offset, up", "mm", 1.0},
-    {Setting::sheet_rotation_rad, "sheet rotation, left", "mrad", 1000.0},
-};
-
-const SettingWords& words_of(Setting setting) {
-  for (const SettingWords& words : kSettingWords) {
-    if (words.setting == setting) return words;
-  }
-  throw grid::precondition("setting {} has no words", static_cast<int>(setting));
+const SettingWords& setting_words(model::Setting setting) {
+  static constexpr SettingWords kSettingWords[] = {
+      {"left motor, x"},
+      {"left motor, y"},
+      {"right motor, x"},
+      {"right motor, y"},
+      {"left chain's zero"},
+      {"right chain's zero"},
+      {"sheet offset, right"},
+      {"sheet offset, up"},
+      {"sheet rotation, left", "mrad", 1000.0},
+  };  // by Setting
+  return kSettingWords[static_cast<std::size_t>(setting)];
 }
-
-}  // namespace
-
-std::string_view setting_in_words(Setting setting) { return words_of(setting).words; }
-std::string_view unit_of(Setting setting) { return words_of(setting).unit; }
-double in_unit(Setting setting, double value) { return words_of(setting).factor * value; }
 
 Table settings_table(const std::vector<SettingRow>& settings) {
   Table table{.columns = {text_column("Settings", 26),
@@ -248,14 +224,15 @@ Table settings_table(const std::vector<SettingRow>& settings) {
               .is_headed = true,
               .head_width = 27};
   for (const SettingRow& row : settings) {
-    const auto value = [&](double of) { return in_unit(row.setting, of); };
+    const SettingWords& words = setting_words(row.setting);
+    const auto value = [&](double of) { return words.factor * of; };
     table.rows.push_back(
-        report::row_with_flag({setting_in_words(row.setting),
+        report::row_with_flag({words.words,
                                value(row.stated),
                                row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
                                value(row.calibrated),
                                value(row.sigma),
-                               unit_of(row.setting)},
+                               words.unit},
                               row.is_off,
                               "off: by more than the uncertainty in your file"));
   }

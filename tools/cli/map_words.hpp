@@ -19,11 +19,13 @@ namespace chaintrue::cli {
 
 // The machine's settings in words, stated and calibrated.
 
-/// "left motor, x" for motor_left_x_mm, and its unit.
-[[nodiscard]] std::string_view setting_in_words(model::Setting setting);
-[[nodiscard]] std::string_view unit_of(model::Setting setting);
-/// A setting's value in that unit: rotations in mrad.
-[[nodiscard]] double in_unit(model::Setting setting, double value);
+/// "left motor, x" for motor_left_x_mm; a value in `unit` is `factor` times the setting's.
+struct SettingWords {
+  std::string_view words;
+  std::string_view unit = "mm";
+  double factor = 1.0;
+};
+[[nodiscard]] const SettingWords& setting_words(model::Setting setting);
 
 /// In the setting's own unit.
 struct SettingRow {

@@ -1,43 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/option_checks.hpp"
 
-#include <utility>
-#include <vector>
+#include <fmt/format.h>
 
-#include "tools/cli/numbers.hpp"
+#include <utility>
+
+#include "grid/containers.hpp"
 #include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
-namespace {
 
-struct OptionCheck {
-  Verb verb;
-  std::function<void(OptionProblems&)> check;
-};
+void OptionProblems::add(std::string_view option,
+                         std::string value,
+                         std::string expected,
+                         ProblemKind kind) {
+  problems_.push_back(
+      {"command line", std::string(option), std::move(value), std::move(expected), {}, kind});
+}
 
-/// Of the current command line.
-std::vector<OptionCheck>& checks() {
-  static std::vector<OptionCheck> all;
+void OptionProblems::require(std::string_view option, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  add(option,
+      fmt::format("{}", value),
+      fmt::format("a number from {} to {}", least, most),
+      ProblemKind::out_of_range);
+}
+
+void OptionProblems::take_from(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    grid::append_all(problems_, error.problems());
+  }
+}
+
+void OptionProblems::throw_if_any() const {
+  if (!problems_.empty()) throw InputError(problems_);
+}
+
+Declared& declared() {
+  static Declared all;
   return all;
 }
 
-}  // namespace
-
 void add_option_check(Verb verb, std::function<void(OptionProblems&)> check) {
-  checks().push_back({verb, std::move(check)});
-}
-
-void begin_command_line() {
-  checks().clear();
-  forget_option_rules();
-  forget_numbers();
-  forget_places();
+  declared().checks.push_back({verb, std::move(check)});
 }
 
 void check_command_line() {
   OptionProblems problems;
-  problems.take_from(check_numbers);
-  for (const OptionCheck& one : checks()) {
+  problems.take_from([] { declared().misread.throw_if_any(); });
+  for (const DeclaredCheck& one : declared().checks) {
     if (one.verb.is_chosen()) one.check(problems);
   }
   problems.take_from(check_places);

@@ -2,12 +2,14 @@
 #include "tools/cli/places.hpp"
 
 #include <fmt/format.h>
-#include <memory>
 #include <unistd.h>
+#include <memory>
 
 #include <fstream>
 #include <optional>
 #include <utility>
+
+#include <CLI/CLI.hpp>
 
 #include "grid/containers.hpp"
 #include "grid/files/file_identity.hpp"
@@ -18,22 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An option that names files; the names are known after parsing.
-struct Place {
-  Verb verb;
-  std::string names;  ///< "-o,--output"
-  std::function<Words()> paths;
-  std::vector<Origin> kinds;  ///< of an output; none for an input
-};
-
 std::function<Words()> path_of(const std::string& option) {
   return [&option] { return Words(option.empty() ? 0 : 1, option); };
-}
-
-/// For all verbs of the current command line.
-std::vector<Place>& places() {
-  static std::vector<Place> all;
-  return all;
 }
 
 bool is_standard_output(const fs::path& path) {
@@ -50,7 +38,7 @@ std::optional<files::FileIdentity> identity_of_input(const fs::path& path) {
 }
 
 /// The identity of an output: the file, or its future name.
-std::string place_of(const fs::path& path) {
+std::string identity_as_place(const fs::path& path) {
   if (is_standard_output(path)) return "-";
   std::error_code error;
   if (fs::is_character_file(path, error)) return "";
@@ -66,25 +54,39 @@ std::string beginning_of(const fs::path& path) {
   std::string text;
   char buffer[1 << 16];
   while (text.size() < kMost && (file.read(buffer, sizeof buffer) || file.gcount() > 0))
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
+    text.append(buffer, grid::as_size(file.gcount()));
   return text;
 }
 
 class PlaceCheck {
  public:
-  explicit PlaceCheck(const std::vector<Place>& chosen) {
-    for (const Place& place : chosen) {
-      if (!place.kinds.empty()) continue;
+  PlaceCheck() : inputs_(files::files_read()) {
+    for (const Place& place : declared().places) {
+      if (!place.verb.is_chosen()) continue;
       for (const std::string& path : place.paths()) {
-        if (const auto identity = identity_of_input(path)) inputs_.push_back(*identity);
+        if (!place.kinds.empty()) {
+          outputs_.emplace_back(path, &place);
+        } else if (const auto identity = identity_of_input(path)) {
+          inputs_.push_back(*identity);
+        }
       }
     }
-    const auto read = files::files_read();
-    grid::append_all(inputs_, read);
+  }
+
+  /// Null if no option of the verb has this output.
+  [[nodiscard]] const Place* output_named(const std::string& path) const {
+    for (const auto& [named, place] : outputs_) {
+      if (named == path) return place;
+    }
+    return nullptr;
+  }
+
+  void look_at_all() {
+    for (const auto& [path, place] : outputs_) look_at(path, *place);
   }
 
   void look_at(const std::string& path, const Place& place) {
-    const std::string taken = place_of(path);
+    const std::string taken = identity_as_place(path);
     if (!taken.empty() && grid::contains(taken_, taken))
       return add(path,
                  "a name given twice",
@@ -139,38 +141,23 @@ class PlaceCheck {
     problems_.push_back({std::move(path), "", std::move(found), std::move(expected), {}, kind});
   }
 
+  std::vector<std::pair<std::string, const Place*>> outputs_;
   std::vector<files::FileIdentity> inputs_;
   std::vector<std::string> taken_;
   std::vector<files::InputProblem> problems_;
 };
 
-std::vector<Place> chosen_places() {
-  std::vector<Place> chosen;
-  for (const Place& place : places()) {
-    if (place.verb.is_chosen()) chosen.push_back(place);
-  }
-  return chosen;
-}
-
-const Place* output_named(const std::vector<Place>& chosen, const std::string& path) {
-  for (const Place& place : chosen) {
-    if (!place.kinds.empty() && grid::contains(place.paths(), path)) return &place;
-  }
-  return nullptr;
-}
-
 /// The outputs by file.
 Outputs looked_at(const Outputs& outputs) {
   end_progress();
-  const std::vector<Place> chosen = chosen_places();
-  PlaceCheck check(chosen);
+  PlaceCheck check;
   Outputs result;
   for (const files::OutputFile& output : outputs) {
     if (output.path.empty()) continue;
     // Standard output needs no option.
     static const Place kAnswers;
     const Place* place =
-        is_standard_output(output.path) ? &kAnswers : output_named(chosen, output.path.string());
+        is_standard_output(output.path) ? &kAnswers : check.output_named(output.path.string());
     if (place == nullptr)
       throw std::logic_error("an output that no option named: " + output.path.string());
     std::string text = output.text;
@@ -182,65 +169,67 @@ Outputs looked_at(const Outputs& outputs) {
   return result;
 }
 
+/// Of a name: the word after an option without a value is none, as in --svg= --force.
+std::string fault_of(const std::string& name) {
+  if (name.empty()) return "an empty name, expected the name of a file";
+  if (name.size() > 1 && name.front() == '-')
+    return name + ", expected the name of a file; ./" + name + " where it is one";
+  return "";
+}
+
 void add_force(Verb verb) {
   if (verb.has_option("--force")) return;
-  verb.add_flag("--force",
-                "Overwrite files that chaintrue did not write, or that were changed since");
+  verb.app().add_flag("--force")->description(
+      "Overwrite files that chaintrue did not write, or that were changed since");
+}
+
+Value placed(Value value, std::function<Words()> paths, std::vector<Origin> kinds = {}) {
+  value.declare = [declare = value.declare, paths = std::move(paths), kinds = std::move(kinds)](
+                      Verb verb, auto& names, auto& help) {
+    declared().places.push_back({verb.with_name(), names, paths, kinds});
+    CLI::Option* option = declare(verb, names, help);
+    if (kinds.empty()) return option;
+    add_force(verb);
+    return option->check(CLI::Validator(fault_of, ""));
+  };
+  return value;
 }
 
 }  // namespace
 
-Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help) {
-  places().push_back({verb.with_name(), names, path_of(path), {}});
-  return verb.add_option(names, path, help);
+Value reads(std::string& path) { return placed(path, path_of(path)); }
+
+Value reads(Words& paths) {
+  return placed(paths, [&paths] { return paths; });
 }
 
-Option add_input(Verb verb, const std::string& names, Words& paths, const std::string& help) {
-  places().push_back({verb.with_name(), names, [&paths] { return paths; }, {}});
-  return verb.add_option(names, paths, help);
+Value writes(std::string& path, std::vector<Origin> kinds) {
+  return placed(path, path_of(path), std::move(kinds));
 }
 
-Option add_output(Verb verb,
-                  const std::string& names,
-                  std::string& path,
-                  std::vector<Origin> kinds,
-                  const std::string& help) {
-  places().push_back({verb.with_name(), names, path_of(path), std::move(kinds)});
-  Option option = verb.add_option(names, path, help);
-  option.refuses([](const std::string& text) -> std::string {
-    if (text.empty()) return "an empty name, expected the name of a file";
-    // The word after an option without a value: --svg= --force.
-    if (text.size() > 1 && text.front() == '-')
-      return text + ", expected the name of a file; ./" + text + " where it is one";
-    return "";
-  });
-  add_force(verb);
-  return option;
+Value writes_into(std::string& folder) {
+  Value value(folder);
+  value.declare = [declare = value.declare](Verb verb, auto& names, auto& help) {
+    CLI::Option* option = declare(verb, names, help);
+    add_force(verb);
+    return option;
+  };
+  return value;
 }
 
-PlaceUse use_of(Verb verb, const std::string& option) {
-  const std::string path = verb.path();
-  for (const Place& place : places()) {
+const Place* place_of(const std::string& option) {
+  for (const Place& place : declared().places) {
     const std::string names = "," + place.names + ",";
-    if (place.verb.path() != path || names.find("," + option + ",") == std::string::npos) continue;
-    return place.kinds.empty() ? PlaceUse::input : PlaceUse::output;
+    if (place.verb.is_chosen() && names.find("," + option + ",") != std::string::npos)
+      return &place;
   }
-  return PlaceUse::nothing;
-}
-
-Option add_output_folder(Verb verb,
-                         const std::string& names,
-                         std::string& path,
-                         const std::string& help) {
-  Option option = verb.add_option(names, path, help);
-  add_force(verb);
-  return option;
+  return nullptr;
 }
 
 void check_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
-  PlaceCheck check(chosen_places());
+  PlaceCheck check;
   for (const FolderFile& file : contents)
     check.look_at((fs::path(folder) / file.name).string(), {verb, "", {}, {file.kind}});
   check.throw_if_any();
@@ -271,15 +260,9 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
   }
 }
 
-void forget_places() { places().clear(); }
-
 void check_places() {
-  const std::vector<Place> chosen = chosen_places();
-  PlaceCheck check(chosen);
-  for (const Place& place : chosen) {
-    if (place.kinds.empty()) continue;
-    for (const std::string& path : place.paths()) check.look_at(path, place);
-  }
+  PlaceCheck check;
+  check.look_at_all();
   check.throw_if_any();
 }
 

@@ -10,8 +10,8 @@
 /// inputs.
 ///
 /// \code
-///   add_input(verb, "map", command->map, "A chaintrue_map file").required();
-///   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output");
+///   verb.has({{"map", required(reads(c.map)), "A chaintrue_map file"},
+///             {"-o,--output", writes(c.output, {Origin::table}), "- is standard output"}});
 ///   ...
 ///   write_output(command->output, text);
 /// \endcode
@@ -23,8 +23,8 @@
 #include "grid/files/origin.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/arguments.hpp"
 #include "tools/cli/names.hpp"
+#include "tools/cli/option_checks.hpp"
 
 namespace chaintrue::cli {
 
@@ -32,26 +32,17 @@ using files::Origin;
 /// Texts with their places; those with an empty path are not wanted.
 using Outputs = std::vector<files::OutputFile>;
 
-/// An option or argument that names a file to read.
-Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help);
-Option add_input(Verb verb, const std::string& names, Words& paths, const std::string& help);
-/// An option that names a file to write; adds --force to the verb. \param kinds of content:
+/// The variable of an option or argument that names a file to read.
+[[nodiscard]] Value reads(std::string& path);
+[[nodiscard]] Value reads(Words& paths);
+/// Of an option that names a file to write; adds --force to the verb. \param kinds of content:
 /// existing files of these kinds made by this program are replaced without --force
-Option add_output(Verb verb,
-                  const std::string& names,
-                  std::string& path,
-                  std::vector<Origin> kinds,
-                  const std::string& help);
+[[nodiscard]] Value writes(std::string& path, std::vector<Origin> kinds);
+/// Of an option that names a folder to write into, created if missing; adds --force to the verb.
+[[nodiscard]] Value writes_into(std::string& folder);
 
-/// The path named by an option of the verb.
-enum class PlaceUse { nothing, input, output };
-[[nodiscard]] PlaceUse use_of(Verb verb, const std::string& option);
-
-/// An output folder, created if missing; adds --force to the verb.
-Option add_output_folder(Verb verb,
-                         const std::string& names,
-                         std::string& path,
-                         const std::string& help);
+/// The files that an option of the chosen verb names; null if it names none.
+[[nodiscard]] const Place* place_of(const std::string& option);
 
 /// A file of such a folder, and its kind.
 struct FolderFile {
@@ -67,8 +58,6 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
 
 /// For the chosen verb, before its work. \throws InputError with all problems.
 void check_places();
-/// Before another command line in this process.
-void forget_places();
 
 /// The page next to a file: map.json, map.html.
 [[nodiscard]] std::string page_alongside(const std::string& path);

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/planning/check_plan.hpp"
 #include "grid/planning/second_visits.hpp"
 #include "model/chains/chain_changes.hpp"
@@ -80,9 +80,9 @@ std::string in_words(const grid::MeasurementPlan& plan,
       errors.worst_at.x_mm,
       errors.worst_at.y_mm);
   if (errors.unanswered > 0) {
-    text += fmt::format("On {:.1f} % of the bed the chains cannot hold the sled.\n",
-                        100.0 * static_cast<double>(errors.unanswered) /
-                            static_cast<double>(errors.cells_mm.size()));
+    text += fmt::format(
+        "On {:.1f} % of the bed the chains cannot hold the sled.\n",
+        100.0 * grid::as_double(errors.unanswered) / grid::as_double(errors.cells_mm.size()));
   }
   return text;
 }
@@ -90,7 +90,7 @@ std::string in_words(const grid::MeasurementPlan& plan,
 /// \param is_drilled the program drills its marks or holes
 Facts with_program(const PlanOptions& options, Facts facts, bool is_drilled) {
   if (options.outputs.gcode.empty()) return facts;
-  return facts | facts::program | (is_drilled ? facts::drilled : 0U);
+  return facts | facts::program | (is_drilled ? facts::drilled : facts::nothing);
 }
 
 bool drills_marks(const PlanOptions& options, const Machine* machine) {
@@ -166,20 +166,19 @@ int run_marks_plan(const PlanOptions& options, const Machine& machine) {
   require_second_visits(static_cast<int>(plan.marks.size()));
   problems.throw_if_any();
   const ExpectedErrors errors = expected_errors(plan.map, machine.bed);
-  Outputs outputs =
-      sheet_outputs({plan.marks,
-                     sheet_of(options.measure, &machine),
-                     grid::with_second_visits(plan.marks.size(),
-                                              static_cast<std::size_t>(options.second_visits))},
-                    machine,
-                    {noise.length_mm, noise.position_mm, StatedNoise{}.dof},
-                    options.outputs,
-                    fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
-                                errors.rms_mm,
-                                errors.largest_mm));
+  Outputs outputs = sheet_outputs(
+      {plan.marks,
+       sheet_of(options.measure, &machine),
+       grid::with_second_visits(plan.marks.size(), grid::as_size(options.second_visits))},
+      machine,
+      {noise.length_mm, noise.position_mm, StatedNoise{}.dof},
+      options.outputs,
+      fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
+                  errors.rms_mm,
+                  errors.largest_mm));
   outputs.push_back({options.outputs.drawing, draw_plan(plan, machine.bed, errors)});
   write_outputs(outputs);
-  fmt::print(stderr, "{}", in_words(plan, noise, errors));
+  say_lines(in_words(plan, noise, errors));
   say_next_of_sheet(options.outputs, options.machine);
   return kDone;
 }
@@ -201,139 +200,156 @@ int run_plan(Verb verb, PlanOptions options) {
 }  // namespace
 
 void add_plan(Verb app) {
-  auto options = std::make_shared<PlanOptions>();
-  Verb verb = app.add_verb(
+  using namespace facts;
+  auto [verb, c] = app.add_verb<PlanOptions>(
       "plan",
-      "Plan where to measure: a list for the workshop, and the expected accuracy of the map");
-  add_input(verb,
-            "--machine",
-            options->machine,
-            "chaintrue_machine file; - is standard input. With --after only if the grid has none; "
-            "not with --check")
-      .acts_on(facts::lattice | facts::tape | facts::chains,
-               "to be left out, because maps to check and belts contain their machine");
-  const Option grid = add_input(verb,
-                                "grid",
-                                options->follow_up.file,
-                                "With --after: the points, holes or belts measured so far");
-  const Option after = add_input(verb,
-                                 "--after",
-                                 options->follow_up.after,
-                                 "A chaintrue_diagnosis of those points: plan what to measure "
-                                 "next, and the lines to add to the file");
-  after.needs(grid);
-  add_input(verb,
-            "--with",
-            options->follow_up.with,
-            "With --after: the other files of the same diagnosis, as given to diagnose --with")
-      .needs(after)
-      .acts_on(facts::chains, "to be left out, because belts are diagnosed separately");
+      "Plan where to measure: a list for the workshop, and the expected accuracy of the map",
+      R"(The list runs row by row from the bottom left, back and forth;
+chaintrue simulate --marks reads it. The expected error is printed on standard error.
+Fill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, diagnose or
+check as it is, a CSV with --machine. Empty cells are left out, with a note.
+
+Examples:
+  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv --svg plan.svg
+  build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode marks.nc --page marks.html
+  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json
+  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json
+  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 --tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg
+  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
+  build/chaintrue plan --check map.json -o five.csv --svg five.svg)",
+      run_plan,
+      [](const PlanOptions& own) {
+        if (own.follow_up.after.empty() && !own.follow_up.file.empty()) missing_option("--after");
+        if (own.follow_up.after.empty() && own.check.empty() && own.machine.empty())
+          missing_option("--machine");
+      });
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
-  const Option points =
-      add_number(
-          verb,
-          "--points",
-          options->points,
-          {"", 1.0, 1000.0},
-          fmt::format(
-              "Number of marks, {} to {}, {} by default; with --check {} to {}, {} by default",
-              grid::kFewestPlanned,
-              grid::kMostPlanned,
-              usual.points,
-              grid::kFewestCheckPoints,
-              grid::kMostCheckPoints,
-              usual_check.points))
-          .acts_on(facts::planned_marks,
-                   "to be left out with --after, because the diagnosis determines the number");
-  add_number(verb,
-             "--second-visits",
-             options->second_visits,
-             {"", 0.0, 66.0},
-             "Number of marks measured twice, the first one at the end; they show changes during "
-             "the session")
-      .acts_on(facts::lattice,
-               "to be left out, because it applies to new marks in columns and rows only");
-  add_input(verb,
-            "--check",
-            options->check,
-            "Plan the few points that best show later whether this chaintrue_map still holds")
-      .excludes(after);
-  add_number(
-      verb,
-      "--margin-mm",
-      options->margin_mm,
-      {"mm", 0.0, 10000.0},
-      fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
-                  "small bed a fifth of its shorter side. Closer to the edge, a sled tips over",
-                  kReachableMm))
-      .acts_on(facts::planned,
-               "to be left out with --after, because the diagnosis determines the places");
-  add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
                        what,
                        usually_mm,
                        in_check_mm);
   };
-  add_number(verb,
-             "--length-noise-mm",
-             options->length_noise_mm,
-             {"mm", 0.001, 50.0},
-             noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm))
-      .acts_on(facts::planned_marks,
-               "to be left out, because it applies to chain lengths read at marks only");
-  add_number(verb,
-             "--position-noise-mm",
-             options->position_noise_mm,
-             {"mm", 0.0, 50.0},
-             noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm))
-      .acts_on(facts::planned_marks,
-               "to be left out, because it applies to positions measured at marks only");
-  add_measure_option(verb, options->measure);
-  add_output(verb,
-             "-o,--output",
-             options->outputs.list,
-             {Origin::list, Origin::measured},
-             "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
-             "standard output")
-      .shows_default();
-  verb.add_flag("--json",
-                options->outputs.json,
-                "Print the list as JSON, including the machine; if the list goes to a file, the "
-                "places and the expected error")
-      .acts_on(facts::planned, "to be left out with --after, because the lines match their file");
-  add_output(verb,
-             "--page",
-             options->outputs.page,
-             {Origin::page},
-             "Write a page to print: the bed, the instructions, and lines to fill in")
-      .acts_on(facts::planned, "to be left out with --after, which prints lines for a file");
-  add_drill_options(verb, options->outputs.gcode, options->outputs.drill);
-  add_output(verb,
-             "--svg",
-             options->outputs.drawing,
-             {Origin::drawing},
-             "Write an SVG picture of the points over the expected error of the map, or of the "
-             "holes and their distances");
-  verb.footer(
-      "The list runs row by row from the bottom left, back and forth;\nchaintrue simulate --marks "
-      "reads it. The expected error is printed on standard error.\nFill in the list (in an editor "
-      "or a spreadsheet) and hand it to chaintrue fit, diagnose or\ncheck as it is, a CSV with "
-      "--machine. Empty cells are left out, with a note.\n\nExamples:\n  build/chaintrue plan "
-      "--machine fixtures/machines/classic.json --points 28 -o plan.csv --svg plan.svg\n  "
-      "build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode "
-      "marks.nc --page marks.html\n  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o "
-      "diagnosis.json\n  build/chaintrue plan fixtures/grids/seven_by_four.json --after "
-      "diagnosis.json\n  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "
-      "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue plan --check map.json -o "
-      "five.csv --svg five.svg");
-  verb.runs(options, run_plan, [](const auto& own) {
-    if (own.follow_up.after.empty() && !own.follow_up.file.empty()) missing_option("--after");
-    if (own.follow_up.after.empty() && own.check.empty() && own.machine.empty())
-      missing_option("--machine");
-  });
+  verb.has(
+      {{"--machine",
+        reads(c.machine),
+        "chaintrue_machine file; - is standard input. With --after only if the grid has none; "
+        "not with --check",
+        lattice | tape | chains,
+        "to be left out, because maps to check and belts contain their machine"},
+       {"grid",
+        reads(c.follow_up.file),
+        "With --after: the points, holes or belts measured so far"},
+       {"--after",
+        reads(c.follow_up.after),
+        "A chaintrue_diagnosis of those points: plan what to measure "
+        "next, and the lines to add to the file"},
+       {"--with",
+        reads(c.follow_up.with),
+        "With --after: the other files of the same diagnosis, as given to diagnose --with",
+        chains,
+        "to be left out, because belts are diagnosed separately"},
+       {"--points",
+        {c.points, {"", 1.0, 1000.0}},
+        fmt::format(
+            "Number of marks, {} to {}, {} by default; with --check {} to {}, {} by default",
+            grid::kFewestPlanned,
+            grid::kMostPlanned,
+            usual.points,
+            grid::kFewestCheckPoints,
+            grid::kMostCheckPoints,
+            usual_check.points),
+        planned_marks,
+        "to be left out with --after, because the diagnosis determines the number"},
+       {"--second-visits",
+        {c.second_visits, {"", 0.0, 66.0}},
+        "Number of marks measured twice, the first one at the end; they show changes during "
+        "the session",
+        lattice,
+        "to be left out, because it applies to new marks in columns and rows only"},
+       {"--check",
+        reads(c.check),
+        "Plan the few points that best show later whether this chaintrue_map still holds"},
+       {"--margin-mm",
+        {c.margin_mm, {"mm", 0.0, 10000.0}},
+        fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
+                    "small bed a fifth of its shorter side. Closer to the edge, a sled tips over",
+                    kReachableMm),
+        planned,
+        "to be left out with --after, because the diagnosis determines the places"},
+       {"--holes",
+        {c.holes.holes, {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles}},
+        fmt::format("Plan this number of holes, {} to {}, and tape distances between them",
+                    grid::kFewestPlannedHoles,
+                    grid::kMostPlannedHoles),
+        lattice | tape,
+        "to be left out with --after and --check, which plan something else"}});
+  add_tape_options(verb, c.holes);
+  verb.has(
+      {{"--tape-length-mm",
+        {c.holes.longest_mm, {"mm", 500.0, 100000.0}},
+        "With --holes: length of the tape",
+        tape,
+        "to be left out without --holes"},
+       {"--length-noise-mm",
+        {c.length_noise_mm, {"mm", 0.001, 50.0}},
+        noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm),
+        planned_marks,
+        "to be left out, because it applies to chain lengths read at marks only"},
+       {"--position-noise-mm",
+        {c.position_noise_mm, {"mm", 0.0, 50.0}},
+        noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm),
+        planned_marks,
+        "to be left out, because it applies to positions measured at marks only"},
+       {"--measure",
+        {c.measure, {"places", "lengths"}},
+        "What you will measure. places: you send the controller to each mark and measure "
+        "the tool's position. lengths: you bring the tool to each mark and read both "
+        "chains. Default: places if the machine has a controller, otherwise lengths",
+        planned_marks,
+        "to be left out, because it applies to readings at marks only"},
+       {"-o,--output",
+        writes(c.outputs.list, {Origin::list, Origin::measured}),
+        "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
+        "standard output"},
+       {"--json",
+        c.outputs.json,
+        "Print the list as JSON, including the machine; if the list goes to a file, the "
+        "places and the expected error",
+        planned,
+        "to be left out with --after, because the lines match their file"},
+       {"--page",
+        writes(c.outputs.page, {Origin::page}),
+        "Write a page to print: the bed, the instructions, and lines to fill in",
+        planned,
+        "to be left out with --after, which prints lines for a file"},
+       {"--gcode",
+        writes(c.outputs.gcode, {Origin::program}),
+        "Write a program that drills the marks in order, or stops above each one if lengths "
+        "are to be read",
+        planned,
+        "to be left out with --after, which prints lines for a file"},
+       {"--depth-mm",
+        {c.outputs.drill.depth_mm, {"mm", 0.1, 100.0}},
+        "With --gcode: depth of the holes",
+        program,
+        "to be left out without --gcode",
+        {{drilled,
+          "to be left out, because a program for lengths stops above each mark without drilling"}}},
+       {"--clearance-mm",
+        {c.outputs.drill.clearance_mm, {"mm", 0.1, 100.0}},
+        "With --gcode: height of travel between holes",
+        program,
+        "to be left out without --gcode"},
+       {"--svg",
+        writes(c.outputs.drawing, {Origin::drawing}),
+        "Write an SVG picture of the points over the expected error of the map, or of the "
+        "holes and their distances"}});
+  verb.needs({"--after"}, "grid");
+  verb.needs({"--with"}, "--after");
+  verb.excludes({"--check"}, "--after");
+  verb.excludes({"--holes"}, "--points");
 }
 
 }  // namespace chaintrue::cli

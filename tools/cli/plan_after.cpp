@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "tools/cli/follow_up.hpp"
-#include "tools/cli/grid_input.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/verb.hpp"
@@ -120,26 +120,16 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
   report_difference(after);
   write_outputs({{options.drawing, drawing_of(found)},
                  {options.output, points_of(found, read.belts) + distances_of(found)}});
-  fmt::print(stderr, "{}", follow_up_list(found));
+  say_lines(follow_up_list(found));
   if (found.belts->second_pass) say("{}", in_words(*found.belts->second_pass));
   say_next({"diagnose", options.file, "-o", options.after});
   return kDone;
 }
 
-using diagnosis::MeasurementKind;
-
-/// An input file, and its index among the grids or the sets of holes.
-struct Source {
-  std::string name;
-  bool json = false;
-  bool of_holes = false;
-  std::size_t position = 0;
-};
-
+/// The files of a diagnosis, and for each whether lines for it are JSON.
 struct Sources {
-  std::vector<Source> all;
-  std::vector<MeasuredGrid> grids;
-  std::vector<MeasuredHoles> sets;
+  grid::Measured measured;
+  std::vector<bool> are_json;
 };
 
 /// `few`: with other files one or two readings are enough.
@@ -148,17 +138,14 @@ void read(const InputFile& file,
           bool few,
           Sources& sources) {
   require_kind(file, {FileKind::grid, FileKind::holes});
-  const bool of_holes = file.kind == FileKind::holes;
-  sources.all.push_back({file.name,
-                         files::is_json(file.text),
-                         of_holes,
-                         of_holes ? sources.sets.size() : sources.grids.size()});
   const files::MeasuredOptions options{.machine = machine, .few = few};
-  if (of_holes) {
-    sources.sets.push_back(files::parse_holes(file.text, file.name, options).holes);
-  } else {
-    sources.grids.push_back(files::parse_grid(file.text, file.name, options).grid);
-  }
+  grid::MeasuredFile read{file.name, {}};
+  if (file.kind == FileKind::holes)
+    read.measured = files::parse_holes(file.text, file.name, options).holes;
+  else
+    read.measured = files::parse_grid(file.text, file.name, options).grid;
+  sources.measured.add(std::move(read));
+  sources.are_json.push_back(files::is_json(file.text));
 }
 
 Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
@@ -170,18 +157,18 @@ Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
   return sources;
 }
 
-std::vector<MarkPoint> marks_of(const std::vector<MeasuredGrid>& grids) {
+std::vector<MarkPoint> marks_of(const grid::Measured& measured) {
   std::vector<MarkPoint> marks;
-  for (const MeasuredGrid& measured : grids) {
-    for (const grid::MeasuredPoint& point : measured.points) marks.push_back(point.mark);
+  for (const MeasuredGrid* own : measured.grids()) {
+    for (const grid::MeasuredPoint& point : own->points) marks.push_back(point.mark);
   }
   return marks;
 }
 
 /// Whether the diagnosis used the points of these grids. A CSV may round them.
-bool is_of(const Diagnosis& found, const std::vector<MeasuredGrid>& grids) {
+bool has_points_of(const Diagnosis& found, const grid::Measured& measured) {
   constexpr double kSamePlaceMm = 1e-3;
-  const std::vector<MarkPoint> marks = marks_of(grids);
+  const std::vector<MarkPoint> marks = marks_of(measured);
   return std::equal(found.points.begin(),
                     found.points.end(),
                     marks.begin(),
@@ -195,77 +182,66 @@ bool is_of(const Diagnosis& found, const std::vector<MeasuredGrid>& grids) {
 /// Empty if the diagnosis used exactly these files.
 std::string made_from_others(const PlanAfterOptions& options,
                              const Diagnosis& found,
-                             const Sources& sources) {
-  const auto sentence = [&](std::string_view what) {
-    std::vector<std::string> names;
-    for (const Source& source : sources.all) names.push_back(source.name);
-    return fmt::format("{} was made from other {} than those in {}: diagnose these first.\n",
-                       options.after,
-                       what,
-                       fmt::join(names, " and "));
-  };
-  const bool points = is_of(found, sources.grids);
-  const bool distances = is_diagnosis_of(found, sources.sets);
+                             const grid::Measured& measured) {
+  const bool points = has_points_of(found, measured);
+  const bool distances = is_diagnosis_of(found, measured.holes());
   if (points && distances) return {};
-  if ((points && sources.sets.empty()) || (distances && sources.grids.empty())) {
+  const bool has_grids = !measured.grids().empty();
+  if (points ? measured.holes().empty() : distances && !has_grids) {
     return fmt::format(
         "{} was made from points and distances together: give its other files with --with.\n",
         options.after);
   }
-  return sentence(points || sources.grids.empty() ? "holes" : "points");
+  std::vector<std::string> names;
+  for (const grid::MeasuredFile& file : measured.files()) names.push_back(file.name);
+  return fmt::format("{} was made from other {} than those in {}: diagnose these first.\n",
+                     options.after,
+                     points || !has_grids ? "holes" : "points",
+                     fmt::join(names, " and "));
 }
 
-/// The lines for one of the files; readings of the machine go into the first that has any.
-std::string lines_for(const Source& source,
-                      const Diagnosis& found,
-                      const Sources& sources,
-                      bool takes_readings) {
+/// The lines for each file; readings of the machine go into the first that has any.
+std::string lines_of(const Diagnosis& found,
+                     const grid::Measured& measured,
+                     const std::vector<bool>& are_json) {
+  const std::vector<grid::MeasuredFile>& files = measured.files();
   std::string text;
-  if (source.of_holes) {
-    text = distance_lines(found, sources.sets, source.position, source.json);
-  } else if (source.position == 0) {  // new points are on the first sheet
-    text = point_lines(found, sources.grids.front(), source.json);
-  }
-  return takes_readings ? text + readings_json(found) : text;
-}
-
-std::string lines_of(const Diagnosis& found, const Sources& sources) {
-  const auto holds_readings = [](const Source& source) { return source.json; };
-  const auto first = std::find_if(sources.all.begin(), sources.all.end(), holds_readings);
-  std::string text;
-  for (auto source = sources.all.begin(); source != sources.all.end(); ++source) {
-    const std::string lines = lines_for(*source, found, sources, source == first);
-    if (sources.all.size() > 1 && !lines.empty()) text += "# " + source->name + "\n";
+  std::size_t grids = 0, sets = 0;
+  bool takes_readings = true;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    std::string lines;
+    if (files[k].holes() != nullptr) {
+      lines = distance_lines(found, measured.holes(), sets++, are_json[k]);
+    } else if (grids++ == 0) {  // new points are on the first sheet
+      lines = point_lines(found, *files[k].grid(), are_json[k]);
+    }
+    if (are_json[k] && std::exchange(takes_readings, false)) lines += readings_json(found);
+    if (files.size() > 1 && !lines.empty()) text += "# " + files[k].name + "\n";
     text += lines;
   }
   return text;
 }
 
-std::string drawing_of(const Diagnosis& found, const Sources& sources) {
-  std::vector<MarkPoint> measured = marks_of(sources.grids);
-  for (const MeasuredHoles& set : sources.sets) {
-    for (const grid::Hole& hole : set.holes)
-      measured.push_back(model::identity_placement(hole.commanded));
+std::string drawing_of(const Diagnosis& found, const grid::Measured& measured) {
+  std::vector<MarkPoint> marks = marks_of(measured);
+  for (const MeasuredHoles* set : measured.holes()) {
+    for (const grid::Hole& hole : set->holes)
+      marks.push_back(model::identity_placement(hole.commanded));
   }
-  return draw_follow_up(measured, follow_up_places(found), found.extended_machine.bed);
+  return draw_follow_up(marks, follow_up_places(found), found.extended_machine.bed);
 }
 
 }  // namespace
 
 std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                             const std::vector<MeasuredGrid>& grids,
-                                             const std::vector<MeasuredHoles>& sets) {
-  if (!is_of(found, grids) || !is_diagnosis_of(found, sets)) return std::nullopt;
-  Sources sources{{}, grids, sets};
-  for (std::size_t k = 0; k < grids.size(); ++k)
-    sources.all.push_back({grids[k].name, false, false, k});
-  for (std::size_t k = 0; k < sets.size(); ++k)
-    sources.all.push_back({sets[k].name, false, true, k});
-  FollowUpTexts texts{follow_up_list(found), lines_of(found, sources), "", ""};
-  for (Source& source : sources.all) source.json = true;
-  texts.json = lines_of(found, sources);
-  texts.drawing = drawing_of(found, sources);
-  return texts;
+                                             const grid::Measured& measured) {
+  if (!has_points_of(found, measured) || !is_diagnosis_of(found, measured.holes()))
+    return std::nullopt;
+  const auto lines = [&](bool is_json) {
+    return lines_of(found, measured, std::vector<bool>(measured.files().size(), is_json));
+  };
+  return FollowUpTexts{
+      follow_up_list(found), lines(false), lines(true), drawing_of(found, measured)};
 }
 
 Facts facts_after(const InputFile& file) {
@@ -278,26 +254,24 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
   const Sources sources = read_sources(options, file);
   const InputFile after = open_input(options.after);
   const Diagnosis found = load_diagnosis(after);
-  const std::string others = made_from_others(options, found, sources);
+  const std::string others = made_from_others(options, found, sources.measured);
   if (!others.empty()) {
-    fmt::print(stderr, "{}", others);
+    say_lines(others);
     return kBadInput;
   }
   report_difference(after);
-  write_outputs(
-      {{options.drawing, drawing_of(found, sources)}, {options.output, lines_of(found, sources)}});
-  fmt::print(stderr, "{}", follow_up_list(found));
-  const bool none_holds_readings =
-      grid::none_of(sources.all, [](const Source& source) { return source.json; });
-  if (none_holds_readings && proposes(found, MeasurementKind::reading)) {
-    say("A CSV file cannot store readings: use a {} (JSON), which has a list for them.",
-        sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
+  write_outputs({{options.drawing, drawing_of(found, sources.measured)},
+                 {options.output, lines_of(found, sources.measured, sources.are_json)}});
+  say_lines(follow_up_list(found));
+  const std::vector<grid::MeasuredFile>& files = sources.measured.files();
+  if (!grid::contains(sources.are_json, true) && proposes(found, MeasurementKind::reading)) {
+    say("A CSV file cannot store readings: use a {} (JSON), which has a list "
+        "for them.",
+        sources.measured.grids().empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
   // The next step once these are measured and written into their files.
-  Words words = {"diagnose", sources.all.front().name};
-  for (std::size_t k = 1; k < sources.all.size(); ++k) {
-    add_option_words(words, "--with", sources.all[k].name);
-  }
+  Words words = {"diagnose", files.front().name};
+  for (std::size_t k = 1; k < files.size(); ++k) add_option_words(words, "--with", files[k].name);
   add_option_words(words, "-o", options.after);
   say_next(words);
   return kDone;

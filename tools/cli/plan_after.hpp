@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "grid/observation/measured_holes.hpp"
+#include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/input_file.hpp"
 
@@ -41,8 +41,7 @@ struct FollowUpTexts {
 };
 /// Empty if the diagnosis used other readings.
 [[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                                           const std::vector<MeasuredGrid>& grids,
-                                                           const std::vector<MeasuredHoles>& sets);
+                                                           const grid::Measured& measured);
 [[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
                                                            const MeasuredBelts& belts);
 

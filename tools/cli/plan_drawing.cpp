@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -22,13 +21,10 @@ constexpr int kBarSteps = 30;
 
 /// Light to dark, from the least expected error to the largest, so that grey prints are readable.
 std::string colour(double share) {
-  constexpr std::array<int, 3> kLight = {255, 247, 236};
-  constexpr std::array<int, 3> kDark = {179, 88, 6};
-  std::array<long, 3> mixed{};
-  for (std::size_t i = 0; i < mixed.size(); ++i) {
-    mixed[i] = std::lround(kLight[i] + share * (kDark[i] - kLight[i]));
-  }
-  return fmt::format("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2]);
+  const auto mixed = [share](int light, int dark) {
+    return std::lround(light + share * (dark - light));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", mixed(255, 179), mixed(247, 88), mixed(236, 6));
 }
 
 BedView view_of(const Bed& bed) { return {bed.width_mm, bed.height_mm, {kLeft, kTop}, kBedWide}; }
@@ -48,11 +44,12 @@ void label(Svg& svg,
            const BedView& view,
            const MarkPoint& mark,
            double aside,
-           const std::array<double, 2>& below_above,
+           double below,
+           double above,
            std::string_view words) {
   const bool right_half = mark.x_mm > 0.0;
   svg.text(view.x(mark.x_mm) + (right_half ? -aside : aside),
-           view.y(mark.y_mm) + below_above.at(mark.y_mm > 0.0 ? 0 : 1),
+           view.y(mark.y_mm) + (mark.y_mm > 0.0 ? below : above),
            words,
            right_half ? "end" : "start");
 }
@@ -82,12 +79,11 @@ void draw_errors(Svg& svg,
                  const Shades& shades) {
   const double wide = kBedWide / errors.columns;
   const double high = view.high() / errors.rows;
+  std::size_t cell = 0;
   svg.add("<g shape-rendering=\"crispEdges\">\n");
   for (int row = 0; row < errors.rows; ++row) {
     for (int column = 0; column < errors.columns; ++column) {
-      const double error =
-          errors.cells_mm[static_cast<std::size_t>(row) * static_cast<std::size_t>(errors.columns) +
-                          static_cast<std::size_t>(column)];
+      const double error = errors.cells_mm[cell++];
       svg.rectangle(kLeft + wide * column,
                     kTop + high * (errors.rows - 1 - row),
                     wide,
@@ -109,7 +105,7 @@ void draw_walk(Svg& svg, const BedView& view, const std::vector<MarkPoint>& mark
       fmt::join(corners, " "));
   for (std::size_t i = 0; i < marks.size(); ++i) {
     svg.circle(view.x(marks[i].x_mm), view.y(marks[i].y_mm), 4.0, filled(report::kAfterColor));
-    label(svg, view, marks[i], 7.0, {15.0, -6.0}, fmt::format("{}", i + 1));
+    label(svg, view, marks[i], 7.0, 15.0, -6.0, fmt::format("{}", i + 1));
   }
 }
 
@@ -146,14 +142,14 @@ ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed) {
     squares += error * error;
     if (error > errors.largest_mm) {
       errors.largest_mm = error;
-      const auto columns = static_cast<std::size_t>(errors.columns);
+      const auto columns = grid::as_size(errors.columns);
       errors.worst_at = {
-          bed.width_mm * ((static_cast<double>(i % columns) + 0.5) / errors.columns - 0.5),
-          bed.height_mm * ((static_cast<double>(i / columns) + 0.5) / errors.rows - 0.5)};
+          bed.width_mm * ((grid::as_double(i % columns) + 0.5) / errors.columns - 0.5),
+          bed.height_mm * ((grid::as_double(i / columns) + 0.5) / errors.rows - 0.5)};
     }
   }
   const std::size_t answered = errors.cells_mm.size() - errors.unanswered;
-  if (answered > 0) errors.rms_mm = std::sqrt(squares / static_cast<double>(answered));
+  if (answered > 0) errors.rms_mm = std::sqrt(squares / grid::as_double(answered));
   return errors;
 }
 
@@ -177,7 +173,7 @@ std::string draw_follow_up(const std::vector<MarkPoint>& measured,
                          x + kArm,
                          y + kArm),
              fmt::format("stroke=\"{}\" stroke-width=\"2.5\"", report::kAfterColor));
-    label(svg, view, place.mark, 10.0, {18.0, -9.0}, place.numbers);
+    label(svg, view, place.mark, 10.0, 18.0, -9.0, place.numbers);
   }
   return svg.finished();
 }
@@ -215,22 +211,7 @@ std::string draw_plan(const grid::MeasurementPlan& plan,
 namespace {
 
 // The picture, in its own units.
-constexpr double kSheetWide = 900.0, kSheetLeft = 30.0, kSheetTop = 60.0, kSheetBelow = 50.0;
-
-/// The foot of the perpendicular on an edge of the bed.
-BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed) {
-  switch (edge) {
-    case grid::SheetEdge::left:
-      return {-0.5 * bed.width_mm, from.y_mm};
-    case grid::SheetEdge::right:
-      return {0.5 * bed.width_mm, from.y_mm};
-    case grid::SheetEdge::top:
-      return {from.x_mm, 0.5 * bed.height_mm};
-    case grid::SheetEdge::bottom:
-      break;
-  }
-  return {from.x_mm, -0.5 * bed.height_mm};
-}
+constexpr double kSheetTop = 60.0, kSheetBelow = 50.0;
 
 /// Each with its label, and a line from one to the other.
 void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& svg) {
@@ -243,17 +224,15 @@ void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& 
          fmt::format("({:.0f}, {:.0f})", hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0)});
   }
   const std::vector<report::HoleLabel> labels =
-      report::place_labels(drawn, kSheetLeft, kSheetLeft + kSheetWide);
+      report::place_labels(drawn, kLeft, kLeft + kBedWide);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const report::DrawnHole& hole = drawn[i];
     const report::HoleLabel& label = labels[i];
     svg.add(
-        "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\" stroke=\"#333333\"/>\n"
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#ffffff\" stroke=\"{4}\" "
-        "stroke-width=\"3\"/>\n"
-        "<text x=\"{5:.1f}\" y=\"{6:.1f}\" stroke=\"#fff7ec\" stroke-width=\"4\" "
-        "paint-order=\"stroke\"><tspan font-weight=\"bold\" "
-        "font-size=\"18\">{7}</tspan>{8}{9}</text>\n",
+        R"(<line x1="{0:.1f}" y1="{1:.1f}" x2="{2:.1f}" y2="{3:.1f}" stroke="#333333"/>
+<circle cx="{0:.1f}" cy="{1:.1f}" r="6" fill="#ffffff" stroke="{4}" stroke-width="3"/>
+<text x="{5:.1f}" y="{6:.1f}" stroke="#fff7ec" stroke-width="4" paint-order="stroke"><tspan font-weight="bold" font-size="18">{7}</tspan>{8}{9}</text>
+)",
         hole.x,
         hole.y,
         std::clamp(hole.x, label.left, label.right),
@@ -269,9 +248,18 @@ void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& 
 
 }  // namespace
 
+BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed) {
+  const double x_mm = 0.5 * bed.width_mm, y_mm = 0.5 * bed.height_mm;
+  const BedPoint feet[] = {{-x_mm, from.y_mm},
+                           {x_mm, from.y_mm},
+                           {from.x_mm, y_mm},
+                           {from.x_mm, -y_mm}};  // by SheetEdge
+  return feet[static_cast<std::size_t>(edge)];
+}
+
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const Bed& bed = plan.set.machine->bed;
-  const BedView view(bed.width_mm, bed.height_mm, {kSheetLeft, kSheetTop}, kSheetWide);
+  const BedView view(bed.width_mm, bed.height_mm, {kLeft, kSheetTop}, kBedWide);
   const bool has_edges = grid::any_of(
       plan.set.distances, [](const auto& distance) { return distance.edge.has_value(); });
   const double high = kSheetTop + view.high() + kSheetBelow;
@@ -280,11 +268,10 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                   plan.set.holes.size(),
                   distances_in_number(plan.set),
                   plan.expected_rms_mm);
-  Svg svg(kSheetWide + 2.0 * kSheetLeft, high, "font-size=\"14\"", title);
+  Svg svg(kBedWide + 2.0 * kLeft, high, "font-size=\"14\"", title);
   svg.fill();
-  svg.text(kSheetLeft, 32.0, title, "start", " font-size=\"18\"");
-  svg.rectangle(
-      kSheetLeft, kSheetTop, kSheetWide, view.high(), "fill=\"#fff7ec\" stroke=\"#333333\"");
+  svg.text(kLeft, 32.0, title, "start", " font-size=\"18\"");
+  svg.rectangle(kLeft, kSheetTop, kBedWide, view.high(), "fill=\"#fff7ec\" stroke=\"#333333\"");
   for (const grid::HoleDistance& distance : plan.set.distances) {
     const BedPoint from = plan.set.holes[distance.from].commanded;
     const BedPoint to =
@@ -302,8 +289,8 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
         distance.distance_mm);
   }
   draw_holes(plan.set.holes, view, svg);
-  svg.text(kSheetLeft, high - 28.0, "From the front; the origin is the middle of the bed.");
-  svg.text(kSheetLeft,
+  svg.text(kLeft, high - 28.0, "From the front; the origin is the middle of the bed.");
+  svg.text(kLeft,
            high - 10.0,
            fmt::format("Each line is one reading of the tape, centre to centre{}.",
                        has_edges ? "; green, square to an edge of the sheet" : ""));

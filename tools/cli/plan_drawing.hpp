@@ -38,6 +38,8 @@ struct ExpectedErrors {
 // A plan of holes as a drawing: the sheet, the holes by name, a line for each distance to measure.
 // Same plan, same bytes.
 
+/// The foot of the perpendicular on an edge of the bed.
+[[nodiscard]] BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed);
 /// A self-contained SVG; nothing is fetched, no script runs.
 [[nodiscard]] std::string draw_holes_plan(const grid::HolesPlan& plan);
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -36,52 +35,28 @@ void require_sound(OptionProblems& problems, const HolesPlanRequest& request) {
 }
 
 void add_tape_options(Verb verb, HolesPlanRequest& request) {
-  add_number(verb,
-             "--distances",
-             request.distances,
-             {"", 1.0, 10000.0},
+  verb.has({{"--distances",
+             {request.distances, {"", 1.0, 10000.0}},
              "With --holes: number of distances to measure; by default twice the number of holes "
-             "plus two, and six more with --edges")
-      .shows_default("")
-      .acts_on(facts::tape, "to be left out without --holes");
-  verb.add_flag("--edges",
-                request.edges,
-                "With --holes: also measure to the sheet's edges, so that jobs are placed "
-                "correctly on the sheet")
-      .acts_on(facts::tape, "to be left out without --holes");
-  add_number(verb,
-             "--tape-sigma-mm",
-             request.tape_sigma_mm,
-             files::kTapeSigmaMm,
-             "With --holes: standard deviation (1 sigma) of a tape reading")
-      .acts_on(facts::tape, "to be left out without --holes");
-  add_number(verb,
-             "--hole-sigma-mm",
-             request.hole_sigma_mm,
-             files::kHoleSigmaMm,
-             "With --holes: standard deviation (1 sigma) of a hole's position on each axis")
-      .acts_on(facts::tape, "to be left out without --holes");
-}
-
-void add_plan_holes_options(Verb verb, HolesPlanRequest& request, Option points) {
-  add_number(verb,
-             "--holes",
-             request.holes,
-             {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
-             fmt::format("Plan this number of holes, {} to {}, and tape distances between them",
-                         grid::kFewestPlannedHoles,
-                         grid::kMostPlannedHoles))
-      .shows_default("")
-      .excludes(points)
-      .acts_on(facts::lattice | facts::tape,
-               "to be left out with --after and --check, which plan something else");
-  add_tape_options(verb, request);
-  add_number(verb,
-             "--tape-length-mm",
-             request.longest_mm,
-             {"mm", 500.0, 100000.0},
-             "With --holes: length of the tape")
-      .acts_on(facts::tape, "to be left out without --holes");
+             "plus two, and six more with --edges",
+             facts::tape,
+             "to be left out without --holes"},
+            {"--edges",
+             request.edges,
+             "With --holes: also measure to the sheet's edges, so that jobs are placed "
+             "correctly on the sheet",
+             facts::tape,
+             "to be left out without --holes"},
+            {"--tape-sigma-mm",
+             {request.tape_sigma_mm, files::kTapeSigmaMm},
+             "With --holes: standard deviation (1 sigma) of a tape reading",
+             facts::tape,
+             "to be left out without --holes"},
+            {"--hole-sigma-mm",
+             {request.hole_sigma_mm, files::kHoleSigmaMm},
+             "With --holes: standard deviation (1 sigma) of a hole's position on each axis",
+             facts::tape,
+             "to be left out without --holes"}});
 }
 
 int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted) {
@@ -101,7 +76,7 @@ int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanO
   add_answer(
       holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted, outputs);
   write_outputs(outputs);
-  fmt::print(stderr, "{}", plan_in_words(plan, request));
+  say_lines(plan_in_words(plan, request));
   return kDone;
 }
 

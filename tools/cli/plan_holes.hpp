@@ -13,8 +13,6 @@ void require_sound(OptionProblems& problems, const HolesPlanRequest& request);
 /// Adds --distances, --edges, --tape-sigma-mm and --hole-sigma-mm, for --holes.
 void add_tape_options(Verb verb, HolesPlanRequest& request);
 
-void add_plan_holes_options(Verb verb, HolesPlanRequest& request, Option points);
-
 /// Writes the list, the drawing and the program; returns the exit code. \throws InputError
 /// for values out of range.
 [[nodiscard]] int plan_the_holes(HolesPlanRequest request,

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -108,7 +107,7 @@ int answer_points(const Target& target, const QueryCommand& command) {
   const std::vector<BedPoint> points = points_asked(command);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const BedPoint& point = points[i];
-    progress_is(static_cast<double>(i), static_cast<double>(points.size()));
+    progress_is(grid::as_double(i), grid::as_double(points.size()));
     const auto answer = target.lengths->query(point);
     const Fields fields = fields_of(command, *target.lengths, point, answer);
     if (command.json) {
@@ -126,7 +125,7 @@ int answer_points(const Target& target, const QueryCommand& command) {
   }
   if (!outside.empty()) {
     end_progress();
-    fmt::print(stderr, "{}", outside);
+    say_lines(outside);
   }
   write_output(command.output, command.json ? text + "\n]\n" : text);
   return outside.empty() ? kDone : kNotSupportedOrOutside;
@@ -134,7 +133,8 @@ int answer_points(const Target& target, const QueryCommand& command) {
 
 int run_query(Verb verb, const QueryCommand& command) {
   const InputFile file = open_target_file(command.map);
-  verb.refuse_idle_options(file.fact() | (command.outside.way == "fade" ? facts::fade : 0U));
+  verb.refuse_idle_options(file.fact() |
+                           (command.outside.way == "fade" ? facts::fade : facts::nothing));
   const Target target = open_target(file, command.frame, command.outside);
   const auto* map = target.as<CompensationMap>();
   if (command.frame == "bed" && map->machine() == nullptr) {
@@ -163,44 +163,39 @@ void check_usage(const QueryCommand& command) {
 }  // namespace
 
 void add_query(Verb app) {
-  auto command = std::make_shared<QueryCommand>();
-  Verb verb = app.add_verb(
-      "query", "Compute chain lengths for points of the bed, or the point for chain lengths");
-  add_input(verb,
-            "map",
-            command->map,
-            "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter that fit wrote from "
-            "a drawing; - is standard input")
-      .required();
-  add_numbers(verb, "coordinates", command->coordinates, {"mm", -1e6, 1e6}, "Pairs X Y [mm]");
-  add_input(
-      verb, "--points", command->points, "CSV with the columns x_mm and y_mm; - is standard input");
-  add_numbers(verb,
-              "--inverse",
-              command->inverse,
-              {"mm", -1e6, 1e6},
-              "Find the tool's position from the chain lengths L R [mm]")
-      .takes(2);
-  add_frame_option(verb,
-                   command->frame,
-                   "marks: coordinates as on the measured sheet; bed: as in the machine file, "
-                   "without the sheet's placement");
-  add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
-      .shows_default();
-  add_outside_options(verb, command->outside, "by default as stored in the map");
-  verb.option("--outside")
-      .acts_on(facts::map | facts::anchors, "to be left out, because a plotter has no surface")
-      .acts_on(facts::map, "to be left out, because four belts have no surface");
-  verb.add_flag("--json", command->json, "Print JSON instead of CSV");
-  verb.footer(
-      "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "
-      "bed (exit code 4).\nSigmas are one standard deviation of the map at that point.\nWith "
-      "anchors, the answer is the lengths of the four belts as the firmware pays them out: "
-      "slanted,\nfrom the anchor to the belt's end. The upper two determine the position, and "
-      "--inverse takes\nthose two.\n\nExample:\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue query map.json 100 200 "
-      "-1000 -450");
-  verb.runs(command, run_query, check_usage);
+  auto [verb, c] = app.add_verb<QueryCommand>(
+      "query",
+      "Compute chain lengths for points of the bed, or the point for chain lengths",
+      R"(status: inside the measured points, at their edge, extrapolated beyond them, or outside the bed (exit code 4).
+Sigmas are one standard deviation of the map at that point.
+With anchors, the answer is the lengths of the four belts as the firmware pays them out: slanted,
+from the anchor to the belt's end. The upper two determine the position, and --inverse takes
+those two.
+
+Example:
+  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
+  build/chaintrue query map.json 100 200 -1000 -450)",
+      run_query,
+      check_usage);
+  verb.has(
+      {{"map",
+        required(reads(c.map)),
+        "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter that fit wrote from "
+        "a drawing; - is standard input"},
+       {"coordinates", {c.coordinates, {"mm", -1e6, 1e6}}, "Pairs X Y [mm]"},
+       {"--points", reads(c.points), "CSV with the columns x_mm and y_mm; - is standard input"},
+       {"--inverse",
+        {c.inverse, {"mm", -1e6, 1e6}, 2},
+        "Find the tool's position from the chain lengths L R [mm]"},
+       frame_row(c.frame,
+                 "marks: coordinates as on the measured sheet; bed: as in the machine file, "
+                 "without the sheet's placement"),
+       {"-o,--output", writes(c.output, {Origin::table}), "- is standard output"}});
+  add_outside_options(verb, c.outside, "by default as stored in the map");
+  verb.acts_on("--outside",
+               {{facts::map | facts::anchors, "to be left out, because a plotter has no surface"},
+                {facts::map, "to be left out, because four belts have no surface"}});
+  verb.has({{"--json", c.json, "Print JSON instead of CSV"}});
 }
 
 }  // namespace chaintrue::cli

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -199,28 +198,27 @@ int run_report(Verb verb, const ReportCommand& command) {
 }  // namespace
 
 void add_report(Verb app) {
-  auto command = std::make_shared<ReportCommand>();
-  Verb verb = app.add_verb(
+  auto [verb, c] = app.add_verb<ReportCommand>(
       "report",
-      "Write a map, a diagnosis or the anchors of four belts as a web page that needs no network");
-  add_input(verb,
-            "file",
-            command->input,
-            "A chaintrue_map, chaintrue_diagnosis or chaintrue_anchors file; - is standard input")
-      .required();
-  add_output(
-      verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
-      .required();
-  verb.add_flag("--certificate", command->certificate, "One page of a map, to print")
-      .acts_on(facts::map, "to be left out, because only a map has a certificate");
-  verb.add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
-  verb.footer(
-      "Examples:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue report map.json -o report.html\n"
-      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
-      "  build/chaintrue report diagnosis.json -o diagnosis.html");
-  verb.runs(command, run_report);
+      "Write a map, a diagnosis or the anchors of four belts as a web page that needs no network",
+      R"(Examples:
+  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
+  build/chaintrue report map.json -o report.html
+  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json
+  build/chaintrue report diagnosis.json -o diagnosis.html)",
+      run_report);
+  verb.has({{"file",
+             required(reads(c.input)),
+             "A chaintrue_map, chaintrue_diagnosis or chaintrue_anchors file; - is standard input"},
+            {"-o,--output",
+             required(writes(c.output, {Origin::page})),
+             "The HTML file; - is standard output"},
+            {"--certificate",
+             c.certificate,
+             "One page of a map, to print",
+             facts::map,
+             "to be left out, because only a map has a certificate"},
+            {"--date", c.date, "A date to print below the title, as in 2026-11-22"}});
 }
 
 }  // namespace chaintrue::cli

@@ -35,13 +35,14 @@ Words words_of(Words words) {
 std::string did_you_mean(CLI::App& app, const Words& words) {
   CLI::App* verb = &app;
   std::size_t at = 0;
-  for (; at < words.size() && words[at].rfind('-', 0) != 0; ++at) {
+  const auto is_verb = [&] { return at < words.size() && !words[at].starts_with('-'); };
+  for (; is_verb(); ++at) {
     if (!grid::contains(names_of(parts_of(*verb).verbs), words[at])) break;
     verb = verb->get_subcommand(words[at]);
   }
   const std::vector<std::string> verbs = names_of(parts_of(*verb).verbs);
   const std::string verb_name = verb == &app ? "chaintrue" : "chaintrue " + verb->get_name();
-  if (!verbs.empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
+  if (!verbs.empty() && is_verb()) {
     const std::string near = files::nearest(words[at], verbs);
     const std::string list = fmt::format("{} --help lists them all.\n", verb_name);
     if (near.empty()) return fmt::format("There is no {} {}. {}", verb_name, words[at], list);
@@ -52,7 +53,7 @@ std::string did_you_mean(CLI::App& app, const Words& words) {
   grid::append_all(known, long_names(parts_of(app).options));
   for (; at < words.size(); ++at) {
     const std::string option = words[at].substr(0, words[at].find('='));
-    if (option.rfind("--", 0) != 0 || option == "--") continue;
+    if (!option.starts_with("--") || option == "--") continue;
     if (grid::contains(known, option)) continue;
     const std::string near = files::nearest(option, known);
     if (near.empty()) {
@@ -75,7 +76,7 @@ void let_verbs_pass_on(CLI::App& app) {
 }  // namespace
 
 int run_command(const Words& typed, const Guard& guard) {
-  begin_command_line();
+  declared() = {};
   files::forget_sources();
   CLI::App app{"chaintrue makes a hanging two-chain router cut accurately.", "chaintrue"};
   app.require_subcommand(1);
@@ -83,11 +84,9 @@ int run_command(const Words& typed, const Guard& guard) {
   bool is_quiet = false;
   app.add_flag("-q,--quiet", is_quiet, "Print problems only");
   int threads = 0;
-  add_number(Verb(app),
-             "--threads",
-             threads,
-             {"", 0.0, 4096.0},
-             "Largest number of cores, 0 for all; results do not depend on it");
+  Verb(app).has({{"--threads",
+                  {threads, {"", 0.0, 4096.0}},
+                  "Largest number of cores, 0 for all; results do not depend on it"}});
   app.footer("chaintrue help VERB, or VERB --help, lists the options of a verb, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
 #define CHAINTRUE_VERB(id) add_##id(Verb(app));
@@ -104,7 +103,7 @@ int run_command(const Words& typed, const Guard& guard) {
     if (error.get_exit_code() != 0 || is_help_of_a_verb) {
       const std::string unknown = did_you_mean(app, words);
       if (!unknown.empty()) {
-        fmt::print(stderr, "{}", unknown);
+        say_lines(unknown);
         return kUsage;
       }
     }
@@ -112,7 +111,7 @@ int run_command(const Words& typed, const Guard& guard) {
       std::ostringstream out, err;
       const int code = app.exit(error, out, err) == 0 ? kDone : kUsage;
       fmt::print("{}", out.str());
-      fmt::print(stderr, "{}", err.str());
+      say_lines(err.str());
       return code;
     });
   }

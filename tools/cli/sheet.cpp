@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -64,9 +64,7 @@ std::string SheetVisit::name() const {
 
 std::vector<SheetVisit> visits_of(const Sheet& sheet) {
   std::vector<std::size_t> order = sheet.visits;
-  if (order.empty()) {
-    for (std::size_t i = 0; i < sheet.marks.size(); ++i) order.push_back(i);
-  }
+  if (order.empty()) order = grid::numbers_below(sheet.marks.size());
   std::vector<SheetVisit> visits;
   std::vector<std::size_t> first(sheet.marks.size(), 0);
   for (const std::size_t mark : order) {
@@ -85,17 +83,6 @@ SheetOf sheet_of(const std::string& word, const Machine* machine) {
   if (!word.empty()) return word == "lengths" ? SheetOf::lengths : SheetOf::places;
   const bool is_reported = machine == nullptr || machine->controller.kind == ControllerKind::ideal;
   return is_reported ? SheetOf::lengths : SheetOf::places;
-}
-
-void add_measure_option(Verb verb, std::string& word) {
-  verb.add_option("--measure",
-                  word,
-                  "What you will measure. places: you send the controller to each mark and measure "
-                  "the tool's position. lengths: you bring the tool to each mark and read both "
-                  "chains. Default: places if the machine has a controller, otherwise lengths")
-      .one_of({"places", "lengths"})
-      .acts_on(facts::planned_marks,
-               "to be left out, because it applies to readings at marks only");
 }
 
 std::string sheet_csv(const Sheet& sheet) {
@@ -122,28 +109,6 @@ std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedN
     grid.points.push_back(point);
   }
   return files::write_grid_sheet(grid);
-}
-
-void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
-  add_output(verb,
-             "--gcode",
-             gcode,
-             {Origin::program},
-             "Write a program that drills the marks in order, or stops above each one if lengths "
-             "are to be read")
-      .acts_on(facts::planned, "to be left out with --after, which prints lines for a file");
-  add_number(
-      verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
-      .acts_on(facts::program, "to be left out without --gcode")
-      .acts_on(
-          facts::drilled,
-          "to be left out, because a program for lengths stops above each mark without drilling");
-  add_number(verb,
-             "--clearance-mm",
-             options.clearance_mm,
-             {"mm", 0.1, 100.0},
-             "With --gcode: height of travel between holes")
-      .acts_on(facts::program, "to be left out without --gcode");
 }
 
 std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
@@ -207,7 +172,7 @@ void add_answer(const std::vector<MarkPoint>& places,
   for (const MarkPoint& place : places)
     pairs.push_back(fmt::format("[{}, {}]", place.x_mm, place.y_mm));
   std::vector<std::size_t> order = visits;
-  for (std::size_t i = 0; visits.empty() && i < places.size(); ++i) order.push_back(i);
+  if (order.empty()) order = grid::numbers_below(places.size());
   written.push_back({"-",
                      fmt::format("{{\"marks\": [{}],\n\"visits\": [{}],\n{}}}\n",
                                  fmt::join(pairs, ", "),

@@ -10,7 +10,7 @@
 
 #include "grid/observation/measured_grid.hpp"
 #include "grid/planning/holes_plan.hpp"
-#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
@@ -36,7 +36,6 @@ void require_margin(OptionProblems& problems,
 /// The words of --measure, and the default for a machine: without a controller of known kinematics
 /// only lengths can be read.
 [[nodiscard]] SheetOf sheet_of(const std::string& word, const Machine* machine);
-void add_measure_option(Verb verb, std::string& word);
 
 struct Sheet {
   std::vector<MarkPoint> marks;
@@ -71,7 +70,6 @@ struct DrillOptions {
   double depth_mm = 3.0;
   double clearance_mm = 5.0;
 };
-void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options);
 
 /// Drills every mark; if lengths are read, stops above it until the owner continues. Metric and
 /// absolute.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -87,10 +86,15 @@ std::string page_of(const std::string& title,
           : fmt::format(
                 "<div class=\"drawings\"><div>{}</div><div>{}</div></div>\n{}", bed, how, list);
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style></head><body>\n<h1>{0}</h1>\n"
-      "{2}\n{3}</body></html>\n",
+      R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{0}</title>
+<style>{1}</style></head><body>
+<h1>{0}</h1>
+{2}
+{3}</body></html>
+)",
       escaped(title),
       kSheetStyle,
       top,

@@ -10,7 +10,7 @@
 #include "grid/containers.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
-#include "model/belts/belt_readings.hpp"
+#include "model/belts/belt_effects.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -102,12 +102,12 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
   synthetic::BeltsSpec spec;
   take_grid(options.grid, spec, problems);
   take_pulls(options.pulls, spec, problems);
-  spec.noise_mm = options.noise.length_mm;
-  spec.heavy_tails = options.noise.heavy_tails;
-  spec.rounding_mm = options.noise.length_rounding_mm;
-  spec.bad_readings = options.bad.count;
-  spec.bad_size_mm = options.bad.size_mm;
-  spec.seed = options.seed;
+  spec.noise_mm = options.spec.noise.length_mm;
+  spec.heavy_tails = options.spec.noise.heavy_tails;
+  spec.rounding_mm = options.spec.noise.length_rounding_mm;
+  spec.bad_readings = options.spec.bad.count;
+  spec.bad_size_mm = options.spec.bad.size_mm;
+  spec.seed = options.spec.seed;
   spec.hidden = parse_effect_words(options.effects, problems);
   for (const model::MachineProblem& problem :
        model::effects::problems_in(model::belts::belt_effects(), spec.hidden)) {
@@ -121,12 +121,8 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
                  problem.expected,
                  ProblemKind::impossible);
   }
-  if (spec.bad_readings > spec.columns * spec.rows) {
-    problems.add("--bad-points",
-                 fmt::format("{}", spec.bad_readings),
-                 fmt::format("at most one for each of the {} places", spec.columns * spec.rows),
-                 ProblemKind::out_of_range);
-  }
+  require_bad_points(
+      options, grid::as_size(spec.columns) * grid::as_size(spec.rows), "places", problems);
   return spec;
 }
 
@@ -148,7 +144,7 @@ int simulate_the_belts(const SimulateOptions& options) {
         made.error().sentence());
     return kNotSupportedOrOutside;
   }
-  made->name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
+  made->name = options.title();
   write_output(options.output, files::write_belts(*made));
   return kDone;
 }

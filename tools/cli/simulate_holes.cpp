@@ -3,7 +3,6 @@
 
 #include "tools/cli/simulate_options.hpp"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,16 +17,16 @@ namespace chaintrue::cli {
 namespace {
 
 void check_values(const SimulateOptions& options, const Machine& stated, OptionProblems& problems) {
-  require_sound(problems, options.holes.plan);
-  if (options.margin_mm)
-    require_margin(problems, *options.margin_mm, stated.bed, grid::kLeastPlannedSideMm);
+  require_sound(problems, options.holes);
+  if (options.spec.design.margin_mm)
+    require_margin(problems, *options.spec.design.margin_mm, stated.bed, grid::kLeastPlannedSideMm);
 }
 
 std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
                                                  OptionProblems& problems) {
   std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
   for (const synthetic::SettingOffset& offset : offsets) {
-    if (offset.setting < model::Setting::sheet_x_mm || options.holes.plan.edges) continue;
+    if (offset.setting < model::Setting::sheet_x_mm || options.holes.edges) continue;
     problems.add(
         "--offset",
         std::string(model::name(offset.setting)),
@@ -42,11 +41,11 @@ synthetic::HolesSpec spec_of(const SimulateOptions& options,
                              OptionProblems& problems) {
   synthetic::HolesSpec spec;
   spec.hidden = parse_effects(options.effects, stated, problems);
-  spec.draw_settings = options.draw_settings;
-  spec.rounding_mm = options.holes.rounding_mm;
-  spec.bad_readings = options.bad.count;
-  spec.bad_size_mm = options.bad.size_mm;
-  spec.seed = options.seed;
+  spec.draw_settings = options.spec.draw_settings;
+  spec.rounding_mm = options.tape_rounding_mm;
+  spec.bad_readings = options.spec.bad.count;
+  spec.bad_size_mm = options.spec.bad.size_mm;
+  spec.seed = options.spec.seed;
   return spec;
 }
 
@@ -61,26 +60,15 @@ int simulate_the_holes(const SimulateOptions& options, const Machine& stated) {
   Machine truth = synthetic::hidden_truth(stated, spec);
   for (const synthetic::SettingOffset& offset : offsets)
     synthetic::offset_setting(truth, spec.sheet, offset);
-  for (const model::MachineProblem& problem : model::problems_of(truth)) {
-    problems.add("--offset",
-                 fmt::format("{} = {}", problem.parameter, problem.value),
-                 problem.expected,
-                 ProblemKind::impossible);
-  }
-  problems.throw_if_any();
-  HolesPlanRequest request = options.holes.plan;
-  request.margin_mm = options.margin_mm.value_or(request.margin_mm);
+  throw_if_impossible(truth, problems);
+  HolesPlanRequest request = options.holes;
+  request.margin_mm = options.spec.design.margin_mm.value_or(request.margin_mm);
   MeasuredHoles design =
       value_of(grid::plan_holes(stated, request), "chaintrue simulate", kNotSupportedOrOutside).set;
-  if (spec.bad_readings > static_cast<int>(design.distances.size())) {
-    problems.add("--bad-points",
-                 fmt::format("{}", spec.bad_readings),
-                 fmt::format("at most one for each of the {} distances", design.distances.size()),
-                 ProblemKind::out_of_range);
-    problems.throw_if_any();
-  }
-  design.name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
-  design.tape.tape_zero_offset_mm = options.holes.tape_zero_offset_mm;
+  require_bad_points(options, design.distances.size(), "distances", problems);
+  problems.throw_if_any();
+  design.name = options.title();
+  design.tape.tape_zero_offset_mm = options.tape_zero_offset_mm;
   const auto made = synthetic::simulate_holes(design, spec, truth);
   if (!made) {
     say("chaintrue simulate: {}", made.error().sentence());

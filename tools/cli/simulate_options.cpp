@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
 
 #include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
@@ -16,58 +15,17 @@
 namespace chaintrue::cli {
 namespace {
 
-template <class Enum>
-Enum parse_word(std::string_view option,
-                const std::string& word,
-                const std::optional<Enum>& value,
-                std::string expected,
-                OptionProblems& problems) {
-  if (!value) problems.add(option, word, std::move(expected), ProblemKind::unknown_word);
-  return value.value_or(Enum{});
-}
-
-void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
-  const auto size = files::pair_of(text, 'x', 2, 1000);
+void take_size(const std::string& grid, synthetic::Design& design, OptionProblems& problems) {
+  const auto size = files::pair_of(grid, 'x', 2, 1000);
   if (!size)
     return problems.add(
-        "--grid", text, "columns x rows, each 2 to 1000, as in 7x4", ProblemKind::bad_syntax);
+        "--grid", grid, "columns x rows, each 2 to 1000, as in 7x4", ProblemKind::bad_syntax);
   design.columns = (*size)[0];
   design.rows = (*size)[1];
 }
 
-void parse_lattice(const SimulateOptions& options,
-                   synthetic::Design& design,
-                   OptionProblems& problems) {
-  parse_grid_size(options.grid, design, problems);
-  const auto kind = synthetic::design_kind(options.spacing);
-  const bool lattice =
-      kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
-  if (!lattice)
-    problems.add("--spacing", options.spacing, "regular or chebyshev", ProblemKind::unknown_word);
-  design.kind = lattice ? *kind : synthetic::DesignKind::regular;
-}
-
-synthetic::Region parse_region(const SimulateOptions& options, OptionProblems& problems) {
-  return parse_word("--region",
-                    options.region,
-                    synthetic::region(options.region),
-                    "whole, left, right, top or bottom",
-                    problems);
-}
-
-synthetic::VisitingOrder parse_order(const SimulateOptions& options, OptionProblems& problems) {
-  return parse_word("--order",
-                    options.order,
-                    synthetic::visiting_order(options.order),
-                    "rows, columns, serpentine_rows, serpentine_columns or random",
-                    problems);
-}
-
 synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& problems) {
-  synthetic::Design design;
-  design.margin_mm = options.margin_mm;
-  design.without_corners = options.without_corners;
-  design.region = parse_region(options, problems);
+  synthetic::Design design = options.spec.design;
   if (!options.marks.empty()) {
     design.kind = synthetic::DesignKind::given;
     design.given = files::read_points(options.marks);
@@ -75,7 +33,8 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
     design.kind = synthetic::DesignKind::random;
     design.points = options.random_points;
   } else {
-    parse_lattice(options, design, problems);
+    design.kind = options.spacing;
+    take_size(options.grid, design, problems);
   }
   return design;
 }
@@ -84,8 +43,8 @@ std::optional<StatedNoise> parse_stated(const SimulateOptions& options) {
   if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
     return std::nullopt;
   StatedNoise stated;
-  stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
-  stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
+  stated.length_mm = options.stated_length_mm.value_or(options.spec.noise.length_mm);
+  stated.position_mm = options.stated_position_mm.value_or(options.spec.noise.position_mm);
   stated.dof = options.stated_dof.value_or(stated.dof);
   return stated;
 }
@@ -104,12 +63,8 @@ Machine machine_for(const Words& effects) {
 
 }  // namespace
 
-model::Model parse_model(const std::string& word, OptionProblems& problems) {
-  return parse_word("--model",
-                    word,
-                    files::named(files::kModels, word),
-                    fmt::format("one of {}", fmt::join(files::words_of(files::kModels), ", ")),
-                    problems);
+std::string SimulateOptions::title() const {
+  return name.empty() ? fmt::format("simulated, seed {}", spec.seed) : name;
 }
 
 std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
@@ -130,14 +85,33 @@ std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
   return offsets;
 }
 
+void throw_if_impossible(const Machine& truth, OptionProblems& problems) {
+  for (const model::MachineProblem& problem : problems_of(truth)) {
+    problems.add("--offset",
+                 fmt::format("{} = {}", problem.parameter, problem.value),
+                 problem.expected,
+                 ProblemKind::impossible);
+  }
+  problems.throw_if_any();
+}
+
+void require_bad_points(const SimulateOptions& options,
+                        std::size_t most,
+                        std::string_view what,
+                        OptionProblems& problems) {
+  const int bad = options.spec.bad.count;
+  if (static_cast<std::size_t>(bad) <= most) return;
+  problems.add("--bad-points",
+               fmt::format("{}", bad),
+               fmt::format("at most one for each of the {} {}", most, what),
+               ProblemKind::out_of_range);
+}
+
 void check_words(const SimulateOptions& options, OptionProblems& problems) {
   // Belts have different effects and offsets, which simulate_belts.cpp checks.
   if (!options.belts.empty()) return;
   synthetic::Design design;
-  if (!options.grid.empty()) parse_lattice(options, design, problems);
-  (void)parse_region(options, problems);
-  (void)parse_order(options, problems);
-  (void)parse_model(options.model, problems);
+  if (!options.grid.empty()) take_size(options.grid, design, problems);
   (void)parse_offsets(options.offsets, problems);
   // Valid effects depend on the machine only through its attachment and its existing effects. Effects
   // of --effects are known after their files are read.
@@ -147,38 +121,23 @@ void check_words(const SimulateOptions& options, OptionProblems& problems) {
 
 synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const Machine& machine) {
   OptionProblems problems;
-  synthetic::SyntheticSpec spec;
+  synthetic::SyntheticSpec spec = options.spec;
   spec.design = parse_design(options, problems);
-  spec.order = parse_order(options, problems);
-  spec.repeats = options.repeats;
-  spec.jitter_mm = options.jitter_mm;
-  spec.noise = options.noise;
   spec.stated = parse_stated(options);
-  spec.bad = options.bad;
   spec.hidden = parse_effects(options.effects, machine, problems);
   spec.offsets = parse_offsets(options.offsets, problems);
-  spec.draw_settings = options.draw_settings;
   if (options.sheet_shift_mm || options.sheet_rotation_mrad) {
     grid::SheetUncertainty sheet;
     sheet.shift_mm = options.sheet_shift_mm.value_or(sheet.shift_mm);
     sheet.rotation_mrad = options.sheet_rotation_mrad.value_or(sheet.rotation_mrad);
     spec.sheet = sheet;
   }
-  spec.model = parse_model(options.model, problems);
-  spec.seed = options.seed;
-  if (options.margin_mm) {
+  if (const auto& margin_mm = spec.design.margin_mm) {
     const double half = 0.49 * std::min(machine.bed.width_mm, machine.bed.height_mm);
-    problems.require("--margin-mm", *options.margin_mm, 0.0, half);
+    problems.require("--margin-mm", *margin_mm, 0.0, half);
   }
   problems.throw_if_any();
-  for (const model::MachineProblem& problem :
-       problems_of(synthetic::truth_of(machine, spec).machine)) {
-    problems.add("--offset",
-                 fmt::format("{} = {}", problem.parameter, problem.value),
-                 problem.expected,
-                 ProblemKind::impossible);
-  }
-  problems.throw_if_any();
+  throw_if_impossible(synthetic::truth_of(machine, spec).machine, problems);
   return spec;
 }
 

@@ -3,25 +3,17 @@
 /// The options of chaintrue simulate.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/generator.hpp"
-#include "grid/synthetic/holes.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
-
-struct HolesOptions {
-  /// 0 holes: a grid is simulated instead.
-  HolesPlanRequest plan{.holes = 0, .progress = {}};
-  double tape_zero_offset_mm = 0.0;
-  double rounding_mm = 0.0;
-};
 
 struct SimulateOptions {
   std::string machine;
@@ -30,41 +22,43 @@ struct SimulateOptions {
   /// For belts: the pull in each pass, as in 1,1.6.
   std::string pulls;
   std::string grid;
-  std::string spacing = "regular";
+  synthetic::DesignKind spacing = synthetic::DesignKind::regular;
   int random_points = 0;
   std::string marks;
   std::string points;
-  HolesOptions holes;
-  std::string model = "elastic";
-  std::optional<double> margin_mm;
-  bool without_corners = false;
-  std::string region = "whole";
-  std::string order = "rows";
-  int repeats = 0;
-  double jitter_mm = 0.0;
-  synthetic::SyntheticNoise noise;
+  /// 0 holes: a grid is simulated instead.
+  HolesPlanRequest holes{.holes = 0, .progress = {}};
+  double tape_zero_offset_mm = 0.0;
+  double tape_rounding_mm = 0.0;
+  /// What is stated as it is; parse_spec() adds the rest. Belts and holes use what they have.
+  synthetic::SyntheticSpec spec;
   std::optional<double> stated_length_mm;
   std::optional<double> stated_position_mm;
   std::optional<double> stated_dof;
-  synthetic::BadPoints bad;
   Words effects;
   /// Files of declared effects.
   Words declared;
   Words offsets;
-  bool draw_settings = false;
   std::optional<double> sheet_shift_mm;
   std::optional<double> sheet_rotation_mrad;
-  std::uint64_t seed = 1;
   std::string name;
   std::string output = "-";
   std::string answer;
+
+  /// Of what is simulated.
+  [[nodiscard]] std::string title() const;
 };
 
-/// From --model; an unknown word becomes a problem.
-[[nodiscard]] model::Model parse_model(const std::string& word, OptionProblems& problems);
 /// For --offset.
 [[nodiscard]] std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
                                                                   OptionProblems& problems);
+/// \throws InputError with all problems, and those of a machine with these offsets.
+void throw_if_impossible(const Machine& truth, OptionProblems& problems);
+/// At most one bad reading for each of these.
+void require_bad_points(const SimulateOptions& options,
+                        std::size_t most,
+                        std::string_view what,
+                        OptionProblems& problems);
 /// Checks the options of a session or of places before any file is read.
 void check_words(const SimulateOptions& options, OptionProblems& problems);
 /// A session's whole specification. \throws InputError with all problems.

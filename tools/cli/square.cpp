@@ -257,64 +257,55 @@ int run_square(Verb verb, const SquareOptions& options) {
   const Facts kind = machine == nullptr               ? facts::machine
                      : plotter_of(machine) != nullptr ? facts::plotter
                                                       : facts::map;
-  verb.refuse_idle_options(kind | (options.program.empty() ? 0U : facts::program));
+  verb.refuse_idle_options(kind | (options.program.empty() ? facts::nothing : facts::program));
   return square_with(options, machine);
 }
 
 }  // namespace
 
 void add_square(Verb app) {
-  auto options = std::make_shared<SquareOptions>();
-  Verb verb = app.add_verb(
-      "square", "Predict the sides, diagonals and bows of a test square, and write its program");
-  const Option map = add_input(verb,
-                               "--map",
-                               options->map,
-                               "The machine that will cut it: a chaintrue_map, chaintrue_anchors, "
-                               "or the chaintrue_plotter that fit wrote for a drawing");
-  const Option machine = add_input(
-      verb,
-      "--machine",
-      options->machine,
-      "Without a map: a chaintrue_machine file that describes the true machine with its effects");
-  machine.excludes(map);
-  add_input(verb,
-            "--controller-machine",
-            options->controller_machine,
-            "The controller's settings: a chaintrue_machine file, or one of the map's kind; by "
-            "default those stored in the map");
-  add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
-  add_numbers(verb,
-              "--at",
-              options->at,
-              {"mm", -20000.0, 20000.0},
-              "X Y of the lower left corner [mm]; by default the square is centred on the bed")
-      .takes(2);
-  verb.add_flag("--below",
-                options->below,
-                "Place the square below --at, which is then its upper left corner");
-  verb.add_flag("--json", options->json, "Print JSON with all digits instead of a table");
-  add_output(
-      verb, "-o,--output", options->drawing, {Origin::drawing}, "Write it as an SVG picture");
-  add_output(
-      verb, "--gcode", options->program, {Origin::program}, "Write the program that cuts it");
-  add_number(
-      verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "With --gcode: depth of the holes")
-      .acts_on(facts::program, "to be left out without --gcode")
-      .acts_on(facts::map | facts::machine, "to be left out, because a plotter's pen has no depth");
-  verb.footer(
-      "Examples:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue square --map map.json --size-mm 500 --gcode square.nc\n"
-      "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "
-      "fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o "
-      "square.svg");
-  verb.runs(options, run_square, [](const auto& own) {
-    if (own.map.empty()) {
-      if (own.machine.empty()) missing_option("--map, or --machine,");
-      if (own.controller_machine.empty()) missing_option("--controller-machine");
-    }
-  });
+  auto [verb, c] = app.add_verb<SquareOptions>(
+      "square",
+      "Predict the sides, diagonals and bows of a test square, and write its program",
+      R"(Examples:
+  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
+  build/chaintrue square --map map.json --size-mm 500 --gcode square.nc
+  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o square.svg)",
+      run_square,
+      [](const SquareOptions& own) {
+        if (own.map.empty()) {
+          if (own.machine.empty()) missing_option("--map, or --machine,");
+          if (own.controller_machine.empty()) missing_option("--controller-machine");
+        }
+      });
+  verb.has(
+      {{"--map",
+        reads(c.map),
+        "The machine that will cut it: a chaintrue_map, chaintrue_anchors, "
+        "or the chaintrue_plotter that fit wrote for a drawing"},
+       {"--machine",
+        reads(c.machine),
+        "Without a map: a chaintrue_machine file that describes the true machine with its "
+        "effects"},
+       {"--controller-machine",
+        reads(c.controller_machine),
+        "The controller's settings: a chaintrue_machine file, or one of the map's kind; by "
+        "default those stored in the map"},
+       {"--size-mm", {c.size_mm, {"mm", 1.0, 5000.0}}, "Length of a side"},
+       {"--at",
+        {c.at, {"mm", -20000.0, 20000.0}, 2},
+        "X Y of the lower left corner [mm]; by default the square is centred on the bed"},
+       {"--below", c.below, "Place the square below --at, which is then its upper left corner"},
+       {"--json", c.json, "Print JSON with all digits instead of a table"},
+       {"-o,--output", writes(c.drawing, {Origin::drawing}), "Write it as an SVG picture"},
+       {"--gcode", writes(c.program, {Origin::program}), "Write the program that cuts it"},
+       {"--depth-mm",
+        {c.depth_mm, {"mm", 0.1, 100.0}},
+        "With --gcode: depth of the holes",
+        facts::program,
+        "to be left out without --gcode",
+        {{facts::map | facts::machine, "to be left out, because a plotter's pen has no depth"}}}});
+  verb.excludes({"--machine"}, "--map");
 }
 
 }  // namespace chaintrue::cli

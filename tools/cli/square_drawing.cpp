@@ -63,10 +63,9 @@ std::string draw_square(const model::CutSquare& square, const SquareTask& task) 
   Svg svg(kWide, kHigh, "font-size=\"15\" fill=\"#222222\"", title);
   svg.fill();
   svg.add(
-      "<polygon points=\"{0}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
-      "stroke-dasharray=\"7 5\"/>\n"
-      "<polygon points=\"{1}\" fill=\"{2}\" fill-opacity=\"0.08\" stroke=\"{2}\" "
-      "stroke-width=\"2.5\" stroke-linejoin=\"round\"/>\n",
+      R"(<polygon points="{0}" fill="none" stroke="#888888" stroke-width="1.5" stroke-dasharray="7 5"/>
+<polygon points="{1}" fill="{2}" fill-opacity="0.08" stroke="{2}" stroke-width="2.5" stroke-linejoin="round"/>
+)",
       fmt::join(outlines.commanded, " "),
       fmt::join(outlines.cut, " "),
       report::kAfterColor);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -236,22 +235,20 @@ int run_start(Verb verb, const StartCommand& command) {
 }  // namespace
 
 void add_start(Verb app) {
-  auto command = std::make_shared<StartCommand>();
-  Verb verb = app.add_verb(
-      "start", "Create a folder for your machine: its file, the next steps, and sheets to print");
-  add_input(verb,
-            "file",
-            command->file,
-            "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; for a "
-            "V-plotter Marlin's, Polargraph's or a mural's settings, or a chaintrue_plotter; "
-            "without one, a machine file to fill in is written");
-  add_output_folder(verb, "folder", command->folder, "The folder to create").shows_default();
-  verb.footer(
-      "Example:\n"
-      "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"
-      "  build/chaintrue start fixtures/plotter/mural.txt my-mural\n"
-      "  build/chaintrue start");
-  verb.runs(command, run_start);
+  auto [verb, c] = app.add_verb<StartCommand>(
+      "start",
+      "Create a folder for your machine: its file, the next steps, and sheets to print",
+      R"(Example:
+  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine
+  build/chaintrue start fixtures/plotter/mural.txt my-mural
+  build/chaintrue start)",
+      run_start);
+  verb.has({{"file",
+             reads(c.file),
+             "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; for a "
+             "V-plotter Marlin's, Polargraph's or a mural's settings, or a chaintrue_plotter; "
+             "without one, a machine file to fill in is written"},
+            {"folder", writes_into(c.folder), "The folder to create"}});
 }
 
 }  // namespace chaintrue::cli

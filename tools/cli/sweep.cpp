@@ -21,7 +21,6 @@
 #include "tools/report/document.hpp"
 
 #ifdef CHAINTRUE_HAS_MPI
-#include <memory>
 #include <mpi.h>
 
 #include <cstdlib>
@@ -114,7 +113,7 @@ Chart panel(const sweep::SweepSpec& spec,
                           points_of(spec, error.grid),
                           error.tool_rms_mm,
                           error.tool_max_mm,
-                          static_cast<double>(error.cells)});
+                          grid::as_double(error.cells)});
   }
   return {.specification = "sweep_lines",
           .title = std::string(kTitles[factor]),
@@ -141,7 +140,7 @@ Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& 
                            points_of(spec, error.grid),
                            error.tool_rms_mm,
                            error.tool_max_mm,
-                           static_cast<double>(error.cells)}});
+                           grid::as_double(error.cells)}});
   }
   return table;
 }
@@ -154,7 +153,7 @@ std::vector<double> errors_of_levels(const std::vector<files::LevelError>& error
   std::vector<double> cells(levels, 0.0);
   for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
-    const auto number = static_cast<double>(error.cells);
+    const auto number = grid::as_double(error.cells);
     squares[error.level] += number * error.tool_rms_mm * error.tool_rms_mm;
     cells[error.level] += number;
   }
@@ -188,7 +187,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     const std::vector<double> rms = errors_of_levels(errors, factor, counts[factor]);
     const auto [least, most] = grid::minmax_element(rms);
     const auto level = [&](auto at) {
-      return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
+      return sweep::level_name(spec, factor, grid::as_size(at - rms.begin()));
     };
     // Results that round to the same hundredths are equal in practice.
     if (fmt::format("{:.2f}", *least) == fmt::format("{:.2f}", *most)) {
@@ -328,7 +327,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
     try {
       if (processes.rank() == 0)
         run.progress = [](std::uint64_t finished, std::uint64_t total) {
-          progress_is(static_cast<double>(finished), static_cast<double>(total));
+          progress_is(grid::as_double(finished), grid::as_double(total));
         };
       sweep::run_sweep(read->spec, files::cells_kept_in(options.directory, *read, run.share), run);
     } catch (...) {
@@ -347,27 +346,25 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
 }  // namespace
 
 void add_sweep(Verb app) {
-  auto options = std::make_shared<SweepOptions>();
-  Verb verb = app.add_verb("sweep", "Simulate the accuracy of maps over combinations of factors");
-  add_input(verb, "specification", options->specification, "chaintrue_sweep file").required();
-  add_output_folder(
-      verb, "-o,--output", options->directory, "Folder for the shards and the results")
-      .required();
-  verb.add_option("--shard", options->shard, "Compute only this share of the cells, such as 3/16");
-  add_input(verb,
-            "--effects",
-            options->effects,
-            "chaintrue_effect files: declared effects that the specification may name");
-  verb.add_flag("--resume",
-                options->resume,
-                "Keep the finished cells in the folder and continue; also merges shards");
-  verb.footer(
-      "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
-      "Example:\n"
-      "  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep");
-  add_option_check(verb,
-                   [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb.runs(options, run_sweep_verb);
+  auto [verb, c] = app.add_verb<SweepOptions>(
+      "sweep",
+      "Simulate the accuracy of maps over combinations of factors",
+      R"(Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR
+
+Example:
+  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep)",
+      run_sweep_verb);
+  verb.has(
+      {{"specification", required(reads(c.specification)), "chaintrue_sweep file"},
+       {"-o,--output", required(writes_into(c.directory)), "Folder for the shards and the results"},
+       {"--shard", c.shard, "Compute only this share of the cells, such as 3/16"},
+       {"--effects",
+        reads(c.effects),
+        "chaintrue_effect files: declared effects that the specification may name"},
+       {"--resume",
+        c.resume,
+        "Keep the finished cells in the folder and continue; also merges shards"}});
+  add_option_check(verb, c, check_options);
 }
 
 }  // namespace chaintrue::cli

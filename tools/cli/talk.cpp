@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "grid/containers.hpp"
+#include "tools/report/typeset.hpp"
 
 namespace chaintrue::cli {
 
@@ -23,19 +24,10 @@ std::string between(std::string_view begin, std::string_view text) {
 }
 
 std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && grid::all_of(word, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("._/-+,=:@%").find(c) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string result = "'";
-  for (const char c : word) {
-    if (c == '\'')
-      result += "'\\''";
-    else
-      result += c;
-  }
-  return result + "'";
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+,=:@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  return fmt::format("'{}'", report::replaced(word, {{"'", "'\\''"}}));
 }
 
 /// Quoted for a shell.
@@ -58,6 +50,8 @@ bool shows_colours() {
 
 std::string in_bold(std::string_view text) { return between("\x1b[1m", text); }
 std::string in_red(std::string_view text) { return between("\x1b[31m", text); }
+
+void say_lines(std::string_view lines) { fmt::print(stderr, "{}", lines); }
 
 void add_option_words(Words& words, std::string option, std::string value) {
   if (!value.empty()) words.insert(words.end(), {std::move(option), std::move(value)});
@@ -95,7 +89,7 @@ void QuietTalk::end(bool is_to_be_reported) {
   if (is_to_be_reported && ::lseek(kept_, 0, SEEK_SET) == 0) {
     char buffer[4096];
     for (ssize_t count = 0; (count = ::read(kept_, buffer, sizeof buffer)) > 0;)
-      std::fwrite(buffer, 1, static_cast<std::size_t>(count), stderr);
+      std::fwrite(buffer, 1, grid::as_size(count), stderr);
   }
   ::close(kept_);
 }

@@ -33,6 +33,9 @@ void say(::fmt::format_string<Args...> text, Args&&... args) {
   fmt::print(stderr, "{}\n", fmt::format(text, std::forward<Args>(args)...));
 }
 
+/// Text that has its own line breaks.
+void say_lines(std::string_view lines);
+
 /// Adds an option with its value to a command's words; nothing for an empty value.
 void add_option_words(Words& words, std::string option, std::string value);
 /// With each of the values.

@@ -74,17 +74,17 @@ Target open_target(const InputFile& file, const std::string& frame, const Outsid
   return target;
 }
 
-void add_frame_option(Verb verb, std::string& frame, const std::string& help) {
-  verb.add_option("--frame", frame, help)
-      .one_of({"marks", "bed"})
-      .shows_default()
-      .acts_on(facts::target, "to be left out without --map", "marks")
-      .acts_on(facts::map | facts::anchors,
-               "\"marks\", because a plotter has only its controller's frame",
-               "marks")
-      .acts_on(facts::map,
-               "\"marks\", because belts have only one frame, from the crossing of its diagonals",
-               "marks");
+OptionRow frame_row(std::string& frame, std::string help) {
+  return {"--frame",
+          {frame, {"marks", "bed"}},
+          std::move(help),
+          facts::target,
+          "to be left out without --map",
+          {{facts::map | facts::anchors,
+            "\"marks\", because a plotter has only its controller's frame"},
+           {facts::map,
+            "\"marks\", because belts have only one frame, from the crossing of its diagonals"}},
+          "marks"};
 }
 
 grid::KnownPlotter load_found_plotter(const InputFile& file) {

@@ -40,7 +40,7 @@ struct Target {
                                  const OutsideOption& outside = {});
 
 /// --frame for a target.
-void add_frame_option(Verb verb, std::string& frame, const std::string& help);
+[[nodiscard]] OptionRow frame_row(std::string& frame, std::string help);
 
 /// A chaintrue_plotter with the results of a drawing. \throws InputError without them.
 [[nodiscard]] grid::KnownPlotter load_found_plotter(const InputFile& file);

@@ -182,7 +182,7 @@ FAULTS = [
           "map.tool({command.inverse[0], command.inverse[1]})",
           "map.tool({command.inverse[1], command.inverse[0]})",
           "cli.*(query|inverse)"),
-    Fault("range_unchecked", "tools/cli/numbers.cpp",
+    Fault("range_unchecked", "tools/cli/values.cpp",
           "range.holds(*number)",
           "true",
           "command_line"),

@@ -27,24 +27,25 @@ using Texts = std::vector<std::string>;
 
 std::optional<cli::FollowUpTexts> follow_up(const grid::diagnosis::Diagnosis& found,
                                             const Texts& texts) {
-  std::vector<grid::MeasuredGrid> grids;
+  grid::Measured measured;
   std::vector<grid::MeasuredHoles> sets;
   for (const std::string& text : texts) {
     const files::FileKind kind = files::kind_of(text, "");
     if (kind == files::FileKind::belts)
       return cli::follow_up_texts(found, files::parse_belts(text, "").belts);
     if (kind == files::FileKind::grid) {
-      grids.push_back(files::parse_grid(text, "", {.few = true}).grid);
+      measured.add(files::parse_grid(text, "", {.few = true}).grid);
     } else {
       sets.push_back(files::parse_holes(text, "", {.few = true}).holes);
     }
   }
-  return cli::follow_up_texts(found, grids, sets);
+  for (const grid::MeasuredHoles& set : sets) measured.add(set);
+  return cli::follow_up_texts(found, measured);
 }
 
 py::dict plan_after(const std::string& diagnosis, const Texts& texts) {
-  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(diagnosis, "");
-  const std::optional<cli::FollowUpTexts> plan = follow_up(found, texts);
+  const auto found = files::parse_diagnosis(diagnosis, "");
+  const auto plan = follow_up(found, texts);
   if (!plan) {
     throw std::invalid_argument(
         "the diagnosis was made from other readings than these: diagnose these first");
