@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/covariance_root.hpp"
 
-#include "grid/containers.hpp"
+#include <utility>
 
 namespace chaintrue::grid::diagnosis {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/discrepancy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace chaintrue::grid::diagnosis {

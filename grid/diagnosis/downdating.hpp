@@ -10,6 +10,7 @@
 /// never tried, and discrepancies below a least probability are ignored.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "grid/diagnosis/leave_out.hpp"
