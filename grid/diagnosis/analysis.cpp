@@ -25,11 +25,24 @@ double log_strength_density(double signal_to_noise) {
   return sum;
 }
 
+/// Length of every regressor's column with the settings integrated out, no point set aside. Without making
+/// these columns: with hundreds of visits they are the largest matrix of all.
+Eigen::VectorXd reduced_lengths(const RegressorSystem& system) {
+  const Eigen::MatrixXd explained =
+      marginalise_rows(system, nothing_rejected(system)).root.explained();
+  const Eigen::VectorXd lost =
+      linear::product(linear::transposed(explained), system.g.distinct()).colwise().squaredNorm();
+  Eigen::VectorXd squares = system.g.squared_norms();
+  for (Eigen::Index k = 0; k < squares.size(); ++k)
+    squares(k) -= std::pow(system.g.factor(k), 2) * lost(system.g.index(k));
+  return squares.cwiseMax(0.0).cwiseSqrt();
+}
+
 /// Divides a cause's prior among its visits and numbers of links, and sets the odds of slips at one
 /// visit. A whole number has no free size to carry the prior of a cause's strength, so the visits
-/// carry it: density of the strength at each, as for any other cause. `marginalised` sets no point
-/// aside.
-void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& system) {
+/// carry it: density of the strength at each, as for any other cause.
+void share_out_links(RegressorSystem& system) {
+  const Eigen::VectorXd lengths = reduced_lengths(system);
   std::size_t first = 0;
   while (first < system.regressors.size()) {
     std::size_t last = first;
@@ -39,7 +52,7 @@ void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& sy
       const Regressor& d = system.regressors[last];
       if (d.cause != system.regressors[first].cause) break;
       log_weight.push_back(log_share_of_links(d.values.front()) +
-                           log_strength_density(marginalised.g.col(as_index(last)).norm()));
+                           log_strength_density(lengths(as_index(last))));
       log_all = last == first ? log_weight.back() : log_sum(log_all, log_weight.back());
     }
     for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {
@@ -137,13 +150,13 @@ void speak_of_leaders(const RegressorSystem& system,
 
 /// Removes causes that could not show, with this reason.
 void drop_hidden(std::string_view reason, Analysis& a) {
-  const MarginalisedSystem marginalised = marginalise(a.system, nothing_rejected(a.system));
+  const Eigen::VectorXd lengths = reduced_lengths(a.system);
   const auto shows = [&](const CauseId& cause) {
     double most = 0.0;
     for (const int k : a.system.regressors_of(cause)) {
       const Regressor& d = a.system.regressor(k);
       const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-      most = std::max(most, size * marginalised.g.col(k).norm());
+      most = std::max(most, size * lengths(k));
     }
     return most >= kLeastReach;
   };
@@ -167,9 +180,18 @@ void drop_hidden(std::string_view reason, Analysis& a) {
   a.candidates.testable = std::move(visible);
 }
 
+/// The comparison before is freed first: its columns are large.
+void compare(const ComparisonOptions& options, Analysis& a) {
+  a.comparison = {};
+  a.comparison = compare_models(a.system, nothing_rejected(a.system), options);
+}
+
 void test_significance(const AnalysisRules& rules, Analysis& a) {
-  const RegressorSystem causes = rules.tried_with_noise(a);
-  const MarginalisedSystem marginalised = marginalise(causes, a.comparison.best_system().outliers);
+  const auto own = rules.tried_with_noise(a);
+  const RegressorSystem& causes = own ? *own : a.system;
+  const MarginalisedSystem& best = a.comparison.best_system();
+  const auto of_own = own ? marginalise(*own, best.outliers) : MarginalisedSystem{};
+  const MarginalisedSystem& marginalised = own ? of_own : best;
   // Given the length of the residuals, nothing else is known about the noise.
   constexpr double kNothingStated = 1e-3;
   const SingleScore score(
@@ -191,7 +213,7 @@ class CalibratedRules final : public AnalysisRules {
     if (!system) return tl::unexpected(unreachable(a.session, system.error()));
     a.system = std::move(*system);
     add_regressors(a.session, a.state, a.candidates.testable, a.known, a.system);
-    share_out_links(marginalise(a.system, nothing_rejected(a.system)), a.system);
+    share_out_links(a.system);
     return {};
   }
   [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool /*last*/) const override {
@@ -236,10 +258,12 @@ void decide_by(const AnalysisRules& rules, bool detected, Analysis& a) {
 tl::expected<void, DiagnosisFailure> compare_in_rounds(const AnalysisRules& rules, Analysis& a) {
   for (int round = 1; round <= rules.rounds; ++round) {
     const bool last = round == rules.rounds;
+    // The columns of the round before.
+    a.system.g = {};
+    for (MarginalisedSystem& own : a.comparison.marginalised_systems) own.g = {};
     if (auto done = rules.linearise(a); !done) return done;
     if (round == 1) drop_hidden(rules.hidden, a);
-    a.comparison =
-        compare_models(a.system, nothing_rejected(a.system), rules.compared(a, last));
+    compare(rules.compared(a, last), a);
     if (last) break;
     decide_by(rules, true, a);
     if (!rules.refit(a)) break;
@@ -275,7 +299,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
 Analysis analyse_without(Analysis a, const Eigen::VectorXd& rows, const AnalysisRules& rules) {
   a.system.e -= rows;
   a.taken_out = rows;
-  a.comparison = compare_models(a.system, nothing_rejected(a.system), rules.compared(a, true));
+  compare(rules.compared(a, true), a);
   judge(rules, a);
   return a;
 }

@@ -4,6 +4,7 @@
 /// again about the causes found, compare again.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <tl/expected.hpp>
 
@@ -59,8 +60,10 @@ class AnalysisRules {
   /// Moves state and known causes to their values in the decision; false if another round would
   /// find the same.
   [[nodiscard]] virtual bool refit(Analysis& a) const = 0;
-  /// The regressors against which noise is drawn, about a state that does not depend on it.
-  [[nodiscard]] virtual RegressorSystem tried_with_noise(const Analysis& a) const { return a.system; }
+  /// The regressors against which noise is drawn, about a state that does not depend on it; empty: those compared.
+  [[nodiscard]] virtual std::optional<RegressorSystem> tried_with_noise(const Analysis& /*a*/) const {
+    return std::nullopt;
+  }
   /// The units that a decision leaves out. `detected`: the strongest effect exceeds what noise
   /// produces.
   virtual void restrain(bool /*detected*/, Analysis& /*a*/) const {}

@@ -122,7 +122,7 @@ bool BeltRules::refit(Analysis& a) const {
   return true;
 }
 
-RegressorSystem BeltRules::tried_with_noise(const Analysis& a) const {
+std::optional<RegressorSystem> BeltRules::tried_with_noise(const Analysis& a) const {
   const belts::FrameState& frame = belts_.alone.state;
   RegressorSystem system = system_of(belts_.belts,
                                      frame,

@@ -25,7 +25,7 @@ class BeltRules final : public AnalysisRules {
   [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool last) const override;
   /// The state is unchanged if that does not converge.
   [[nodiscard]] bool refit(Analysis& a) const override;
-  [[nodiscard]] RegressorSystem tried_with_noise(const Analysis& a) const override;
+  [[nodiscard]] std::optional<RegressorSystem> tried_with_noise(const Analysis& a) const override;
   void restrain(bool detected, Analysis& a) const override;
 
  private:

@@ -142,11 +142,8 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                    const ModelComparison& comparison) {
   const MarginalisedSystem& marginalised = comparison.best_system();
   // Settings are free, so that classes do not depend on how well they were stated.
-  const linear::Cholesky noise = nuisance_noise(system, marginalised.kept);
-  const auto visible = [&](Eigen::MatrixXd columns) {
-    if (system.nuisances > 0) noise.half_solve_in_place(columns);
-    return columns;
-  };
+  const LowRankNoise noise = nuisance_noise(system, marginalised.kept);
+  const auto visible = [&](const Eigen::MatrixXd& columns) { return noise.half_solve(columns); };
   const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
   const Eigen::MatrixXd basis = range_of_settings(
       system, visible(marginalised.kept.of(system.by_setting.leftCols(settings))));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/covariance_root.hpp"
 
-#include "grid/containers.hpp"
+#include <utility>
 
 namespace chaintrue::grid::diagnosis {
 
@@ -23,12 +23,8 @@ void CovarianceRoot::multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) co
   linear::add_product(m, 1.0, basis_, along);
 }
 
-Eigen::MatrixXd CovarianceRoot::inverse(const std::vector<Eigen::Index>& columns) const {
-  Eigen::MatrixXd result = linear::product(
-      linear::scaled_columns(basis_, change(-0.5)),
-      linear::transposed(Eigen::MatrixXd(basis_(columns, Eigen::all))));
-  for (std::size_t k = 0; k < columns.size(); ++k) result(columns[k], as_index(k)) += 1.0;
-  return result;
+Eigen::MatrixXd CovarianceRoot::explained() const {
+  return linear::scaled_columns(basis_, (-change(-1.0)).cwiseSqrt());
 }
 
 Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row,
@@ -43,6 +39,13 @@ Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row,
     if (own >= 0 && own < rows) result(own, k) += 1.0;
   }
   return result;
+}
+
+LowRankNoise::LowRankNoise(Eigen::MatrixXd a)
+    : a_(std::move(a)), normal_(linear::one_plus_gram(a_)) {}
+
+Eigen::MatrixXd LowRankNoise::explained() const {
+  return normal_.half_solve(a_.transpose()).transpose();
 }
 
 }  // namespace chaintrue::grid::diagnosis

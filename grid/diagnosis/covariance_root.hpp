@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The symmetric square root of a covariance V = I + A A' with few columns in A: noise of one and a
-/// few unknowns that all rows share. Of the thin A = U diag(a) W',
-///   V^p = I + U diag((1 + a^2)^p - 1) U'
-/// so that nothing of size rows x rows is made (G. Golub and C. Van Loan, Matrix Computations, 4th
-/// edition (2013), section 2.1.4 on low-rank changes). A product loses to rounding what a factor's
-/// would: some 1e-16 of what it is given.
+/// Covariances V = I + A A' with few columns in A: noise of one and unknowns that all rows share, each column
+/// in units of its unknown's sigma. Nothing of size rows x rows is made (G. Golub and C. Van Loan, Matrix
+/// Computations, 4th edition (2013), section 2.1.4 on low-rank changes). A product loses to rounding what a
+/// factor's would: some 1e-16 of what it is given.
 ///
 ///   const CovarianceRoot root(a);                  // rows x unknowns
 ///   const Eigen::MatrixXd white = root.solve(m);   // its rows have a covariance of I
+///   const LowRankNoise noise(b);
+///   const double square = noise.half_solve(e).squaredNorm();   // e' V^-1 e
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +18,8 @@
 
 namespace chaintrue::grid::diagnosis {
 
+/// The symmetric square root. Of the thin A = U diag(a) W',
+///   V^p = I + U diag((1 + a^2)^p - 1) U'
 class CovarianceRoot {
  public:
   CovarianceRoot() = default;
@@ -34,8 +36,8 @@ class CovarianceRoot {
   [[nodiscard]] linear::Like<M> times(const M& m) const {
     return multiplied<linear::Like<M>>(0.5, m);
   }
-  /// These columns of V^(-1/2).
-  [[nodiscard]] Eigen::MatrixXd inverse(const std::vector<Eigen::Index>& columns) const;
+  /// T with V^-1 = 1 - T T'.
+  [[nodiscard]] Eigen::MatrixXd explained() const;
   /// The block of V^(-1) of this size that starts at these indices.
   [[nodiscard]] Eigen::MatrixXd precision_block(Eigen::Index row,
                                                 Eigen::Index rows,
@@ -54,6 +56,37 @@ class CovarianceRoot {
   [[nodiscard]] Eigen::VectorXd change(double exponent) const;
   Eigen::MatrixXd basis_;        ///< U
   Eigen::ArrayXd log_variance_;  ///< log(1 + a^2)
+};
+
+/// At the cost of a Cholesky factorisation of A's columns, for many of them. With c = (1 + A'A)^-1 A'x,
+///   V^-1 x = x - A c,   x'V^-1 y = h(x)'h(y),  h(x) = (x - A c, -c):  what least squares of x and no c leave
+class LowRankNoise {
+ public:
+  LowRankNoise() = default;
+  /// \param a  rows x columns, either may be 0.
+  explicit LowRankNoise(Eigen::MatrixXd a);
+
+  /// V^-1 x
+  template <class X>
+  [[nodiscard]] linear::Like<X> solve(const X& x) const {
+    return half_solve(x).topRows(x.rows());
+  }
+  /// h(x), with a row for each of V's and then for each column.
+  template <class X>
+  [[nodiscard]] linear::Like<X> half_solve(const X& x) const {
+    linear::Like<X> result = linear::Like<X>::Zero(x.rows() + a_.cols(), x.cols());
+    result.topRows(x.rows()) = x;
+    result.bottomRows(a_.cols()) = -normal_.solve(linear::product(linear::transposed(a_), x));
+    linear::add_product(result.topRows(x.rows()), 1.0, a_, result.bottomRows(a_.cols()));
+    return result;
+  }
+  /// T with V^-1 = 1 - T T'.
+  [[nodiscard]] Eigen::MatrixXd explained() const;
+  [[nodiscard]] double log_det() const { return normal_.log_det(); }
+
+ private:
+  Eigen::MatrixXd a_;
+  linear::Cholesky normal_;  ///< 1 + A'A
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/discrepancy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace chaintrue::grid::diagnosis {
@@ -71,6 +72,22 @@ Eigen::MatrixXd between(const DiscrepancyKernel& kernel,
     }
   }
   return c;
+}
+
+/// The largest residual of a field's unit variance that is rounding.
+constexpr double kFieldRounding = 1e-13;
+
+/// For every place, first component first; only for the border the second component has its own arguments.
+std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
+                                        const std::vector<SystemPlace>& places) {
+  std::vector<FieldArgument> result;
+  const Eigen::Index components = field.of == Coordinate::border ? 2 : 1;
+  for (Eigen::Index component = 0; component < components; ++component) {
+    for (const SystemPlace& place : places) {
+      result.push_back(field_argument(field, place, component));
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -144,6 +161,87 @@ Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
                                        const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
   return between(kernel, system, kept, system, kept, true);
+}
+
+Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covariance) {
+  Eigen::MatrixXd factor(n, std::min<Eigen::Index>(n, 32));  // with room for more
+  Eigen::Index rank = 0;
+  Eigen::VectorXd left(n);
+  for (Eigen::Index i = 0; i < n; ++i) left(i) = covariance(i, i);
+  for (; rank < n; ++rank) {
+    Eigen::Index pivot = 0;
+    const double most = left.maxCoeff(&pivot);
+    if (most < least) break;
+    Eigen::VectorXd column(n);
+    for (Eigen::Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
+    const Eigen::VectorXd own = factor.row(pivot).head(rank);
+    linear::add_product(column, -1.0, factor.leftCols(rank), own);
+    column /= std::sqrt(most);
+    if (rank == factor.cols()) factor.conservativeResize(n, std::min(n, 2 * rank));
+    factor.col(rank) = column;
+    left -= column.cwiseAbs2();
+  }
+  return factor.leftCols(rank);
+}
+
+FieldFactor field_factor(const RegressorSystem& system,
+                         const KeptRows& kept,
+                         const DiscrepancyField& field,
+                         double least) {
+  const std::vector<FieldArgument> arguments = arguments_of(field, system.places);
+  const Eigen::MatrixXd factor =
+      low_rank(std::ssize(arguments), least, [&](Eigen::Index i, Eigen::Index j) {
+        return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
+      });
+  // Where the second component's arguments begin.
+  const Eigen::Index second = factor.rows() - std::ssize(system.places);
+  FieldFactor result{Eigen::MatrixXd::Zero(kept.size(), factor.cols()),
+                     Eigen::MatrixXd::Zero(kept.size(), factor.cols())};
+  for (const KeptRows::Unit& own : kept.units()) {
+    const SystemUnit& unit = system.units[own.unit];
+    for (const observation::PlaceColumns& place : unit.places) {
+      const Eigen::MatrixXd entry = KeptRows::of_unit(
+          own, place.by_chain * field_entry(field, system.places[place.place]));
+      const auto at = as_index(place.place);
+      for (Eigen::Index k = 0; k < entry.rows(); ++k) {
+        result.first.row(own.at + k) += entry(k, 0) * factor.row(at);
+        result.second.row(own.at + k) += entry(k, 1) * factor.row(second + at);
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field) {
+  if (const auto direction = entry_direction(field)) return {*direction};
+  return {Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY()};
+}
+
+Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system,
+                                   const KeptRows& kept,
+                                   const DiscrepancyKernel& kernel) {
+  if (kernel.of_lengths()) {
+    const Eigen::MatrixXd k = discrepancy_covariance(system, kept, kernel);
+    const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
+    if (!(most > 0.0)) return Eigen::MatrixXd(k.rows(), 0);
+    return low_rank(k.rows(), kFieldRounding * most, [&](Eigen::Index i, Eigen::Index j) { return k(i, j); });
+  }
+  std::vector<Eigen::MatrixXd> parts;
+  Eigen::Index rank = 0;
+  for (const DiscrepancyField& field : kernel.fields) {
+    const FieldFactor factor = field_factor(system, kept, field, kFieldRounding);
+    for (const Eigen::Vector2d& entry : entries_of(field)) {
+      parts.push_back(entry.x() * factor.first + entry.y() * factor.second);
+      rank += parts.back().cols();
+    }
+  }
+  Eigen::MatrixXd all(kept.size(), rank);
+  Eigen::Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    all.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  return all / std::sqrt(as_double(kernel.fields.size()));
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -131,5 +132,29 @@ struct FieldArgument {
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
                                                      const KeptRows& kept,
                                                      const DiscrepancyKernel& kernel);
+
+/// F with F F' = that covariance up to rounding: kept x r. A smooth field over a bed has few degrees of freedom.
+[[nodiscard]] Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system,
+                                                 const KeptRows& kept,
+                                                 const DiscrepancyKernel& kernel);
+
+/// F with F F' ~= a covariance of n, n x r, what is left of its diagonal below `least`, by a pivoted Cholesky
+/// factorisation (H. Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428,
+/// algorithm 1).
+using CovarianceOf = std::function<double(Eigen::Index, Eigen::Index)>;
+[[nodiscard]] Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covariance);
+
+/// A field's effect on the kept rows, through either component of its entry, what is left of the field's unit
+/// variance at any place below `least`.
+struct FieldFactor {
+  Eigen::MatrixXd first, second;  ///< kept x r
+};
+[[nodiscard]] FieldFactor field_factor(const RegressorSystem& system,
+                                       const KeptRows& kept,
+                                       const DiscrepancyField& field,
+                                       double least);
+
+/// The mixes of the two components that a field enters by: its direction, or each of them alone.
+[[nodiscard]] std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field);
 
 }  // namespace chaintrue::grid::diagnosis

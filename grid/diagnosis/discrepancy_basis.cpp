@@ -15,37 +15,6 @@ namespace {
 /// is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// F with F F' ~= a covariance, n x r, what is left of its diagonal below `least`.
-template <class Covariance>
-Eigen::MatrixXd low_rank(Eigen::Index n, double least, const Covariance& covariance) {
-  Eigen::MatrixXd factor(n, std::min<Eigen::Index>(n, 32));  // with room for more
-  Eigen::Index rank = 0;
-  Eigen::VectorXd left(n);
-  for (Eigen::Index i = 0; i < n; ++i) left(i) = covariance(i, i);
-  for (; rank < n; ++rank) {
-    Eigen::Index pivot = 0;
-    const double most = left.maxCoeff(&pivot);
-    if (most < least) break;
-    Eigen::VectorXd column(n);
-    for (Eigen::Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
-    const Eigen::VectorXd own = factor.row(pivot).head(rank);
-    linear::add_product(column, -1.0, factor.leftCols(rank), own);
-    column /= std::sqrt(most);
-    if (rank == factor.cols()) factor.conservativeResize(n, std::min(n, 2 * rank));
-    factor.col(rank) = column;
-    left -= column.cwiseAbs2();
-  }
-  return factor.leftCols(rank);
-}
-
-/// F, one row for each argument.
-Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
-                               const std::vector<FieldArgument>& arguments) {
-  return low_rank(std::ssize(arguments), kLeftOfField, [&](Eigen::Index i, Eigen::Index j) {
-    return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
-  });
-}
-
 /// B of a kernel of lengths.
 Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised,
@@ -60,53 +29,10 @@ Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
   });
 }
 
-/// For every place, first component first; only for the border the second component has its own arguments.
-std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
-                                        const std::vector<SystemPlace>& places) {
-  std::vector<FieldArgument> result;
-  const Eigen::Index components = field.of == Coordinate::border ? 2 : 1;
-  for (Eigen::Index component = 0; component < components; ++component) {
-    for (const SystemPlace& place : places) {
-      result.push_back(field_argument(field, place, component));
-    }
-  }
-  return result;
-}
-
-/// R^-1 times a field's effect on the kept rows, through either component of its entry.
-struct Components {
-  Eigen::MatrixXd first, second;  ///< N x r
-};
-
-Components components_of(const RegressorSystem& system,
-                         const MarginalisedSystem& marginalised,
-                         const DiscrepancyField& field,
-                         const std::vector<SystemPlace>& places) {
-  const Eigen::MatrixXd factor = low_rank_field(field, arguments_of(field, places));
-  // Where the second component's arguments begin.
-  const Eigen::Index second = factor.rows() - std::ssize(places);
-  const Eigen::Index n = marginalised.kept.size();
-  Components result{Eigen::MatrixXd::Zero(n, factor.cols()),
-                    Eigen::MatrixXd::Zero(n, factor.cols())};
-  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
-    const SystemUnit& unit = system.units[kept.unit];
-    const Eigen::Index row = kept.at;
-    for (const observation::PlaceColumns& place_columns : unit.places) {
-      const auto entry = (place_columns.by_chain * field_entry(field, places[place_columns.place])).eval();
-      const auto at = as_index(place_columns.place);
-      for (Eigen::Index k = 0; k < unit.rows; ++k) {
-        result.first.row(row + k) += entry(k, 0) * factor.row(at);
-        result.second.row(row + k) += entry(k, 1) * factor.row(second + at);
-      }
-    }
-  }
-  return {marginalised.root.solve(result.first), marginalised.root.solve(result.second)};
-}
-
 /// One field's inner products, by component.
 struct Products {
   DiscrepancyField field;  ///< without its direction
-  Components parts;
+  FieldFactor parts;       ///< R^-1 times its effect on the kept rows
   Eigen::MatrixXd gram11, gram12, gram22;  ///< r x r
   /// With the residual and the columns of some normal equations, r x (1 + columns) each.
   std::map<const NormalEquations*, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> with;
@@ -140,7 +66,7 @@ class DiscrepancyBasis::Fields {
       : system_(system), marginalised_(marginalised) {}
 
   Products& of(const DiscrepancyKernel& kernel) {
-    Components parts{low_rank_lengths(system_, marginalised_, kernel), {}};
+    FieldFactor parts{low_rank_lengths(system_, marginalised_, kernel), {}};
     parts.second.setZero(parts.first.rows(), parts.first.cols());
     return add(kernel.fields.front(), std::move(parts));
   }
@@ -148,23 +74,23 @@ class DiscrepancyBasis::Fields {
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
     auto* known = find_where(all_, [&](const Products& p) { return p.field == field; });
-    return known != nullptr
-               ? *known
-               : add(field, components_of(system_, marginalised_, field, system_.places));
+    if (known != nullptr) return *known;
+    const FieldFactor parts = field_factor(system_, marginalised_.kept, field, kLeftOfField);
+    return add(field, {marginalised_.root.solve(parts.first), marginalised_.root.solve(parts.second)});
   }
 
   /// Inner products of a block with the residual and these columns.
   Eigen::MatrixXd with(const Block& block, const NormalEquations& plain) {
     auto known = block.products->with.find(&plain);
     if (known == block.products->with.end())
-      known = block.products->with.emplace(&plain, products_with(*block.products, columns_of(plain))).first;
+      known = block.products->with.emplace(&plain, products_with(*block.products, residual_and(marginalised_, plain.columns))).first;
     const auto& [first, second] = known->second;
     return block.c * first + block.s * second;
   }
 
   /// Computes the inner products of all fields with these columns, so that `with` changes nothing.
   void relate_all(const NormalEquations& plain) {
-    const Eigen::MatrixXd e = columns_of(plain);
+    const Eigen::MatrixXd e = residual_and(marginalised_, plain.columns);
     for (Products& own : all_) own.with.try_emplace(&plain);
     for_each_index(all_.size(), [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
   }
@@ -174,7 +100,7 @@ class DiscrepancyBasis::Fields {
   }
 
  private:
-  Products& add(const DiscrepancyField& field, Components parts) {
+  Products& add(const DiscrepancyField& field, FieldFactor parts) {
     Products& p = all_.emplace_back();
     p.field = field;
     p.parts = std::move(parts);
@@ -182,14 +108,6 @@ class DiscrepancyBasis::Fields {
     p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
     p.gram22 = linear::gram(p.parts.second);
     return p;
-  }
-
-  /// The residual and these columns.
-  [[nodiscard]] Eigen::MatrixXd columns_of(const NormalEquations& plain) const {
-    Eigen::MatrixXd e(marginalised_.e.size(), std::ssize(plain.columns) + 1);
-    e.col(0) = marginalised_.e;
-    e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
-    return e;
   }
 
   static std::pair<Eigen::MatrixXd, Eigen::MatrixXd> products_with(const Products& products,
@@ -228,6 +146,7 @@ Eigen::MatrixXd gram_of(const std::vector<Block>& blocks) {
 struct DiscrepancyBasis::Kernel {
   std::vector<Block> blocks;
   linear::Tridiagonal tridiagonal;
+  Eigen::MatrixXd turned;  ///< Q'B', r x N, if prepared
 };
 
 DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
@@ -245,12 +164,8 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
     for (const DiscrepancyField& field : kernel.fields) {
       if (kernel.of_lengths()) break;
       Products* const products = &fields_->of(field);
-      if (const auto direction = entry_direction(field)) {
-        own.blocks.push_back({products, share * direction->x(), share * direction->y()});
-      } else {
-        own.blocks.push_back({products, share, 0.0});
-        own.blocks.push_back({products, 0.0, share});
-      }
+      for (const Eigen::Vector2d& entry : entries_of(field))
+        own.blocks.push_back({products, share * entry.x(), share * entry.y()});
     }
   }
   for_each_index(kernels.size(), [&](std::size_t k) {
@@ -261,6 +176,19 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
 }
 
 DiscrepancyBasis::~DiscrepancyBasis() = default;
+
+void DiscrepancyBasis::prepare(std::size_t number) {
+  Kernel& own = kernels_.at(number);
+  own.turned.resize(own.tridiagonal.diagonal().size(), marginalised_.e.size());
+  Eigen::Index row = 0;
+  for (const Block& block : own.blocks) {
+    const FieldFactor& parts = block.products->parts;
+    own.turned.middleRows(row, parts.first.cols()) =
+        (block.c * parts.first + block.s * parts.second).transpose();
+    row += parts.first.cols();
+  }
+  own.tridiagonal.rotate_in_place(own.turned);
+}
 
 void DiscrepancyBasis::relate(const NormalEquations& plain) { fields_->relate_all(plain); }
 void DiscrepancyBasis::forget() { fields_->forget(); }
@@ -279,13 +207,17 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
   result.on_ = own.tridiagonal.diagonal();
   result.subdiagonal_ = own.tridiagonal.subdiagonal();
   Eigen::MatrixXd with(result.on_.size(), lines);
-  Eigen::Index row = 0;
-  for (const Block& block : own.blocks) {
-    const Eigen::MatrixXd part = fields_->with(block, plain);
-    with.middleRows(row, part.rows()) = part;
-    row += part.rows();
+  if (own.turned.size() > 0) {
+    with = linear::product(own.turned, residual_and(marginalised_, plain.columns));
+  } else {
+    Eigen::Index row = 0;
+    for (const Block& block : own.blocks) {
+      const Eigen::MatrixXd part = fields_->with(block, plain);
+      with.middleRows(row, part.rows()) = part;
+      row += part.rows();
+    }
+    own.tridiagonal.rotate_in_place(with);
   }
-  own.tridiagonal.rotate_in_place(with);
   result.rotated_ = with.transpose();
   return result;
 }

@@ -14,8 +14,7 @@
 ///   det(I + s^2 B B')     = det(1 + s^2 J)
 ///
 /// (Woodbury and Sylvester: G. Golub and C. Van Loan, Matrix Computations (2013), sections 2.1.4
-/// and 2.1.5, and 8.3.1 for the tridiagonal form.) Low rank by a pivoted Cholesky factorisation (H.
-/// Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428, algorithm 1).
+/// and 2.1.5, and 8.3.1 for the tridiagonal form.)
 #pragma once
 
 #include <Eigen/Core>
@@ -66,6 +65,8 @@ class DiscrepancyBasis {
     Eigen::ArrayXd subdiagonal_;    ///< r - 1, the one next to it
     Eigen::MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
   };
+  /// Prepares `given` of this kernel for many sets of columns, at the cost of as many columns as the kernel has.
+  void prepare(std::size_t kernel);
   /// Prepares these columns for `given` for all kernels at once, after which several threads may
   /// call it.
   void relate(const NormalEquations& plain);

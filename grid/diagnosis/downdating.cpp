@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "grid/diagnosis/ties.hpp"
 #include "grid/parallel.hpp"
@@ -91,14 +93,22 @@ Flags with_units(const RegressorSystem& system, Flags groups, const Indices& uni
   return groups;
 }
 
-/// The comparison's marginalised system that rejects these points; it is made if there is none.
-std::size_t home_of(ModelComparison& comparison, Flags outliers) {
-  auto& systems = comparison.marginalised_systems;
+/// The one of these systems that rejects these points; it is made if there is none.
+std::size_t home_of(std::vector<MarginalisedSystem>& systems, Flags outliers) {
   const auto* same =
       find_where(systems, [&](const MarginalisedSystem& own) { return own.outliers == outliers; });
   if (same != nullptr) return as_size(same - systems.data());
   systems.emplace_back().outliers = std::move(outliers);
   return systems.size() - 1;
+}
+
+/// Sets a system's equations to these inner products of its residual and columns.
+void take_inner(const LeaveOut::Kept& kept, NormalEquations& equations) {
+  const Eigen::Index count = kept.inner.cols() - 1;
+  equations.ee = kept.inner(0, 0);
+  equations.ge = kept.inner.col(0).tail(count);
+  equations.gg = kept.inner.bottomRightCorner(count, count);
+  equations.log_det = kept.log_det;
 }
 
 }  // namespace
@@ -112,65 +122,42 @@ Downdating::Downdating(const RegressorSystem& system,
   auto followed = models_to_follow(system, comparison, limits);
   std::vector<std::pair<const FactorisationKey, std::vector<CandidateModel>>*> all;
   for (auto& one : followed) all.push_back(&one);
-  factorisations_.resize(all.size());
+  std::vector<std::optional<Factorisation>> made(all.size());
   for_each_index(all.size(), [&](std::size_t k) {
     auto& [key, models] = *all[k];
-    factorisations_[k] = factorisation_of(key.first, key.second, std::move(models));
+    made[k] = factorisation_of(key.first, key.second, std::move(models));
   });
+  for (auto& own : made) factorisations_.push_back(*std::move(own));
 }
 
 Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
                                                        int discrepancy,
                                                        std::vector<CandidateModel> models) const {
   const MarginalisedSystem& marginalised = comparison_.marginalised_systems[number];
-  Factorisation factorised;
-  factorised.marginalised = number;
-  factorised.discrepancy = discrepancy;
   RegressorSet columns;
-  for (const CandidateModel& model : models) {
-    append_all(columns, model.regressors);
-  }
+  for (const CandidateModel& model : models) append_all(columns, model.regressors);
   sort_unique(columns);
-  const Eigen::Index n = marginalised.kept.size();
-  Eigen::MatrixXd e(n, std::ssize(columns) + 1);
-  e.col(0) = marginalised.e;
-  e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
-  double log_det = marginalised.log_det;
-  if (discrepancy >= 0) {
-    const Discrepancy process = discrepancy_of(system_, marginalised, discrepancy);
-    Eigen::MatrixXd k =
-        discrepancy_covariance(system_, marginalised.kept, process.kernel);
-    k = marginalised.root.solve(k);
-    k = marginalised.root.solve(k.transpose()) * (process.sigma_mm * process.sigma_mm);
-    k.diagonal().array() += 1.0;
-    const linear::Cholesky noise(std::move(k));
-    factorised.inverse = marginalised.root.inverse(numbers_below<Eigen::Index>(n));
-    noise.half_solve_in_place(factorised.inverse);
-    noise.half_solve_in_place(e);
-    log_det += noise.log_det();
-  }
-  factorised.precision = discrepancy < 0 ? marginalised.root.solve(e)
-                                         : linear::product(linear::transposed(factorised.inverse), e);
-  const Eigen::MatrixXd gram = linear::gram(e);
-  const Eigen::Index c = e.cols() - 1;
-  factorised.equations = {columns,
-                          gram(0, 0),
-                          gram.col(0).tail(c),
-                          gram.bottomRightCorner(c, c),
-                          prior_squares(system_.regressors,
-                                        columns,
-                                        marginalised.g.dense(columns).colwise().squaredNorm()),
-                          log_det};
-  const NoiseDensity noise(system_.noise_dof, n);
-  for (const CandidateModel& model : models) {
+  const Eigen::MatrixXd e = residual_and(marginalised, columns);
+  const Eigen::MatrixXd pattern = discrepancy_columns(system_, marginalised, discrepancy);
+  Factorisation factorised{
+      number,
+      discrepancy,
+      LeaveOut(marginalised.root, LowRankNoise(marginalised.root.solve(pattern)), e),
+      {},
+      std::move(models)};
+  NormalEquations& equations = factorised.equations;
+  equations.prior_square = prior_squares(
+      system_.regressors, columns, e.rightCols(std::ssize(columns)).colwise().squaredNorm());
+  equations.columns = std::move(columns);
+  take_inner(factorised.rows.without({}), equations);
+  const NoiseDensity noise(system_.noise_dof, e.rows());
+  for (const CandidateModel& model : factorised.models) {
     ColumnSet set;
-    for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
-    const double evidence =
-        set_evidence(factorised.equations, system_.regressors, set, noise).log_evidence;
+    for (const int k : model.regressors) set.push_back(equations.position(k));
+    const double evidence = set_evidence(equations, system_.regressors, set, noise).log_evidence;
     factorised.prior.push_back(model.log_weight - evidence - marginalised.log_outliers);
     factorised.sets.push_back(std::move(set));
   }
-  factorised.models = std::move(models);
   return factorised;
 }
 
@@ -178,19 +165,8 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
                                                 const Rows& out) const {
   NormalEquations equations = factorised.equations;
   if (out.empty()) return equations;
-  const Eigen::MatrixXd half =
-      factorised.discrepancy < 0
-          ? comparison_.marginalised_systems[factorised.marginalised].root.inverse(out)
-          : Eigen::MatrixXd(factorised.inverse(Eigen::all, out));
-  const linear::Cholesky block(linear::gram(half));
-  Eigen::MatrixXd found = factorised.precision(out, Eigen::all);
-  block.half_solve_in_place(found);
-  const auto columns = found.rightCols(found.cols() - 1);
-  equations.ee -= found.col(0).squaredNorm();
-  linear::add_product(equations.ge, -1.0, linear::transposed(columns), found.col(0));
-  linear::add_gram(equations.gg, -1.0, columns);
+  take_inner(factorised.rows.without(out), equations);
   clear_unobserved_columns(factorised.equations, equations);
-  equations.log_det += block.log_det();
   // With a discrepancy the expected sizes are those of all points.
   if (factorised.discrepancy < 0) {
     equations.prior_square =
@@ -199,46 +175,57 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   return equations;
 }
 
-Downdating::Downdated Downdating::downdated(const Factorisation& factorised,
-                                            const Indices& units) const {
-  const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
-  const auto out = whole.kept.positions(units);
-  Flags outliers = with_units(system_, whole.outliers, units, false);
-  const double price = log_price_of_outliers(system_, outliers);
-  return {downdated_equations(factorised, out),
-          factorised.precision.rows() - std::ssize(out),
-          std::move(outliers),
-          price};
+Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs count_as) const {
+  AllWithout result;
+  std::map<std::tuple<std::size_t, int, RegressorSet>, std::size_t> known;
+  for (const Factorisation& factorised : factorisations_) {
+    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
+    const Rows out = whole.kept.positions(units);
+    const NormalEquations equations = downdated_equations(factorised, out);
+    const Eigen::Index rows = factorised.rows.rows() - std::ssize(out);
+    const NoiseDensity noise(system_.noise_dof, rows);
+    const double power = count_as == CountAs::all
+                             ? as_double(factorised.rows.rows()) / as_double(std::max<Eigen::Index>(rows, 1))
+                             : 1.0;
+    const double price =
+        log_price_of_outliers(system_, with_units(system_, whole.outliers, units, false));
+    // Marginalised systems that differ in the points left out alone are one.
+    const std::size_t home =
+        home_of(result.systems, with_units(system_, whole.outliers, units, true));
+    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
+      const CandidateModel& model = factorised.models[k];
+      const auto [same, is_new] = known.try_emplace(
+          {home, factorised.discrepancy, model.regressors}, result.models.size());
+      ModelWithout own{&model, home, same->second, {}, 0.0};
+      if (is_new) {
+        own.evidence = set_evidence(equations, system_.regressors, factorised.sets[k], noise);
+        own.log_weight = factorised.prior[k] + power * own.evidence.log_evidence + price;
+      }
+      result.models.push_back(own);
+    }
+    if (factorised.discrepancy < 0)
+      result.strongest.emplace_back(score_.largest(equations, rows), home);
+  }
+  return result;
 }
 
 Downdating::Without Downdating::without(const Indices& units) const {
+  AllWithout all = all_without(units, CountAs::themselves);
   Without result;
   ModelComparison& comparison = result.comparison;
-  std::set<std::tuple<std::size_t, int, RegressorSet>> known;
-  std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
-  for (const Factorisation& factorised : factorisations_) {
-    const Downdated own = downdated(factorised, units);
-    const NoiseDensity noise(system_.noise_dof, own.rows);
-    // Marginalised systems that differ in the points left out alone are one.
-    const std::size_t home = home_of(comparison, with_units(system_, own.outliers, units, true));
-    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
-      const CandidateModel& model = factorised.models[k];
-      if (!known.emplace(home, factorised.discrepancy, model.regressors).second) continue;
-      const SetEvidence evidence =
-          set_evidence(own.equations, system_.regressors, factorised.sets[k], noise);
-      if (!std::isfinite(evidence.log_evidence)) continue;
-      comparison.models.push_back({model.regressors,
-                                   factorised.discrepancy,
-                                   home,
-                                   factorised.prior[k] + evidence.log_evidence + own.price,
-                                   evidence.larger_noise,
-                                   evidence.quadratic});
-    }
-    if (factorised.discrepancy < 0)
-      strongest.emplace_back(score_.largest(own.equations, own.rows), home);
+  comparison.marginalised_systems = std::move(all.systems);
+  for (std::size_t k = 0; k < all.models.size(); ++k) {
+    const ModelWithout& own = all.models[k];
+    if (own.same != k || !std::isfinite(own.log_weight)) continue;
+    comparison.models.push_back({own.model->regressors,
+                                 own.model->discrepancy,
+                                 own.home,
+                                 own.log_weight,
+                                 own.evidence.larger_noise,
+                                 own.evidence.quadratic});
   }
   sort_by_weight(comparison);
-  for (const auto& [score, marginalised] : strongest) {
+  for (const auto& [score, marginalised] : all.strongest) {
     if (marginalised == comparison.best().marginalised) result.score = std::max(result.score, score);
   }
   return result;
@@ -254,42 +241,22 @@ std::vector<const CandidateModel*> Downdating::followed() const {
 
 std::vector<double> Downdating::probabilities_without(const Indices& units,
                                                       CountAs count_as) const {
-  struct Same {
-    double log_weight = 0.0;
-    std::vector<double> log_shares{};  ///< weights with all points, of those that are one without them
-    double log_all = 0.0;
-  };
-  std::map<std::tuple<Flags, int, RegressorSet>, Same> known;
-  std::vector<std::pair<Same*, double>> of_model;
-  for (const Factorisation& factorised : factorisations_) {
-    const Downdated own = downdated(factorised, units);
-    const NoiseDensity noise(system_.noise_dof, own.rows);
-    const double power =
-        count_as == CountAs::all
-            ? as_double(factorised.precision.rows()) / as_double(std::max<Eigen::Index>(own.rows, 1))
-            : 1.0;
-    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
-      const CandidateModel& model = factorised.models[k];
-      Same& same = known[{own.outliers, factorised.discrepancy, model.regressors}];
-      if (same.log_shares.empty()) {
-        const double evidence =
-            set_evidence(own.equations, system_.regressors, factorised.sets[k], noise).log_evidence;
-        same.log_weight = factorised.prior[k] + power * evidence + own.price;
-      }
-      same.log_shares.push_back(model.log_weight);
-      of_model.emplace_back(&same, model.log_weight);
-    }
-  }
+  const std::vector<ModelWithout> models = all_without(units, count_as).models;
+  // Weights with all points, of those that are one without them.
+  std::vector<double> log_all(models.size(), kMinusInfinity);
   std::vector<double> weights;
-  for (auto& [key, same] : known) {
-    same.log_all = log_sum(same.log_shares);
-    if (std::isfinite(same.log_weight)) weights.push_back(same.log_weight);
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    double& sum = log_all[models[k].same];
+    sum = log_sum(sum, models[k].model->log_weight);
+    if (models[k].same == k && std::isfinite(models[k].log_weight))
+      weights.push_back(models[k].log_weight);
   }
   const double total = weights.empty() ? 0.0 : log_sum(weights);
   std::vector<double> result;
-  for (const auto& [same, weight] : of_model) {
-    result.push_back(std::isfinite(same->log_weight)
-                         ? std::exp(same->log_weight - total + weight - same->log_all)
+  for (const ModelWithout& own : models) {
+    const double weight = models[own.same].log_weight;
+    result.push_back(std::isfinite(weight)
+                         ? std::exp(weight - total + own.model->log_weight - log_all[own.same])
                          : 0.0);
   }
   return result;

@@ -3,24 +3,17 @@
 /// Downdated evidence: the models of a comparison without some of the points, at a fraction
 /// of the cost of a new comparison.
 ///
-/// Notation
-///   V     covariance of a marginalised system's rows, the discrepancy integrated out as well;
-///         V = L L' with any such L, P = V^-1
-///   E     residual and columns of the models, whitened by L
-///   O     rows of the points left out
-///   U     P times the residual and the columns
-///
-/// Inner products without O need no new factorisation:
-///   a' V_kept^-1 b = a' P b - (P a)_O' (P_OO)^-1 (P b)_O,   det V_kept = det V det P_OO
-/// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
-/// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
+/// A marginalised system with one discrepancy or none is factorised once, and its inner products without the
+/// points follow from that (leave_out.hpp).
 ///
 /// Exact for each followed model; models that the comparison dropped, sets of outliers that it
 /// never tried, and discrepancies below a least probability are ignored.
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "grid/diagnosis/leave_out.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 
@@ -72,22 +65,28 @@ class Downdating {
   struct Factorisation {
     std::size_t marginalised = 0;
     int discrepancy = -1;
+    LeaveOut rows;              ///< residual and columns of the models
     NormalEquations equations;  ///< with all points
-    Eigen::MatrixXd inverse;    ///< L^-1; empty without a discrepancy, where V's root gives its columns
-    Eigen::MatrixXd precision;  ///< U: first column the residual
     std::vector<CandidateModel> models;
-    std::vector<ColumnSet> sets;                  ///< of each: its columns in the equations
-    std::vector<double> prior;                    ///< of each: weight less evidence
+    std::vector<ColumnSet> sets{};  ///< of each: its columns in the equations
+    std::vector<double> prior{};    ///< of each: weight less evidence
   };
 
-  /// A factorisation without some units.
-  struct Downdated {
-    NormalEquations equations;
-    Eigen::Index rows = 0;       ///< that are left
-    Flags outliers;              ///< of the units that are left
-    double price = 0.0;          ///< of these
+  /// A followed model without some units.
+  struct ModelWithout {
+    const CandidateModel* model = nullptr;
+    std::size_t home = 0;  ///< among the systems
+    /// The first that is the same: models may differ only in which of these units they reject.
+    std::size_t same = 0;
+    SetEvidence evidence;
+    double log_weight = 0.0;
   };
-  [[nodiscard]] Downdated downdated(const Factorisation& factorised, const Indices& units) const;
+  struct AllWithout {
+    std::vector<MarginalisedSystem> systems;  ///< as Without's
+    std::vector<ModelWithout> models;
+    std::vector<std::pair<double, std::size_t>> strongest;  ///< score, by system
+  };
+  [[nodiscard]] AllWithout all_without(const Indices& units, CountAs count_as) const;
   [[nodiscard]] Factorisation factorisation_of(std::size_t marginalised,
                                                int discrepancy,
                                                std::vector<CandidateModel> models) const;

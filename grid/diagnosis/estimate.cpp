@@ -17,11 +17,11 @@ struct Solution {
 Solution solve(Unknowns unknowns,
                const Eigen::VectorXd& settings,
                Eigen::VectorXd data,
-               const linear::Cholesky* noise) {
+               const LowRankNoise* noise) {
   Eigen::MatrixXd& design = unknowns.design;
   if (noise != nullptr) {
-    noise->half_solve_in_place(design);
-    noise->half_solve_in_place(data);
+    design = noise->half_solve(design);
+    data = noise->half_solve(data);
   }
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(design.cols());
   mean.head(settings.size()) = settings;
@@ -101,14 +101,9 @@ std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem&
                                                           const MarginalisedSystem& marginalised,
                                                           int discrepancy) {
   if (discrepancy < 0) return nullptr;
-  auto noise = std::make_shared<DiscrepancyNoise>();
-  noise->process = discrepancy_of(system, marginalised, discrepancy);
-  const double square = noise->process.sigma_mm * noise->process.sigma_mm;
-  Eigen::MatrixXd c =
-      square * discrepancy_covariance(system, marginalised.kept, noise->process.kernel);
-  c.diagonal().array() += 1.0;
-  noise->covariance = linear::Cholesky(std::move(c));
-  return noise;
+  return std::make_shared<DiscrepancyNoise>(
+      DiscrepancyNoise{discrepancy_of(system, marginalised, discrepancy),
+                       LowRankNoise(discrepancy_columns(system, marginalised, discrepancy))});
 }
 
 Estimate estimate(const RegressorSystem& system,

@@ -53,7 +53,7 @@ struct Unknowns {
 /// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
 struct DiscrepancyNoise {
   Discrepancy process;
-  linear::Cholesky covariance;  ///< 1 + s^2 K, N x N
+  LowRankNoise covariance;  ///< 1 + s^2 K
 };
 /// Null for no discrepancy.
 [[nodiscard]] std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(

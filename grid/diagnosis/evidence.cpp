@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "grid/statistics.hpp"
 
@@ -99,22 +99,29 @@ MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& 
 
 MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers) {
   MarginalisedSystem marginalised = marginalise_rows(system, outliers);
-  marginalised.g = system.g.mapped(
-      [&](const auto& columns) { return marginalised.root.solve(marginalised.kept.of(columns)); });
+  marginalised.g = system.g.mapped([&](const auto& columns) {
+    // With hundreds of visits they are the largest matrix of all, so nothing else is of that size.
+    constexpr Eigen::Index kAtOnce = 256;
+    Eigen::MatrixXd result(marginalised.kept.size(), columns.cols());
+    for (Eigen::Index at = 0; at < columns.cols(); at += kAtOnce) {
+      const Eigen::Index count = std::min(kAtOnce, columns.cols() - at);
+      result.middleCols(at, count) =
+          marginalised.root.solve(marginalised.kept.of(columns.middleCols(at, count)));
+    }
+    return result;
+  });
   return marginalised;
 }
 
-linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept) {
-  if (system.nuisances == 0) return {};
-  return linear::Cholesky(linear::one_plus_outer(linear::scaled_columns(
-      kept.of(nuisance_columns(system)), system.sigma.tail(system.nuisances))));
+LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept) {
+  return LowRankNoise(linear::scaled_columns(kept.of(nuisance_columns(system)),
+                                             system.sigma.tail(system.nuisances)));
 }
 
 double length_in_noise(const RegressorSystem& system,
                        const KeptRows& kept,
                        const Eigen::VectorXd& column) {
-  const Eigen::VectorXd own = kept(column);
-  return system.nuisances == 0 ? own.norm() : nuisance_noise(system, kept).half_solve(own).norm();
+  return nuisance_noise(system, kept).half_solve(kept(column)).norm();
 }
 
 Eigen::VectorXd left_by(const KeptRows& kept,
@@ -178,6 +185,13 @@ NormalEquations normal_equations(const RegressorSystem& system,
   return equations;
 }
 
+Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns) {
+  Eigen::MatrixXd e(marginalised.e.size(), std::ssize(columns) + 1);
+  e.col(0) = marginalised.e;
+  e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
+  return e;
+}
+
 Discrepancy discrepancy_of(const RegressorSystem& system,
                            const MarginalisedSystem& marginalised,
                            int discrepancy) {
@@ -188,11 +202,17 @@ Discrepancy discrepancy_of(const RegressorSystem& system,
       number < marginalised.discrepancy_trace.size() ? marginalised.discrepancy_trace[number] : 0.0;
   if (!(trace > 0.0)) {
     // A kernel that was tried with other readings rejected.
-    const Eigen::MatrixXd half =
-        marginalised.root.solve(discrepancy_covariance(system, marginalised.kept, kernel));
-    trace = marginalised.root.solve(half.transpose()).trace();
+    trace = marginalised.root.solve(discrepancy_factor(system, marginalised.kept, kernel)).squaredNorm();
   }
   return {kernel, family.strength_of(discrepancy) / std::sqrt(std::max(trace, 1e-300))};
+}
+
+Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
+                                    const MarginalisedSystem& marginalised,
+                                    int discrepancy) {
+  if (discrepancy < 0) return Eigen::MatrixXd(marginalised.kept.size(), 0);
+  const Discrepancy process = discrepancy_of(system, marginalised, discrepancy);
+  return process.sigma_mm * discrepancy_factor(system, marginalised.kept, process.kernel);
 }
 
 namespace {
@@ -268,6 +288,22 @@ FreeEquations free_equations(const NormalEquations& equations,
   return result;
 }
 
+/// Replaces a positive definite matrix by its inverse, by Gauss-Jordan elimination; returns its determinant.
+double invert(FewByFew& a) {
+  double determinant = 1.0;
+  for (Eigen::Index k = 0; k < a.rows(); ++k) {
+    const double pivot = std::exchange(a(k, k), 1.0);
+    determinant *= pivot;
+    for (Eigen::Index j = 0; j < a.cols(); ++j) a(k, j) /= pivot;
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      if (i == k) continue;
+      const double factor = std::exchange(a(i, k), 0.0);
+      for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(k, j);
+    }
+  }
+  return determinant;
+}
+
 /// Set evidence for one prior sigma of the signal-to-noise ratio.
 SetEvidence evidence_at(const FreeEquations& free,
                         double log_det,
@@ -277,19 +313,17 @@ SetEvidence evidence_at(const FreeEquations& free,
   const FewValues prior = prior_sigma * free.prior_length;
   FewByFew a = free.gram;
   a.diagonal() += prior.cwiseAbs2().cwiseInverse();
-  const Eigen::LLT<FewByFew> llt(a);
-  const FewValues ratio = llt.solve(free.c);
-  FewByFew inverse_root = FewByFew::Identity(m, m);
-  llt.matrixL().solveInPlace(inverse_root);
+  const double determinant = invert(a);
+  const FewValues ratio = a.lazyProduct(free.c);
   SetEvidence result;
   result.quadratic = std::max(free.ee - free.c.dot(ratio), 0.0);
   const NoiseDensity::Averages averages = noise.averages(result.quadratic);
   result.larger_noise = averages.larger_share;
   result.log_evidence = averages.log_density - 0.5 * log_det -
-                        std::log(llt.matrixLLT().diagonal().cwiseProduct(prior).prod());
+                        0.5 * std::log(determinant * prior.cwiseAbs2().prod());
   const double s = std::sqrt(averages.noise_square);
   for (Eigen::Index i = 0; i < m; ++i) {
-    const double sigma = s * inverse_root.col(i).norm();
+    const double sigma = s * std::sqrt(a(i, i));
     // Farther beyond its range than noise explains, and not merely about null: the data need
     // another cause.
     const double slack = 2.0 * sigma;

@@ -97,8 +97,8 @@ struct MarginalisedSystem {
                                     const MarginalisedSystem& marginalised,
                                     int regressor);
 /// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
-/// appears in the readings. Empty if there are none.
-[[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
+/// appears in the readings.
+[[nodiscard]] LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Length of a column's kept rows in units of that noise.
 [[nodiscard]] double length_in_noise(const RegressorSystem& system,
                                      const KeptRows& kept,
@@ -145,10 +145,19 @@ struct NormalEquations {
                                                const MarginalisedSystem& marginalised,
                                                RegressorSet columns);
 
+/// The residual and these columns, N x (1 + columns).
+[[nodiscard]] Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised,
+                                           const RegressorSet& columns);
+
 /// Kernel and size of a discrepancy, in a marginalised system.
 [[nodiscard]] Discrepancy discrepancy_of(const RegressorSystem& system,
                                          const MarginalisedSystem& marginalised,
                                          int discrepancy);
+
+/// s F of a discrepancy (discrepancy_factor) in the kept rows; no columns for none.
+[[nodiscard]] Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
+                                                  const MarginalisedSystem& marginalised,
+                                                  int discrepancy);
 
 /// Priors of a signal-to-noise ratio: the usual one, and the wide one.
 struct StrengthPrior {

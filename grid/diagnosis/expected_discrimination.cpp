@@ -69,7 +69,7 @@ std::vector<Group> groups_of(const Analysis& a) {
 Eigen::MatrixXd add_discrepancy(const Analysis& a,
                                 const RegressorSystem& system,
                                 const Estimate& fitted,
-                                const linear::Cholesky& covariance,
+                                const LowRankNoise& covariance,
                                 Eigen::VectorXd& mean,
                                 Eigen::MatrixXd& design) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
@@ -81,8 +81,8 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(design, -1.0, k, covariance.solve(x));
   Eigen::MatrixXd own =
-      square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
-  linear::add_gram(own, -1.0, covariance.half_solve(k.transpose()));
+      square * discrepancy_covariance(system, KeptRows::all(system), kernel);
+  linear::add_gram(own, -1.0, covariance.half_solve(Eigen::MatrixXd(k.transpose())));
   return without_negligible(own);
 }
 

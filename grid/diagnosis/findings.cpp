@@ -101,7 +101,7 @@ double fitted_place_sigma(const Analysis& a,
                            ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
                            : place.upper - place.lower;
   sigma(last) = range / std::sqrt(12.0);
-  if (a.noise) a.noise->covariance.half_solve_in_place(design);
+  if (a.noise) design = a.noise->covariance.half_solve(design);
   const Eigen::MatrixXd scaled =
       linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
   const linear::Cholesky normal(linear::one_plus_gram(scaled));

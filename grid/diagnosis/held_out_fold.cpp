@@ -187,7 +187,7 @@ HeldOutBlocks held_out_blocks(const ObservationSet& session) {
 MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& marginalised) {
   Flags outliers = marginalised.outliers;
   reject_slips(a, outliers);
-  return outliers == marginalised.outliers ? marginalised : marginalise_rows(a.system, outliers);
+  return marginalise_rows(a.system, outliers);
 }
 
 ExpectedImprovement expected_improvement(const Analysis& a) {

@@ -88,6 +88,7 @@ Eigen::VectorXd KeptRows::operator()(const Eigen::VectorXd& all) const {
 }
 
 Eigen::MatrixXd KeptRows::of(const Eigen::Ref<const Eigen::MatrixXd>& all) const {
+  if (size() == all.rows()) return all;
   Eigen::MatrixXd kept(size(), all.cols());
   for (Eigen::Index column = 0; column < all.cols(); ++column) {
     const auto from = all.col(column);

@@ -113,10 +113,19 @@ class CurveList {
     constexpr double kSamePhase = 0.97;
     constexpr double kFirst = 1.5;  // fewer waves than one are nearly in phase everywhere
     constexpr double kStep = 0.05;
+    std::vector<std::complex<double>> phases;
+    std::vector<std::complex<double>> steps;
+    for (const double v : values_) {
+      const double turn = 2.0 * std::numbers::pi * (v - start_.from) / start_.span();
+      phases.push_back(std::polar(1.0, kFirst * turn));
+      steps.push_back(std::polar(1.0, kStep * turn));
+    }
     for (double waves = kFirst; waves < 2.0 * most; waves += kStep) {
       std::complex<double> sum = 0.0;
-      for (const double v : values_)
-        sum += std::polar(1.0, 2.0 * std::numbers::pi * waves * (v - start_.from) / start_.span());
+      for (std::size_t k = 0; k < phases.size(); ++k) {
+        sum += phases[k];
+        phases[k] *= steps[k];
+      }
       if (std::abs(sum) > kSamePhase * as_double(values_.size())) return 0.5 * waves;
     }
     return most;

@@ -19,7 +19,7 @@ constexpr std::size_t kMostSets = 7;
 constexpr std::size_t kMostCurves = 60;
 constexpr std::size_t kMostContexts = 32;
 constexpr std::size_t kFirstContexts = 4;
-constexpr Eigen::Index kChunk = 64;  // columns at once, so that their products stay small
+constexpr Eigen::Index kChunk = 96;  // columns at once, so that their products stay small
 constexpr int kFiner = 4;            // points between two of a grid, at each of two refinements
 
 /// Nothing, the comparison's leading sets, and these without one of their causes.
@@ -48,7 +48,7 @@ std::vector<RegressorSet> leading_sets(const Analysis& a) {
 }
 
 /// A point of a curve, and its weight without its prior in the first contexts.
-struct LawPoint {
+struct WeighedPoint {
   double at = 0.0;
   double weight = kMinusInfinity;
 };
@@ -110,58 +110,48 @@ class LawSearch {
         const bool known = contains(kernels, kernel);
         if (kernels.size() == 2 || known) continue;
         kernels.push_back(kernel);
+        system_.prepare(context.discrepancy);
       }
       first_.push_back(context);
     }
   }
 
-  /// Weights of points of one curve in the first contexts, without the curve's prior.
-  std::vector<LawPoint> weighed(const LawCurve& curve, const std::vector<double>& grid) {
-    const Eigen::Index each = columns_of(curve.shape);
-    std::vector<LawPoint> points;
-    const auto step = as_size(kChunk / each);
-    for (std::size_t from = 0; from < grid.size(); from += step) {
-      const std::vector<double> own(
-          grid.begin() + static_cast<std::ptrdiff_t>(from),
-          grid.begin() + static_cast<std::ptrdiff_t>(std::min(from + step, grid.size())));
-      Eigen::MatrixXd columns = system_.columns(curve, own);
-      std::vector<std::vector<double>> terms(own.size());
-      system_.take(columns);
+  /// Weights of points in the first contexts, without their priors.
+  std::vector<double> weights_of(const std::vector<LawPoint>& points) {
+    std::vector<double> weights;
+    for (auto from = points.begin(); from != points.end();) {
+      auto to = from;
+      for (Eigen::Index count = 0; to != points.end(); ++to) {
+        count += columns_of(to->curve->shape);
+        if (count > kChunk) break;
+      }
+      const std::vector<ColumnSet> of_point = system_.take({from, to});
+      std::vector<std::vector<double>> terms(of_point.size());
       for (const LawContext& context : first_) {
         const NormalEquations equations = system_.equations(context.discrepancy);
-        for (std::size_t k = 0; k < own.size(); ++k) {
-          const ColumnSet at = columns_at(k, each);
-          if (!shows(columns, at)) continue;
-          terms[k].push_back(system_.log_weight(equations, context, at));
+        for (std::size_t k = 0; k < of_point.size(); ++k) {
+          if (system_.shows(of_point[k]))
+            terms[k].push_back(system_.log_weight(equations, context, of_point[k]));
         }
       }
-      for (std::size_t k = 0; k < own.size(); ++k)
-        points.push_back({own[k], terms[k].empty() ? kMinusInfinity : log_sum(terms[k])});
+      for (const auto& own : terms) weights.push_back(log_sum(own));
+      from = to;
     }
-    return points;
-  }
-
-  static ColumnSet columns_at(std::size_t k, Eigen::Index each) {
-    ColumnSet at;
-    for (Eigen::Index i = 0; i < each; ++i) at.push_back(as_index(k) * each + i);
-    return at;
-  }
-
-  /// A larger law at its usual strength would be visible without a measurement: the settings absorb
-  /// nearly all of it.
-  static bool shows(const Eigen::MatrixXd& columns, const ColumnSet& at) {
-    constexpr double kLargestMm = 6.0;
-    for (const Eigen::Index k : at) {
-      if (columns.col(k).norm() * kLargestMm < kUsualSignalToNoise) return false;
-    }
-    return true;
+    return weights;
   }
 
   void look_at_all() {
+    std::vector<LawPoint> all;
+    for (const LawCurve& curve : curves_) {
+      for (const double at : curve.grid) all.push_back({&curve, at});
+    }
+    const std::vector<double> weights = weights_of(all);
+    auto weight = weights.begin();
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       const LawCurve& curve = curves_[c];
-      points_.push_back(weighed(curve, curve.grid));
+      points_.emplace_back();
+      for (const double at : curve.grid) points_[c].push_back({at, *weight++});
       std::vector<double> terms;
       for (std::size_t k = 0; k < points_[c].size(); ++k)
         terms.push_back(points_[c][k].weight + std::log(curve.mass[k]));
@@ -179,12 +169,12 @@ class LawSearch {
   void refine(std::size_t c) {
     LawCurve& curve = curves_[c];
     if (!is_continuous(curve.shape)) return;
-    std::vector<LawPoint>& points = points_[c];
+    std::vector<WeighedPoint>& points = points_[c];
     for (int pass = 0; pass < 2; ++pass) {
-      const auto best = max_element(points, ascending(&LawPoint::weight));
-      std::vector<double> finer;
+      const auto best = max_element(points, ascending(&WeighedPoint::weight));
+      std::vector<LawPoint> finer;
       const auto between = [&](double from, double to) {
-        for (int k = 1; k < kFiner; ++k) finer.push_back(from + (to - from) * k / kFiner);
+        for (int k = 1; k < kFiner; ++k) finer.push_back({&curve, from + (to - from) * k / kFiner});
       };
       // The second pass uses the neighbours from the first.
       const auto at = best - points.begin();
@@ -195,12 +185,12 @@ class LawSearch {
         between(points[as_size(k)].at, points[as_size(k) + 1].at);
       }
       if (finer.empty()) return;
-      const std::vector<LawPoint> more = weighed(curve, finer);
-      append_all(points, more);
-      sort(points, ascending(&LawPoint::at));
+      const std::vector<double> weights = weights_of(finer);
+      for (std::size_t k = 0; k < finer.size(); ++k) points.push_back({finer[k].at, weights[k]});
+      sort(points, ascending(&WeighedPoint::at));
     }
     curve.grid.clear();
-    for (const LawPoint& point : points) curve.grid.push_back(point.at);
+    for (const WeighedPoint& point : points) curve.grid.push_back(point.at);
     curve.mass = trapezoids(curve);
   }
 
@@ -250,22 +240,11 @@ class LawSearch {
   }
 
   void take(std::vector<Chosen>& chosen) {
-    std::vector<Eigen::MatrixXd> parts;
-    Eigen::Index count = 0;
-    for (Chosen& own : chosen) {
-      const LawCurve& curve = curves_[own.curve];
-      parts.push_back(system_.columns(curve, {points_[own.curve][own.point].at}));
-      own.columns.clear();
-      for (Eigen::Index k = 0; k < parts.back().cols(); ++k) own.columns.push_back(count + k);
-      count += parts.back().cols();
-    }
-    Eigen::MatrixXd all(system_.rows(), count);
-    Eigen::Index at = 0;
-    for (const Eigen::MatrixXd& part : parts) {
-      all.middleCols(at, part.cols()) = part;
-      at += part.cols();
-    }
-    system_.take(all);
+    std::vector<LawPoint> points;
+    for (const Chosen& own : chosen)
+      points.push_back({&curves_[own.curve], points_[own.curve][own.point].at});
+    std::vector<ColumnSet> columns = system_.take(points);
+    for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k].columns = std::move(columns[k]);
   }
 
   /// Contexts with a share of the weight given one of the best laws, or without a law.
@@ -345,7 +324,7 @@ class LawSearch {
   double log_without_ = 0.0;
   std::vector<LawContext> first_;    ///< of the first look
   std::vector<LawContext> without_;  ///< that lead without a law
-  std::vector<std::vector<LawPoint>> points_;
+  std::vector<std::vector<WeighedPoint>> points_;
   Indices leading_;
 };
 

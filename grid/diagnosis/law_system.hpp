@@ -3,9 +3,9 @@
 /// Laws as columns of a marginalised system, next to those of causes.
 ///
 ///   LawSystem system(analysis, number, sets);
-///   system.take(system.columns(curve, points));       // columns 0, 1, ... of laws
+///   const std::vector<ColumnSet> of_point = system.take({{&curve, 3.0}, {&curve, 4.0}});
 ///   const NormalEquations equations = system.equations(discrepancy);
-///   const double w = system.log_weight(equations, {set, discrepancy}, {0});
+///   const double w = system.log_weight(equations, {set, discrepancy}, of_point[0]);
 #pragma once
 
 #include <algorithm>
@@ -30,6 +30,12 @@ struct LawContext {
   friend auto operator<=>(const LawContext&, const LawContext&) = default;
 };
 
+/// A curve at one place, period or scale.
+struct LawPoint {
+  const LawCurve* curve = nullptr;
+  double at = 0.0;
+};
+
 /// Amplitudes of a law in a context.
 struct LawAmplitudes {
   Eigen::VectorXd value;
@@ -42,12 +48,13 @@ class LawSystem {
   /// analysis must outlive this.
   LawSystem(const Analysis& a, std::size_t number, const std::vector<RegressorSet>& sets)
       : from_(a.system),
-        marginalised_(a.comparison.marginalised_systems[number]),
+        marginalised_(
+            marginalise_rows(a.system, a.comparison.marginalised_systems[number].outliers)),
         noise_(a.system.noise_dof, marginalised_.kept.size()) {
     std::set<int> used;
     for (const auto& set : sets) used.insert(set.begin(), set.end());
     const RegressorSet all(used.begin(), used.end());
-    causes_ = marginalised_.g.dense(all);
+    causes_ = a.comparison.marginalised_systems[number].g.dense(all);
     for (const auto& set : sets) {
       ColumnSet at;
       for (const int k : set)
@@ -63,33 +70,46 @@ class LawSystem {
     own_.e = from_.e;
     auto kernels = numbers_below(own_.discrepancies->kernels.size());
     basis_.emplace(own_, marginalised_, kernels);
-    take(Eigen::MatrixXd(rows(), 0));
+    take_columns(Eigen::MatrixXd(marginalised_.kept.size(), 0));
   }
 
   LawSystem(const LawSystem&) = delete;
   LawSystem& operator=(const LawSystem&) = delete;
 
-  /// A curve's columns at these grid points, in the kept rows after projection on the settings.
-  [[nodiscard]] Eigen::MatrixXd columns(const LawCurve& curve,
-                                        const std::vector<double>& at) const {
-    return marginalised_.root.solve(marginalised_.kept.of(law_columns(from_, curve, at)));
+  /// Replaces the columns of laws by those of these points; returns which are each one's.
+  std::vector<ColumnSet> take(const std::vector<LawPoint>& points) {
+    std::vector<ColumnSet> of_point;
+    Eigen::Index count = 0;
+    for (const LawPoint& point : points) {
+      ColumnSet& own = of_point.emplace_back();
+      for (Eigen::Index k = columns_of(point.curve->shape); k > 0; --k) own.push_back(count++);
+    }
+    Eigen::MatrixXd laws(from_.e.size(), count);
+    count = 0;
+    for (std::size_t k = 0; k < points.size();) {
+      const LawCurve& curve = *points[k].curve;
+      std::vector<double> at;
+      for (; k < points.size() && points[k].curve == &curve; ++k) at.push_back(points[k].at);
+      const Eigen::MatrixXd own = law_columns(from_, curve, at);
+      laws.middleCols(count, own.cols()) = own;
+      count += own.cols();
+    }
+    take_columns(marginalised_.root.solve(marginalised_.kept.of(laws)));
+    return of_point;
   }
 
-  /// Replaces the columns of laws.
-  void take(const Eigen::MatrixXd& laws) {
-    Eigen::MatrixXd g(rows(), causes_.cols() + laws.cols());
-    g << causes_, laws;
-    marginalised_.g = RegressorColumns(std::move(g));
-    Regressor law;
-    law.lowest = kMinusInfinity;
-    law.highest = kInfinity;
-    own_.regressors = cause_regressors_;
-    own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
-    auto all = numbers_below<int>(own_.regressors.size());
-    given_.clear();
-    basis_->forget();
-    plain_ = normal_equations(own_, marginalised_, std::move(all));
+  /// A larger law at its usual strength would be visible without a measurement: the settings absorb
+  /// nearly all of it. By the columns taken last.
+  [[nodiscard]] bool shows(const ColumnSet& laws) const {
+    constexpr double kLargestMm = 6.0;
+    return all_of(laws, [&](Eigen::Index k) {
+      const Eigen::Index at = causes_.cols() + k;
+      return std::sqrt(plain_.gg(at, at)) * kLargestMm >= kUsualSignalToNoise;
+    });
   }
+
+  /// Prepares `equations` of this discrepancy for many sets of laws.
+  void prepare(int discrepancy) { basis_->prepare(family().kernel_of(discrepancy)); }
 
   /// For the causes and the laws taken last.
   [[nodiscard]] NormalEquations equations(int discrepancy) {
@@ -130,9 +150,24 @@ class LawSystem {
 
   [[nodiscard]] const DiscrepancyFamily& family() const { return *own_.discrepancies; }
   [[nodiscard]] std::size_t sets() const { return sets_.size(); }
-  [[nodiscard]] Eigen::Index rows() const { return marginalised_.kept.size(); }
 
  private:
+  /// Replaces the columns of laws.
+  void take_columns(const Eigen::MatrixXd& laws) {
+    Eigen::MatrixXd g(laws.rows(), causes_.cols() + laws.cols());
+    g << causes_, laws;
+    marginalised_.g = RegressorColumns(std::move(g));
+    Regressor law;
+    law.lowest = kMinusInfinity;
+    law.highest = kInfinity;
+    own_.regressors = cause_regressors_;
+    own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
+    auto all = numbers_below<int>(own_.regressors.size());
+    given_.clear();
+    basis_->forget();
+    plain_ = normal_equations(own_, marginalised_, std::move(all));
+  }
+
   /// Columns in a context: of its causes and of some laws.
   [[nodiscard]] ColumnSet all_columns(const LawContext& context, const ColumnSet& laws) const {
     ColumnSet all = sets_[context.set];

@@ -86,12 +86,14 @@ std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& altern
 }
 
 std::vector<NextMeasurement> next_measurements(const Analysis& a) {
-  NextCandidates next = next_candidates(a);
-  const auto alternatives = alternatives_about(a, next.session);
-  if (!alternatives || is_left_alone(a, *alternatives)) return {};
+  if (is_left_alone(a, alternatives_of_best(a))) return {};
   std::vector<NextMeasurement> result;
-  if (a.decision.verdict != Verdict::named)
+  if (a.decision.verdict != Verdict::named) {
+    NextCandidates next = next_candidates(a);
+    const auto alternatives = alternatives_about(a, next.session);
+    if (!alternatives) return {};
     result = most_telling(*alternatives, std::move(next.all));
+  }
   add_link_reading(a, result);
   return result;
 }

@@ -72,43 +72,39 @@ Flags measured_again(const std::vector<MeasuredPoint>& points) {
 struct GivenModel {
   double log_weight = 0.0;
   double log_odds = 0.0;  ///< for one more cause
-  KeptRows kept;
-  linear::Cholesky covariance;
-  Eigen::VectorXd e;  ///< N numbers, half-solved by it
+  MarginalisedSystem marginalised;
+  LowRankNoise noise;  ///< in its rows: the model's causes and discrepancy
+  Eigen::VectorXd e;   ///< half-solved by it
 };
 
 GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& again) {
   const RegressorSystem& system = a.system;
-  const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[model.marginalised];
-  GivenModel result;
-  result.log_weight = model.log_weight;
-  result.log_odds = log_odds_of_another(system, model.regressors, model.discrepancy >= 0);
-  Flags left_out = marginalised.outliers;
+  const MarginalisedSystem& compared = a.comparison.marginalised_systems[model.marginalised];
+  Flags left_out = compared.outliers;
   for (std::size_t u = 0; u < a.session.units.size(); ++u) {
     const NumberedUnit& unit = a.session.units[u];
     if (a.session.parts[unit.part].reads_chains() && again[unit.index]) left_out[u] = true;
   }
-  result.kept = KeptRows(system, left_out);
-  const Eigen::MatrixXd settings = result.kept.of(system.by_setting);
-  Eigen::VectorXd e = result.kept(system.e);
-  linear::add_product(e, -1.0, settings, system.expected_change);
-  Eigen::MatrixXd covariance = linear::one_plus_outer(linear::scaled_columns(settings, system.sigma));
+  MarginalisedSystem own = marginalise_rows(system, left_out);
+  own.discrepancy_trace = compared.discrepancy_trace;  // the discrepancy keeps its strength
+  const Eigen::MatrixXd pattern = discrepancy_columns(system, own, model.discrepancy);
+  Eigen::MatrixXd columns(pattern.rows(), pattern.cols() + std::ssize(model.regressors));
+  columns.leftCols(pattern.cols()) = own.root.solve(pattern);
+  Eigen::Index free = pattern.cols();
   for (const int k : model.regressors) {
-    const Eigen::VectorXd column = result.kept(system.g.col(k));
+    const Eigen::VectorXd column = reduced(own, system.g.col(k));
     if (system.regressor(k).fixed) {
-      e -= column;
-      continue;
+      own.e -= column;
+    } else {
+      columns.col(free++) = column * wide_coefficient_sigma(system, compared, k);
     }
-    const Eigen::VectorXd wide = column * wide_coefficient_sigma(system, marginalised, k);
-    linear::add_outer(covariance, 1.0, wide);
   }
-  if (model.discrepancy >= 0) {
-    const Discrepancy process = discrepancy_of(system, marginalised, model.discrepancy);
-    covariance += process.sigma_mm * process.sigma_mm *
-                  discrepancy_covariance(system, result.kept, process.kernel);
-  }
-  result.covariance = linear::Cholesky(std::move(covariance));
-  result.e = result.covariance.half_solve(e);
+  GivenModel result{model.log_weight,
+                    log_odds_of_another(system, model.regressors, model.discrepancy >= 0),
+                    std::move(own),
+                    LowRankNoise(columns.leftCols(free)),
+                    {}};
+  result.e = result.noise.half_solve(result.marginalised.e);
   return result;
 }
 
@@ -152,10 +148,11 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
 /// log sum_c odds_M B(c | M, o)
 double log_order_factor(const RegressorSystem& columns, const GivenModel& model, double noise_dof) {
   MarginalisedSystem reduced;
+  const MarginalisedSystem& own = model.marginalised;
   reduced.g = columns.g.mapped([&](const auto& all) {
-    return model.covariance.half_solve(model.kept.of(all));
+    return model.noise.half_solve(own.root.solve(own.kept.of(all)));
   });
-  const NoiseDensity noise(noise_dof, model.kept.size());
+  const NoiseDensity noise(noise_dof, own.kept.size());
   const SingleScores scores = single_scores(columns, reduced, noise, model.e);
   return log_sum(scores.log_factor) + model.log_odds;
 }

@@ -54,6 +54,9 @@ class RegressorColumns {
     ++count_;
   }
 
+  /// Gives back the room for more: with hundreds of visits as much as all columns.
+  void fit() { distinct_.conservativeResize(Eigen::NoChange, count_); }
+
   /// factor times the last added column.
   void add_multiple(double factor) {
     if (count_ == 0) throw precondition("{} times the last of no columns", factor);

@@ -274,6 +274,7 @@ void add_regressors(const ObservationSet& session,
   if (system.g.cols() == 0) system.g = RegressorColumns(session.rows);
   Builder builder(session, state, system);
   for (const CauseId& cause : causes) builder.add(cause, known);
+  system.g.fit();
 }
 
 bool renew_regressors(const ObservationSet& session,

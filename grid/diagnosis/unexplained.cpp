@@ -175,24 +175,19 @@ Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream
   return z;
 }
 
-/// e'K e / e'e against fitted noise: are neighbours more alike than by chance?
+/// With V of the noise in the readings: are neighbours more alike, e'V^-1 K V^-1 e / e'V^-1 e, than in fitted noise?
 double p_of_structure(const Analysis& a) {
   const KeptRows& kept = marginalised_system(a).kept;
   Eigen::MatrixXd e(kept.size(), kLeftOverDraws + 1);
   e.col(0) = kept(left_of_machine(a.system, a.estimate, a.estimate.left));
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kLeftOverDraws) = left_of_noise(a, kLeftOverDraws, kStream);
-  Eigen::MatrixXd k =
-      discrepancy_covariance(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
-  if (a.system.nuisances > 0) {
-    const linear::Cholesky noise = nuisance_noise(a.system, kept);
-    noise.half_solve_in_place(e);
-    noise.half_solve_in_place(k);
-    k.transposeInPlace();
-    noise.half_solve_in_place(k);
-  }
-  const Eigen::ArrayXd in_common = (e.array() * linear::product(k, e).array()).colwise().sum();
-  const Eigen::ArrayXd all = e.colwise().squaredNorm();
+  const Eigen::MatrixXd factor =
+      discrepancy_factor(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
+  const Eigen::MatrixXd weighed = nuisance_noise(a.system, kept).solve(e);
+  const Eigen::ArrayXd in_common =
+      linear::product(linear::transposed(factor), weighed).colwise().squaredNorm();
+  const Eigen::ArrayXd all = (e.array() * weighed.array()).colwise().sum();
   const Eigen::ArrayXd share = in_common / all.max(1e-300);
   const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();
   return (as_double(above) + 1.0) / (kLeftOverDraws + 1.0);

@@ -37,8 +37,10 @@ void use_threads(int /*count*/) {}
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kNeverTrim = -1, kGrowByBytes = 1 << 24;
-  mallopt(M_MMAP_MAX, 0);
+  // Blocks of kLargeBytes are few, and are given back. What one thread frees serves the others.
+  constexpr int kNeverTrim = -1, kGrowByBytes = 1 << 24, kLargeBytes = 1 << 25, kHeaps = 1;
+  mallopt(M_ARENA_MAX, kHeaps);
+  mallopt(M_MMAP_THRESHOLD, kLargeBytes);
   mallopt(M_TRIM_THRESHOLD, kNeverTrim);
   mallopt(M_TOP_PAD, kGrowByBytes);
 #endif

@@ -10,8 +10,9 @@ namespace chaintrue::grid {
 /// stays on one.
 void use_threads(int count);
 
-/// The process keeps freed memory from now on. A diagnosis allocates and frees matrices of megabytes; mapping pages anew
-/// for each takes up to half of its time. Does nothing without glibc.
+/// The process keeps freed memory from now on, except blocks of 32 MB and more. A diagnosis allocates and
+/// frees matrices of megabytes; mapping pages anew for each takes up to half of its time. Does nothing
+/// without glibc.
 void keep_freed_memory();
 
 }  // namespace chaintrue::grid
