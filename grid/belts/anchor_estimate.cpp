@@ -8,6 +8,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_mechanism.hpp"
@@ -38,22 +39,12 @@ bool is_upright_frame(const AnchorVector& a) {
   return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
-/// A tape's end for any mechanism; for a hole, its commanded place and what the controller pays
-/// out.
+/// A tape's end for any mechanism.
 observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
   if (const auto* belt = std::get_if<Belt>(&end))
     return observation::AtFixedPoint{static_cast<std::size_t>(*belt)};
-  const model::FramePoint meant = model::to_frame(machine, std::get<CutHole>(end).commanded);
-  const model::ToolPosition at{meant.x_mm, meant.y_mm};
-  const auto paid_out =
-      model::make_belt_mechanism(machine)->predict(at, {}, model::Derivatives::by_position);
-  // A command that cannot be reached has no lengths, and no mechanism a position for it.
-  constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
-  return observation::AtHole{
-      paid_out ? paid_out->lengths_mm : Eigen::VectorXd::Constant(4, kNoLength),
-      {true, true, false, false},
-      at};
+  return hole_at(machine, std::get<CutHole>(end).commanded);
 }
 
 observation::TapedDistance taped_between(const model::BeltMachine& machine,
@@ -65,6 +56,17 @@ observation::TapedDistance taped_between(const model::BeltMachine& machine,
 }
 
 }  // namespace
+
+observation::AtHole hole_at(const model::BeltMachine& in_force, model::BedPoint command) {
+  const model::FramePoint meant = model::to_frame(in_force, command);
+  const model::ToolPosition at{meant.x_mm, meant.y_mm};
+  const auto paid_out =
+      model::make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
+  constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
+  return {paid_out ? paid_out->lengths_mm : Eigen::VectorXd::Constant(4, kNoLength),
+          {true, true, false, false},
+          at};
+}
 
 void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
   const model::BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
@@ -324,7 +326,7 @@ FramePoint nearest_place(const model::BeltMachine& machine,
     double square = 0.0;
     for (const Belt belt : kBelts) {
       if (!counting[belt]) continue;
-      const double off = std::hypot(at.x_mm - a[belt].x_mm, at.y_mm - a[belt].y_mm) - spans[belt];
+      const double off = distance_mm(at, a[belt]) - spans[belt];
       square += off * off;
     }
     return square;

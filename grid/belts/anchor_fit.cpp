@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -27,7 +28,7 @@ bool are_on_a_line(const std::vector<model::FramePoint>& places) {
   constexpr double kLineMm = 50.0;
   Eigen::Matrix2Xd at(2, std::ssize(places));
   for (std::size_t k = 0; k < places.size(); ++k) {
-    at.col(as_index(k)) << places[k].x_mm, places[k].y_mm;
+    at.col(as_index(k)) = vector_of(places[k]);
   }
   at.colwise() -= at.rowwise().mean().eval();
   const Eigen::Matrix2d square = at * at.transpose();

@@ -13,6 +13,7 @@
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/robust_trend.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
@@ -89,19 +90,15 @@ struct Frame {
 };
 
 double far_from_commands(const MeasuredBelts& belts, const std::vector<model::FramePoint>& places) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> off;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto& commanded = belts.points[k].commanded;
-    if (!commanded) continue;
-    off.emplace_back(places[k].x_mm - commanded->x_mm, places[k].y_mm - commanded->y_mm);
-    mean += off.back();
+    if (!belts.points[k].commanded) continue;
+    off.push_back(difference(places[k], *belts.points[k].commanded));
+    sum += off.back();
   }
-  if (off.empty()) return 0.0;
-  mean /= as_double(off.size());
-  double square = 0.0;
-  for (const Eigen::Vector2d& one : off) square += (one - mean).squaredNorm();
-  return std::sqrt(square / as_double(off.size()));
+  for (Eigen::Vector2d& one : off) one -= sum / as_double(off.size());
+  return rms_length(off);
 }
 
 /// A share of the extent of the commands: mirrored ones are off by as much as that.
@@ -245,11 +242,11 @@ std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
                                       const belts::AnchorFit& frame) {
   if (const auto* index = std::get_if<std::size_t>(&end)) {
     if (*index >= frame.state.places.size()) return std::nullopt;
-    return Eigen::Vector2d(frame.state.places[*index].x_mm, frame.state.places[*index].y_mm);
+    return vector_of(frame.state.places[*index]);
   }
   if (const auto* belt = std::get_if<Belt>(&end)) {
     const auto anchor = belts::with_anchors(belts.machine, frame.state.anchors).anchors[*belt];
-    return Eigen::Vector2d(anchor.x_mm, anchor.y_mm);
+    return vector_of(anchor);
   }
   if (!belts.machine.anchors_known) return std::nullopt;
   const model::FramePoint centre = model::centre_of(belts.machine);
@@ -357,7 +354,7 @@ std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts) {
   double usual_mm = kUsualMm;
   if (belts.machine.anchors_known) {
     const auto& a = belts.machine.anchors;
-    usual_mm = 0.5 * std::hypot(a.tr.x_mm - a.bl.x_mm, a.tr.y_mm - a.bl.y_mm);
+    usual_mm = 0.5 * distance_mm(a.tr, a.bl);
   }
   const auto off = [&](const input_checks::WrittenUnit& unit) {
     return std::abs(std::log(unit.mm * middle / usual_mm));

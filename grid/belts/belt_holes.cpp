@@ -4,51 +4,21 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "grid/belts/tool_displacement.hpp"
+#include "grid/belts/anchor_estimate.hpp"
 #include "grid/containers.hpp"
+#include "grid/map/tool_displacement.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "interp/linear_algebra.hpp"
-#include "model/belts/belt_kinematics.hpp"
+#include "model/belts/belt_mechanism.hpp"
+#include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::belts {
 
-using model::BedPoint;
-using model::Belt;
 using model::FramePoint;
 
 namespace {
-
-Eigen::Vector2d place_of_anchor(const model::Anchor& anchor) { return {anchor.x_mm, anchor.y_mm}; }
-
-/// Where the upper spans end, and u_i . (dm - dA_i) = 0 with u_i from anchor i to the tool.
-struct Placed {
-  Eigen::Vector2d at;
-  Eigen::Matrix<double, 2, kAnchorUnknowns> by_anchors;
-};
-
-std::optional<Placed> placed(const model::BeltMachine& in_force,
-                             const model::BeltMachine& machine,
-                             BedPoint command) {
-  const FramePoint meant = model::to_frame(in_force, command);
-  const Eigen::Vector2d target(meant.x_mm, meant.y_mm);
-  const Eigen::Vector2d tl = place_of_anchor(machine.anchors.tl);
-  const Eigen::Vector2d tr = place_of_anchor(machine.anchors.tr);
-  const auto place = model::crossing({tl.x(), tl.y()},
-                                     (target - place_of_anchor(in_force.anchors.tl)).norm(),
-                                     {tr.x(), tr.y()},
-                                     (target - place_of_anchor(in_force.anchors.tr)).norm());
-  if (!place) return std::nullopt;
-  Placed result{{place->x_mm, place->y_mm}, Eigen::Matrix<double, 2, kAnchorUnknowns>::Zero()};
-  Eigen::Matrix2d ways;
-  ways.row(0) = (result.at - tl).normalized();
-  ways.row(1) = (result.at - tr).normalized();
-  const Eigen::Matrix2d inverse = ways.inverse();
-  // tl x, tl y, tr x, tr y; the lower anchors move no hole.
-  result.by_anchors.middleCols<2>(0) = inverse.col(0) * ways.row(0);
-  result.by_anchors.middleCols<2>(2) = inverse.col(1) * ways.row(1);
-  return result;
-}
 
 /// Writes the rows of a set from `row` on, after those of the sets before it; false if the machine
 /// cannot hold the tool at one of its holes. `origin`: where the first set's commands count from.
@@ -62,7 +32,7 @@ bool put_set(const BeltHoles& holes,
     throw precondition("{} holes of a machine whose anchors in force are not known",
                        holes.set.holes.size());
   }
-  const model::BeltMachine machine = with_anchors(holes.machine, anchors);
+  const auto mechanism = model::make_belt_mechanism(holes.machine)->with_values(anchors);
   const FramePoint centre = model::centre_of(holes.machine);
   const auto count = std::ssize(holes.set.holes);
   const Eigen::Index first = 2 * std::ssize(all.marks);
@@ -70,15 +40,16 @@ bool put_set(const BeltHoles& holes,
   Eigen::MatrixXd marks_by_frame = Eigen::MatrixXd::Zero(2 * count, kFrameUnknowns);
   Eigen::MatrixXd laid(2 * count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto place = placed(holes.machine, machine, holes.set.holes[as_size(i)].commanded);
+    const auto place = observation::placed_hole(
+        *mechanism, hole_at(holes.machine, holes.set.holes[as_size(i)].commanded));
     if (!place) return false;
-    const Eigen::Vector2d mark = factor * (place->at - Eigen::Vector2d(centre.x_mm, centre.y_mm));
+    const Eigen::Vector2d mark = factor * (place->at - vector_of(centre));
     marks.push_back({mark.x(), mark.y()});
     all.marks.push_back(
         {factor * (place->at.x() - origin.x_mm), factor * (place->at.y() - origin.y_mm)});
-    marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_anchors;
+    marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_parameter;
     marks_by_frame.block<2, 1>(2 * i, kAnchorUnknowns) = mark;
-    laid.middleRows<2>(2 * i) << 1.0, 0.0, -mark.y(), 0.0, 1.0, mark.x();
+    laid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(marks.back());
   }
   const observation::DistanceGeometry geometry = observation::distance_geometry(holes.set, marks);
   const Eigen::Index own = geometry.predicted_mm.size();
@@ -96,18 +67,11 @@ bool put_set(const BeltHoles& holes,
   scaled.diagonal() += noise.tape_mm2;
   all.shared_mm2.block(row, row, own, own) =
       noise.size_mm2 + noise.tape_zero_mm2 +
-      by_sheet * sheet_variance().asDiagonal() * by_sheet.transpose();
+      linear::outer(by_sheet * observation::kSheetByEdges.sigma().asDiagonal());
   return true;
 }
 
 }  // namespace
-
-Eigen::Vector3d sheet_variance() {
-  using observation::kSheetShiftMm;
-  using observation::kSheetTurnRad;
-  return {
-      kSheetShiftMm * kSheetShiftMm, kSheetShiftMm * kSheetShiftMm, kSheetTurnRad * kSheetTurnRad};
-}
 
 std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
                                     const AnchorVector& anchors,

@@ -78,7 +78,4 @@ struct TapedNoise {
 [[nodiscard]] Eigen::MatrixXd taped_covariance(const TapedRows& rows,
                                                const TapedNoise& noise,
                                                const std::vector<bool>& counting);
-/// Prior variances of a sheet's placement: x, y and turn.
-[[nodiscard]] Eigen::Vector3d sheet_variance();
-
 }  // namespace chaintrue::grid::belts

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/calibration/sheet_placement.hpp"
@@ -24,7 +25,7 @@ using belts::kFrameUnknowns;
 
 double span_mm(const model::BeltMachine& machine, Belt belt, FramePoint place) {
   const model::Anchor& anchor = machine.anchors[belt];
-  return std::hypot(place.x_mm - anchor.x_mm, place.y_mm - anchor.y_mm);
+  return distance_mm(place, anchor);
 }
 
 tl::expected<FramePoint, BeltFailure> end_of_spans(const model::BeltMachine& machine,
@@ -74,45 +75,6 @@ struct Reference {
   double right_mm = 0.0;  ///< of the top right one
 };
 
-/// (1) for one set of unknowns, without the machine.
-class BeltSheet final : public SheetInFrame {
- public:
-  double factor = 1.0;
-  FramePoint centre;
-  std::shared_ptr<const ToolDisplacement> displacement;  ///< may be null
-  model::SheetPlacement sheet;
-
-  [[nodiscard]] BedPoint on_sheet(model::ToolPosition place) const override {
-    MarkPoint raw{factor * (place.x_mm - centre.x_mm), factor * (place.y_mm - centre.y_mm)};
-    if (displacement) {
-      const Eigen::Vector2d moved = displacement->at(raw);
-      raw.x_mm += moved.x();
-      raw.y_mm += moved.y();
-    }
-    return sheet.to_bed(raw);
-  }
-
-  [[nodiscard]] model::ToolPosition in_frame(BedPoint on_sheet) const override {
-    // Each round reduces the error to a few thousandths, the slope of the displacement.
-    constexpr int kMostRounds = 40;
-    constexpr double kConvergedMm = 1e-10;
-    const MarkPoint there = sheet.to_mark(on_sheet);
-    MarkPoint raw = there;
-    for (int round = 0; displacement && round < kMostRounds; ++round) {
-      const Eigen::Vector2d by = displacement->at(raw);
-      const MarkPoint next{there.x_mm - by.x(), there.y_mm - by.y()};
-      const double moved = std::hypot(next.x_mm - raw.x_mm, next.y_mm - raw.y_mm);
-      raw = next;
-      if (moved < kConvergedMm) break;
-    }
-    return {centre.x_mm + raw.x_mm / factor, centre.y_mm + raw.y_mm / factor};
-  }
-
-  [[nodiscard]] double own_variance_mm2(BedPoint on_sheet) const override {
-    return displacement ? displacement->own_variance_mm2(sheet.to_mark(on_sheet)) : 0.0;
-  }
-};
-
 /// The tool's position by a fit, for any values of its unknowns.
 class Placing {
  public:
@@ -131,15 +93,14 @@ class Placing {
   [[nodiscard]] PlacedMechanism at(const Eigen::VectorXd& unknowns,
                                    model::BeltLengths lengths) const {
     model::BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
-    auto sheet = std::make_shared<BeltSheet>();
-    sheet->factor = std::exp(unknowns[kAnchorUnknowns]);
-    sheet->centre = model::centre_of(in_force_);
+    const FramePoint centre = model::centre_of(in_force_);
+    SheetInFrame sheet{{}, std::exp(unknowns[kAnchorUnknowns]), {centre.x_mm, centre.y_mm}};
     if (displacement_) {
       DisplacementParts parts = *displacement_;
       parts.at_mm = unknowns.tail(parts.at_mm.size());
-      sheet->displacement = std::make_shared<const ToolDisplacement>(std::move(parts));
+      sheet.displacement = std::make_shared<const ToolDisplacement>(std::move(parts));
     }
-    lay(machine, *sheet);
+    lay(machine, sheet);
     machine.lengths = lengths;
     return {model::make_belt_mechanism(machine), std::move(sheet)};
   }
@@ -176,9 +137,9 @@ class Placing {
     }
   }
 
-  void lay(const model::BeltMachine& machine, BeltSheet& placed) const {
+  void lay(const model::BeltMachine& machine, SheetInFrame& placed) const {
     if (by_edges_) {
-      placed.sheet = {by_edges_->x(), by_edges_->y(), by_edges_->z()};
+      placed.laid = {by_edges_->x(), by_edges_->y(), by_edges_->z()};
       return;
     }
     std::vector<MarkPoint> from;
@@ -189,7 +150,7 @@ class Placing {
       from.push_back(model::identity_placement(placed.on_sheet({place->x_mm, place->y_mm})));
       to.push_back(reference.commanded);
     }
-    if (from.size() >= 2) placed.sheet = laid_on(from, to);
+    if (from.size() >= 2) placed.laid = laid_on(from, to);
   }
 
   model::BeltMachine in_force_;

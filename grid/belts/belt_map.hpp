@@ -8,8 +8,7 @@
 ///
 /// R and t lay the sheet: as its edges say, otherwise so that the holes (without holes the places
 /// that the belts measured), as a whole, lie where they were commanded. d is the displacement that
-/// the holes show, or nothing. The inverse of (1) is found by fixed-point iteration: d changes by
-/// less than 0.01 mm per mm.
+/// the holes show, or nothing.
 ///
 /// Lengths are those of the belts themselves at the bed's height, from the anchor slanting to the
 /// end: what the motors pay out. `left` is the top left belt.

@@ -17,6 +17,7 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/failed.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
@@ -97,7 +98,7 @@ double extent_mm(const std::vector<model::MarkPoint>& marks) {
   double widest = 0.0;
   for (const model::MarkPoint& a : marks) {
     for (const model::MarkPoint& b : marks)
-      widest = std::max(widest, std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm));
+      widest = std::max(widest, distance_mm(a, b));
   }
   return widest;
 }
@@ -317,7 +318,7 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const TapedState& state, const Mea
   const auto own = std::ssize(first.distances);
   const Eigen::VectorXd weighed = linear::Cholesky(c).solve(state.rows.residual_mm).head(own);
   const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
-  return belts::sheet_variance().cwiseProduct(along);
+  return observation::kSheetByEdges.sigma().cwiseAbs2().cwiseProduct(along);
 }
 
 void fill_distances(const KnownFrame& known,

@@ -39,7 +39,7 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belt_holes.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/belts/tool_displacement.hpp"
+#include "grid/map/tool_displacement.hpp"
 
 namespace chaintrue::grid {
 

@@ -12,7 +12,7 @@
 ///
 ///   cov a = (sum_b A' w A - A' w J G)^-1,   cov p_b = V^-1 + G cov(a) G'                     (1)
 ///
-/// Of a reading with rows j and x = a - j G,  h = w (j V^-1 j' + x cov(a) x'):
+/// Of a reading with rows j of J and x of X = A - J G,  h = w (j V^-1 j' + x cov(a) x'):
 ///
 ///   deleted = r / (1 - h)                read less what all others make of it               (2)
 ///   t       = r / (s_out sqrt(1 - h)),   s_out^2 = (s^2 n - r^2 / (1 - h)) / (n - 1)        (3)
@@ -85,12 +85,13 @@ class FitDiagnostics {
         continue;
       }
       line->weight /= frame_.residual_sigma_mm * frame_.residual_sigma_mm;
-      Block block{*std::move(line), {}, {}, !own.distances.empty()};
+      Block block{*std::move(line), {}, {}, {}, !own.distances.empty()};
       const Eigen::MatrixXd weighed =
           block.line.by_position.transpose() * block.line.weight.asDiagonal();
       block.inverse = linear::Cholesky(linear::product(weighed, block.line.by_position)).inverse();
       block.by_unknown =
           linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
+      block.left = block.line.by_parameter - block.line.by_position * block.by_unknown;
       precision_ += block.precision();
       for (std::size_t p = 0; p < own.places.size(); ++p) {
         const std::size_t point = readings.readings()[own.places[p]].index;
@@ -144,7 +145,8 @@ class FitDiagnostics {
   /// w cov(a) x': the response of a to a reading.
   [[nodiscard]] Eigen::VectorXd influence(std::size_t point, model::Belt belt) const {
     const double weight = 1.0 / (frame_.residual_sigma_mm * frame_.residual_sigma_mm);
-    return weight * (covariance_ * row_at(slots_[point].value(), belt).by_unknown);
+    const Slot& slot = slots_[point].value();
+    return weight * (covariance_ * blocks_[slot.block].left.row(slot.row(belt)).transpose());
   }
 
   [[nodiscard]] BeltResidual residual(std::size_t point, model::Belt belt) const {
@@ -155,10 +157,10 @@ class FitDiagnostics {
     result.deleted_residual_mm = r;
     if (!slots_[point]) return result;
     const double s2 = frame_.residual_sigma_mm * frame_.residual_sigma_mm;
-    const ReadingRow row = row_at(*slots_[point], belt);
-    const double own_share =
-        row.by_position * blocks_[slots_[point]->block].inverse * row.by_position.transpose();
-    const double h = (own_share + row.by_unknown.dot(covariance_ * row.by_unknown)) / s2;
+    const Block& block = blocks_[slots_[point]->block];
+    const Eigen::Index row = slots_[point]->row(belt);
+    const Eigen::VectorXd j = block.line.by_position.row(row), x = block.left.row(row);
+    const double h = (j.dot(block.inverse * j) + x.dot(covariance_ * x)) / s2;
     const auto n = as_double(frame_.checks);
     if (!result.counts) {
       if (n >= 1.0)
@@ -222,35 +224,24 @@ class FitDiagnostics {
     observation::BlockLine line;
     Eigen::MatrixXd inverse;     ///< V^-1
     Eigen::MatrixXd by_unknown;  ///< G
+    Eigen::MatrixXd left;        ///< X
     bool is_taped = false;
-    /// A' w A - A' w J G, and the gradient A' w r - G' J' w r.
+    /// X' w A, and the gradient X' w r.
     [[nodiscard]] Eigen::MatrixXd precision() const {
-      const Eigen::MatrixXd weighed = line.by_parameter.transpose() * line.weight.asDiagonal();
-      return weighed * (line.by_parameter - line.by_position * by_unknown);
+      return left.transpose() * line.weight.asDiagonal() * line.by_parameter;
     }
     [[nodiscard]] Eigen::VectorXd gradient() const {
-      const Eigen::VectorXd weighed = line.weight.cwiseProduct(line.residual_mm);
-      return (line.by_parameter - line.by_position * by_unknown).transpose() * weighed;
+      return left.transpose() * line.weight.cwiseProduct(line.residual_mm);
     }
   };
   /// Index of a point in its block.
   struct Slot {
     std::size_t block = 0;
     Eigen::Index place = 0;
+    [[nodiscard]] Eigen::Index row(model::Belt belt) const {
+      return 4 * place + static_cast<Eigen::Index>(belt);
+    }
   };
-  /// j and x of a reading.
-  struct ReadingRow {
-    Eigen::RowVectorXd by_position;
-    Eigen::VectorXd by_unknown;
-  };
-  [[nodiscard]] ReadingRow row_at(const Slot& slot, model::Belt belt) const {
-    const Block& block = blocks_[slot.block];
-    const Eigen::Index row = 4 * slot.place + static_cast<Eigen::Index>(belt);
-    ReadingRow result{block.line.by_position.row(row),
-                      block.line.by_parameter.row(row).transpose()};
-    result.by_unknown -= block.by_unknown.transpose() * result.by_position.transpose();
-    return result;
-  }
 
   AnchorFit frame_;
   std::shared_ptr<const model::Mechanism> mechanism_;

@@ -32,7 +32,7 @@ struct HeldOutSquare {
 };
 
 double square_at_tool(const FittedPoint& point) {
-  return (point.mark_jacobian.inverse() * point.blocked_residual_mm).squaredNorm();
+  return (point.mark_jacobian.inverse() * point.left_out_with_group).squaredNorm();
 }
 
 /// Keys of points in both fits: the file's number and their own.
@@ -46,8 +46,8 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
   std::map<PointKey, const FittedPoint*> own;
   std::map<std::size_t, std::vector<LengthPoint>> by_file;
   for (const FittedPoint& point : with_causes.points) {
-    own[{point.file, point.point.index}] = &point;
-    by_file[point.file].push_back(point.point);
+    own[{point.observation, point.point.index}] = &point;
+    by_file[point.observation].push_back(point.point);
   }
   std::map<PointKey, std::size_t> block_of;
   std::size_t blocks = 0;
@@ -58,9 +58,9 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
     }
   }
   for (const FittedPoint& point : plain.points) {
-    const PointKey key{point.file, point.point.index};
+    const PointKey key{point.observation, point.point.index};
     const FittedPoint& other = *own.at(key);
-    if (!other.bad)
+    if (!other.is_rejected())
       squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
   }
   if (!squares.empty()) return squares;

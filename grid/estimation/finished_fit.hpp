@@ -29,14 +29,14 @@ namespace chaintrue::grid::estimation {
     if (observed == nullptr) continue;
     auto spline = to_splines.middleRows(columns.spline(side), columns.basis);
     spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) =
-        observed->polynomial_coefficients();
+        observed->polynomials;
     spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) =
-        observed->penalised_basis();
+        observed->penalised;
   }
   Eigen::MatrixXd result = to_splines * problem.covariance(fit) * to_splines.transpose();
   if (observed == nullptr) return result;
-  const Eigen::MatrixXd unobserved = fit.inverse_lambda * observed->null_space_coefficients() *
-                                     observed->null_space_coefficients().transpose();
+  const Eigen::MatrixXd unobserved = fit.inverse_lambda * observed->null_space *
+                                     observed->null_space.transpose();
   for (const model::Side side : model::kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
         unobserved;
@@ -95,7 +95,7 @@ struct FinishedFit {
     for (std::size_t u = 0; u < problem.units().size(); ++u) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
-      const auto back = unit.whitening.inverse();
+      const UnitMatrix back = unit.whitening.inverse();
       const Eigen::MatrixXd rows = problem.design().middleRows(unit.first_row, unit.rows);
       const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
       UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};

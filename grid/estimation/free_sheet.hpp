@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
 
@@ -39,16 +40,15 @@ struct PlacesOnSheet {
     const auto count = std::ssize(commanded);
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const model::MarkPoint& c : commanded)
-      middle += Eigen::Vector2d(c.x_mm, c.y_mm) / as_double(count);
+      middle += vector_of(c) / as_double(count);
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
     double squares = 0.0;
     for (Eigen::Index i = 0; i < count; ++i) {
-      const double x = commanded[as_size(i)].x_mm - middle.x();
-      const double y = commanded[as_size(i)].y_mm - middle.y();
+      const Eigen::Vector2d at = vector_of(commanded[as_size(i)]) - middle;
       motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / as_double(count);
-      motion(2, 2 * i) = -y;
-      motion(2, 2 * i + 1) = x;
-      squares += x * x + y * y;
+      motion(2, 2 * i) = -at.y();
+      motion(2, 2 * i + 1) = at.x();
+      squares += at.squaredNorm();
     }
     motion.row(2) /= squares;
     return motion;
@@ -58,8 +58,7 @@ struct PlacesOnSheet {
   [[nodiscard]] Eigen::VectorXd alongside() const {
     Eigen::VectorXd all(2 * std::ssize(marks));
     for (std::size_t i = 0; i < marks.size(); ++i) {
-      all.segment<2>(2 * as_index(i)) << marks[i].x_mm - commanded[i].x_mm,
-          marks[i].y_mm - commanded[i].y_mm;
+      all.segment<2>(2 * as_index(i)) = difference(marks[i], commanded[i]);
     }
     return all;
   }

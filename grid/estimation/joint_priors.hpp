@@ -26,19 +26,13 @@ inline void add_weighted_rows(const JointProblem& joint,
   for (std::size_t u = 0; u < joint.units().size(); ++u) {
     const double weight = weights[as_index(u)];
     if (weight == 0.0) continue;
-    const double root = std::sqrt(weight);
     const SystemUnit& unit = joint.units()[u];
-    const auto own = joint.design().middleRows(unit.first_row, unit.rows);
-    if (!joint.rejected(u).empty()) {
-      const Eigen::MatrixXd left = root * without_readings(unit, joint.rejected(u)).transpose();
-      design.middleRows(rows, left.rows()) = left * own;
-      response.segment(rows, left.rows()) = left * unit.segment(joint.response());
-      rows += left.rows();
-      continue;
-    }
-    design.middleRows(rows, unit.rows) = root * own;
-    response.segment(rows, unit.rows) = root * unit.segment(joint.response());
-    rows += unit.rows;
+    const Eigen::MatrixXd left =
+        std::sqrt(weight) * without_readings(unit, joint.rejected(u)).transpose();
+    design.middleRows(rows, left.rows()) =
+        left * joint.design().middleRows(unit.first_row, unit.rows);
+    response.segment(rows, left.rows()) = left * unit.segment(joint.response());
+    rows += left.rows();
   }
   problem.add_rows(design.topRows(rows), response.head(rows));
 }
@@ -95,9 +89,9 @@ inline void add_surface_prior(const JointProblem& joint,
   // The lambda at which the splines' penalty weighs as much as the data.
   for (std::size_t u = 0; u < joint.units().size(); ++u) {
     for (const observation::PlaceColumns& place : joint.units()[u].places) {
-      const double square = observed.squares()[as_index(place.place)];
+      const double square = observed.squares[as_index(place.place)];
       problem.ridge.balance += weights[as_index(u)] * square * place.by_chain.squaredNorm() /
-                               (2.0 * observed.penalty_trace());
+                               (2.0 * observed.penalty_trace);
     }
   }
 }

@@ -22,6 +22,7 @@
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "interp/measured_region.hpp"
 
@@ -152,10 +153,8 @@ class JointProblem {
   /// Counted rows minus the fit's effective parameters.
   [[nodiscard]] double dof(const interp::PenalisedFit& fit) const {
     Eigen::Index rows = 0;
-    for (std::size_t u = 0; u < units_.size(); ++u) {
-      rows +=
-          rejected(u).empty() ? units_[u].rows : without_readings(units_[u], rejected(u)).cols();
-    }
+    for (std::size_t u = 0; u < units_.size(); ++u)
+      rows += without_readings(units_[u], rejected(u)).cols();
     return as_double(rows) - fit.edf;
   }
 
@@ -192,9 +191,9 @@ class JointProblem {
       state.surface.scale[side] = all[unknowns_.scale(side)];
       if (!has_surface_) continue;
       state.surface.coefficients[side] =
-          observed_->polynomial_coefficients() *
+          observed_->polynomials *
               all.segment(unknowns_.polynomial(side), unknowns_.polynomials) +
-          observed_->penalised_basis() *
+          observed_->penalised *
               all.segment(unknowns_.first_penalised_of(side), unknowns_.penalised);
     }
     return state;
@@ -235,8 +234,8 @@ class JointProblem {
     surface_marks_ = std::move(places);
     if (!has_surface_ || (observed_ && !places_move_)) return;
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
-    unknowns_.polynomials = observed_->polynomials();
-    unknowns_.penalised = observed_->penalised();
+    unknowns_.polynomials = observed_->polynomials.cols();
+    unknowns_.penalised = observed_->penalised.cols();
   }
 
   /// e f + s at the state.
@@ -246,7 +245,7 @@ class JointProblem {
     const model::ChainLengths own = at.state.reading.lengths;
     const model::ChainLengths corrected =
         state.surface.apply(surface_marks_[place], own, Eigen::Matrix2d::Zero()).lengths;
-    return {corrected.left_mm - own.left_mm, corrected.right_mm - own.right_mm};
+    return difference(corrected, own);
   }
 
   void fill_design(const LinearisedSystem& system, const State& state) {
@@ -284,9 +283,9 @@ class JointProblem {
     if (!has_surface_) return;
     const auto row = as_index(place);
     rows.middleCols(unknowns_.polynomial(side), unknowns_.polynomials) +=
-        by_chain * observed_->polynomial_rows().row(row);
+        by_chain * observed_->polynomial_rows.row(row);
     rows.middleCols(unknowns_.first_penalised_of(side), unknowns_.penalised) +=
-        by_chain * observed_->bend_rows().row(row);
+        by_chain * observed_->penalised_rows.row(row);
   }
 
   /// The scales' and the surface's columns of a unit.

@@ -46,9 +46,9 @@ void add_units(const ObservationSet& set,
     unit.unit = u;
     unit.first_row = part.first_row + rows.first_row;
     unit.rows = rows.rows;
-    unit.whitening = UnitWhitening(line.units[u].covariance);
+    unit.whitening = unit_whitening(line.units[u].covariance);
     unit.reads_chains = part.reads_chains();
-    const UnitWhitening& w = unit.whitening;
+    const UnitMatrix& w = unit.whitening;
     const auto own = Eigen::seqN(unit.first_row, unit.rows);
     system.e(own) = w * residual;
     system.response(own) = w * (residual + by_setting * settings).eval();

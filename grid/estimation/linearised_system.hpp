@@ -46,7 +46,7 @@ struct SystemUnit {
   std::size_t unit = 0;  ///< into the observation's
   Eigen::Index first_row = 0;
   Eigen::Index rows = 1;
-  UnitWhitening whitening{};  ///< W_u
+  UnitMatrix whitening = UnitMatrix::Identity(1, 1);  ///< W_u
   bool reads_chains = false;  ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
@@ -61,7 +61,7 @@ struct SystemUnit {
     return all.segment(first_row, rows);
   }
   /// One sigma of a unit of one reading.
-  [[nodiscard]] double sigma() const { return 1.0 / whitening.matrix()(0, 0); }
+  [[nodiscard]] double sigma() const { return 1.0 / whitening(0, 0); }
 };
 
 /// A place at the state.

@@ -36,7 +36,7 @@ class LocalDesign {
               const interp::BsplineBasis& basis,
               const std::vector<model::MarkPoint>& marks)
       : units_(units), rows_(as_size(design.rows())) {
-    const Eigen::Index penalised = observed.penalised();
+    const Eigen::Index penalised = observed.penalised.cols();
     const Eigen::Index first_bend = unknowns.first_penalised_of(model::Side::left);
     const Eigen::Index plain = unknowns.total() - 2 * penalised;
     const auto splines = [&](model::Side side) { return plain + row_of(side) * basis.size(); };
@@ -50,7 +50,7 @@ class LocalDesign {
     for (const model::Side side : model::kSides) {
       to_unknowns_.block(
           splines(side), unknowns.first_penalised_of(side), basis.size(), penalised) =
-          observed.penalised_basis();
+          observed.penalised;
     }
     for (Eigen::Index k = 0; k < plain; ++k) {
       const auto column = design.col(columns[as_size(k)]);

@@ -62,9 +62,8 @@ void add_columns(ObservationSet& set) {
       set.stated_sigma(part.nuisance_columns[q]) = part.observation->nuisance_sigma()(as_index(q));
     }
     if (!part.sheet) continue;
-    const observation::SheetPrior& prior = *part.observation->sheet();
-    set.stated_sigma.segment<3>(ObservationSet::sheet_column(*part.sheet)) << prior.shift_sigma_mm,
-        prior.shift_sigma_mm, prior.rotation_sigma_rad;
+    set.stated_sigma.segment<3>(ObservationSet::sheet_column(*part.sheet)) =
+        part.observation->sheet()->sigma();
   }
   set.stated_sigma = set.stated_sigma.cwiseMax(kKnownSigma);
 }

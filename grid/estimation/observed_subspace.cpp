@@ -27,35 +27,35 @@ Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::Matrix
 ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
                                    int bending_order,
                                    const std::vector<model::MarkPoint>& marks)
-    : polynomials_(basis.polynomial_coefficients(bending_order - 1)) {
+    : polynomials(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = std::ssize(marks);
   const Eigen::Index size = basis.size();
   const Eigen::MatrixXd penalty = basis.bending_penalty(bending_order);
-  penalty_trace_ = penalty.trace();
-  const Eigen::MatrixXd root = bending_root(penalty, polynomials_);
-  bend_rows_ = Eigen::MatrixXd::Zero(points, size);
-  polynomial_rows_ = Eigen::MatrixXd::Zero(points, polynomials_.cols());
-  squares_ = Eigen::VectorXd::Zero(points);
+  penalty_trace = penalty.trace();
+  const Eigen::MatrixXd root = bending_root(penalty, polynomials);
+  penalised_rows = Eigen::MatrixXd::Zero(points, size);
+  polynomial_rows = Eigen::MatrixXd::Zero(points, polynomials.cols());
+  squares = Eigen::VectorXd::Zero(points);
   for (Eigen::Index i = 0; i < points; ++i) {
     const model::MarkPoint mark = marks[as_size(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
     for (std::size_t k = 0; k < support.index.size(); ++k) {
-      bend_rows_.row(i) += support.value[k] * root.row(support.index[k]);
-      polynomial_rows_.row(i) += support.value[k] * polynomials_.row(support.index[k]);
-      squares_[i] += support.value[k] * support.value[k];
+      penalised_rows.row(i) += support.value[k] * root.row(support.index[k]);
+      polynomial_rows.row(i) += support.value[k] * polynomials.row(support.index[k]);
+      squares[i] += support.value[k] * support.value[k];
     }
   }
   if (points >= size) {
-    penalised_basis_ = root;
-    null_space_.resize(size, 0);
+    penalised = root;
+    null_space.resize(size, 0);
     return;
   }
   // The rows are T' Q': the columns of Q span what the points observe.
-  const linear::Qr parts = linear::qr(bend_rows_.transpose());
+  const linear::Qr parts = linear::qr(penalised_rows.transpose());
   const Eigen::MatrixXd turned = linear::product(root, parts.q);
-  penalised_basis_ = turned.leftCols(points);
-  null_space_ = turned.rightCols(size - points);
-  bend_rows_ = parts.r.transpose();
+  penalised = turned.leftCols(points);
+  null_space = turned.rightCols(size - points);
+  penalised_rows = parts.r.transpose();
 }
 
 }  // namespace chaintrue::grid

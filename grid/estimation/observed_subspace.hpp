@@ -26,36 +26,18 @@
 
 namespace chaintrue::grid {
 
-/// Immutable, thread safe.
-class ObservedSubspace {
- public:
+struct ObservedSubspace {
   ObservedSubspace(const interp::BsplineBasis& basis,
                    int bending_order,
                    const std::vector<model::MarkPoint>& marks);
 
-  [[nodiscard]] Eigen::Index polynomials() const { return polynomials_.cols(); }
-  [[nodiscard]] Eigen::Index penalised() const { return penalised_basis_.cols(); }
-  /// phi(q)' F and phi(q)' B, one row for each mark.
-  [[nodiscard]] const Eigen::MatrixXd& polynomial_rows() const { return polynomial_rows_; }
-  [[nodiscard]] const Eigen::MatrixXd& bend_rows() const { return bend_rows_; }
-  /// F and B.
-  [[nodiscard]] const Eigen::MatrixXd& polynomial_coefficients() const { return polynomials_; }
-  [[nodiscard]] const Eigen::MatrixXd& penalised_basis() const { return penalised_basis_; }
-  /// B2, a basis of the null space; no columns where the points observe everything.
-  [[nodiscard]] const Eigen::MatrixXd& null_space_coefficients() const { return null_space_; }
-  /// Trace of P.
-  [[nodiscard]] double penalty_trace() const { return penalty_trace_; }
-  /// Sum over the splines of phi(q)^2, for each mark.
-  [[nodiscard]] const Eigen::VectorXd& squares() const { return squares_; }
-
- private:
-  Eigen::MatrixXd polynomials_;
-  Eigen::MatrixXd penalised_basis_;
-  Eigen::MatrixXd null_space_;
-  Eigen::MatrixXd polynomial_rows_;
-  Eigen::MatrixXd bend_rows_;
-  Eigen::VectorXd squares_;
-  double penalty_trace_ = 0.0;
+  Eigen::MatrixXd polynomials;      ///< F
+  Eigen::MatrixXd penalised;        ///< B
+  Eigen::MatrixXd null_space;       ///< B2; no columns where the points observe everything
+  Eigen::MatrixXd polynomial_rows;  ///< phi(q)' F, one row for each mark
+  Eigen::MatrixXd penalised_rows;   ///< phi(q)' B
+  Eigen::VectorXd squares;          ///< sum over the splines of phi(q)^2, for each mark
+  double penalty_trace = 0.0;       ///< of P
 };
 
 }  // namespace chaintrue::grid

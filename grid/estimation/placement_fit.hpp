@@ -22,22 +22,18 @@
 namespace chaintrue::grid::estimation {
 
 /// Normal equations of the three unknowns.
-class PlacementNormal {
- public:
+struct PlacementNormal {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+
   /// One reading of both chains: measured less predicted, d(predicted)/d(placement), and the inverse
   /// of its covariance.
   void add(const Eigen::Vector2d& residual,
            const Eigen::Matrix<double, 2, 3>& by_placement,
            const Eigen::Matrix2d& weight) {
-    normal_ += by_placement.transpose() * weight * by_placement;
-    right_ += by_placement.transpose() * weight * residual;
+    normal += by_placement.transpose() * weight * by_placement;
+    right += by_placement.transpose() * weight * residual;
   }
-  void add_prior(const model::SheetPlacement& at, const observation::SheetPrior& prior);
-  [[nodiscard]] Eigen::Vector3d solve() const;
-
- private:
-  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
 };
 
 /// Adds the readings to the equations about a placement; false if the machine has no pose, which

@@ -55,7 +55,7 @@ ReadingShift shift_of(const FittedRows& rows,
   const double kept = own - spread / s2;
   // The share refers to a whole reading: its effect on the rows is reduced by the estimate of its
   // place.
-  const double whole = unit.whitening.matrix().row(0).squaredNorm();
+  const double whole = unit.whitening.row(0).squaredNorm();
   if (kept < kOwnWord * whole || n < 2.0) return shift;
   shift.residual_mm = r / kept;
   shift.sigmas = deleted_deviate(r, kept, s2, n);

@@ -10,7 +10,7 @@
 
 namespace chaintrue::grid::estimation {
 
-UnitWhitening::UnitWhitening(const Eigen::MatrixXd& covariance) {
+UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance) {
   const Eigen::Index n = covariance.rows();
   if (n < 1 || n > kMostUnitReadings || covariance.cols() != n) {
     throw precondition("the covariance of a unit's readings is {} x {}; 1 to {} readings are allowed",
@@ -18,20 +18,12 @@ UnitWhitening::UnitWhitening(const Eigen::MatrixXd& covariance) {
                        covariance.cols(),
                        kMostUnitReadings);
   }
-  if (n == 1) {
-    matrix_ = Matrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
-  } else if (n == 2) {
+  if (n == 1) return UnitMatrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
+  if (n == 2) {
     const Eigen::Matrix2d lower = Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL();
-    matrix_ = lower.inverse();
-  } else {
-    matrix_ = linear::Cholesky(covariance).half_solve(Eigen::MatrixXd::Identity(n, n));
+    return lower.inverse();
   }
-}
-
-UnitWhitening::Matrix UnitWhitening::inverse() const {
-  if (rows() == 1) return matrix_.cwiseInverse();
-  if (rows() == 2) return Eigen::Matrix2d(matrix_).inverse();
-  return matrix_.triangularView<Eigen::Lower>().solve(Matrix::Identity(rows(), rows()));
+  return linear::Cholesky(covariance).half_solve(Eigen::MatrixXd::Identity(n, n));
 }
 
 }  // namespace chaintrue::grid::estimation

@@ -11,6 +11,7 @@
 #include "grid/containers.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/transformation_search.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -33,23 +34,17 @@ Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distan
   basis[6] = 1.0;
   if (!distance.edge) {
     const model::BedPoint to = set.holes[distance.to].commanded;
-    const double length = std::max(1.0, std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm));
-    const double x = (to.x_mm - from.x_mm) / length;
-    const double y = (to.y_mm - from.y_mm) / length;
-    const double metres = length / kMetreMm;
-    basis[3] = metres * x * x;
-    basis[4] = metres * y * y;
-    basis[5] = metres * x * y;
+    const Eigen::Vector2d way = difference(to, from);
+    const double length = std::max(1.0, way.norm());
+    basis.segment<3>(3) << way.x() * way.x(), way.y() * way.y(), way.x() * way.y();
+    basis.segment<3>(3) /= length * kMetreMm;
     return basis;
   }
-  const double x = from.x_mm / kMetreMm;
-  const double y = from.y_mm / kMetreMm;
-  const bool is_sideways = *distance.edge == SheetEdge::left || *distance.edge == SheetEdge::right;
-  const double sign =
-      *distance.edge == SheetEdge::left || *distance.edge == SheetEdge::bottom ? 1.0 : -1.0;
-  basis[is_sideways ? 0 : 1] = sign;
-  basis[2] = is_sideways ? -sign * y : sign * x;
-  basis[is_sideways ? 3 : 4] = sign * (is_sideways ? x : y);
+  const Eigen::Vector2d at = vector_of(from) / kMetreMm;
+  const EdgeLine line = edge_line(set, *distance.edge);
+  basis[line.axis] = line.sign;
+  basis[2] = line.sign * (line.axis == 0 ? -at.y() : at.x());
+  basis[3 + line.axis] = line.sign * at[line.axis];
   return basis;
 }
 

@@ -14,6 +14,7 @@
 #include "grid/containers.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/kinematics.hpp"
 
@@ -103,7 +104,7 @@ class PointAccounts {
   [[nodiscard]] Eigen::Vector2d off(const RobustTrend& trend,
                                     model::MarkPoint mark,
                                     model::BedPoint place) const {
-    return Eigen::Vector2d(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) -
+    return difference(mark, place) -
            (basis_at(place) * trend.coefficients).transpose();
   }
 

@@ -15,6 +15,7 @@
 #include "grid/input_checks/point_accounts.hpp"
 #include "grid/input_checks/whole_checks.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::input_checks {
@@ -212,9 +213,9 @@ std::optional<double> apart_from_its_repeat(const PlacedPoints& placed, std::siz
     if (j == row || !places[j]) continue;
     const model::BedPoint a = *places[row];
     const model::BedPoint b = *places[j];
-    if (std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm) > kRepeatMm) continue;
+    if (distance_mm(a, b) > kRepeatMm) continue;
     const model::MarkPoint m = points[row].mark;
-    apart = std::hypot(m.x_mm - points[j].mark.x_mm, m.y_mm - points[j].mark.y_mm);
+    apart = distance_mm(m, points[j].mark);
   }
   return apart;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "grid/input_checks/number_checks.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -83,7 +84,7 @@ void add_axes(List& list) {
       {kQuarter, Eigen::Matrix2d{{0, -1}, {1, 0}}}};
   for (const Axes& own : axes) {
     list.mark(ProblemKind::axes, own.sentence, [meant = own.meant](MarkPoint m, BedPoint) {
-      const Eigen::Vector2d at = meant * Eigen::Vector2d(m.x_mm, m.y_mm);
+      const Eigen::Vector2d at = meant * vector_of(m);
       return MarkPoint{at.x(), at.y()};
     });
   }
@@ -291,7 +292,7 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
       const Place& place = written.places[j];
       if (!place || taken[j]) continue;
       const double apart =
-          std::hypot(point.mark.x_mm - place->x_mm, point.mark.y_mm - place->y_mm);
+          distance_mm(point.mark, *place);
       if (best && apart >= least) continue;
       best = j;
       least = apart;

@@ -96,14 +96,9 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
 /// single unit adds to that unit's noise; other places are shared.
 ReadingCovariance with_unknown(const CheckReadings& readings) {
   ReadingCovariance k = readings.covariance;
-  std::vector<std::size_t> unit_of;
-  std::vector<Eigen::Index> first_row;
-  Eigen::Index row = 0;
-  for (std::size_t u = 0; u < k.own.size(); ++u) {
-    first_row.push_back(row);
-    row += k.own[u].rows();
-    unit_of.resize(as_size(row), u);
-  }
+  std::vector<std::size_t> unit_of;  // of each row
+  for (std::size_t u = 0; u < readings.units.size(); ++u)
+    unit_of.resize(readings.units[u].first_row + readings.units[u].rows, u);
   std::vector<Eigen::Triplet<double>> shared;
   Eigen::Index columns = 0;
   for (Eigen::Index length = 0; length < readings.by_length.cols(); ++length) {
@@ -113,9 +108,10 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
     if (conditioned.empty()) continue;
     const std::size_t unit = unit_of[as_size(conditioned.front().first)];
     if (unit == unit_of[as_size(conditioned.back().first)]) {
+      const auto first = as_index(readings.units[unit].first_row);
       for (const auto& [i, by_i] : conditioned) {
         for (const auto& [j, by_j] : conditioned)
-          k.own[unit](i - first_row[unit], j - first_row[unit]) += by_i * by_j;
+          k.own[unit](i - first, j - first) += by_i * by_j;
       }
       continue;
     }
@@ -143,13 +139,7 @@ class Evidence {
         nothing_(readings.covariance),
         residual_(nothing_.conditioned(readings.residual_mm)),
         pulled_(nothing_.pulled(residual_)),
-        precision_(nothing_.precision_of_units()) {
-    Eigen::Index row = 0;
-    for (const Eigen::MatrixXd& unit : precision_) {
-      first_row_.push_back(row);
-      row += unit.rows();
-    }
-  }
+        precision_(nothing_.precision_of_units()) {}
 
   /// Stores the posterior of q; `unit` is the bad one, if that is the hypothesis.
   [[nodiscard]] double weigh(Proposal& proposal, std::size_t unit) const {
@@ -181,7 +171,8 @@ class Evidence {
     m.diagonal().array() += 1.0;
     const linear::Cholesky factor(std::move(m));
     const Eigen::VectorXd conditioned =
-        kOutlierSigmaMm * pulled_.segment(first_row_[unit], precision.rows());
+        kOutlierSigmaMm *
+        pulled_.segment(as_index(readings_.units[unit].first_row), precision.rows());
     return log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                        residual_.squaredNorm() - conditioned.dot(factor.solve(conditioned)));
   }
@@ -225,7 +216,6 @@ class Evidence {
   Eigen::VectorXd residual_;  ///< Y of reading_covariance.hpp (2)
   Eigen::VectorXd pulled_;    ///< K^-1 r
   std::vector<Eigen::MatrixXd> precision_;
-  std::vector<Eigen::Index> first_row_;
 };
 
 }  // namespace

@@ -22,7 +22,7 @@
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/observation/tape_distances.hpp"
-#include "grid/observation/tape_zero.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_changes.hpp"
 #include "model/reading_model.hpp"
@@ -30,7 +30,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::ChainLengths;
 using model::MarkPoint;
 
 using Entries = std::vector<Eigen::Triplet<double>>;
@@ -77,8 +76,8 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
     if (is_new) result.push_back({point, 0.0});
     Repeated& one = result[place->second];
     one.count += 1.0;
-    one.point.lengths.left_mm += (point.lengths.left_mm - one.point.lengths.left_mm) / one.count;
-    one.point.lengths.right_mm += (point.lengths.right_mm - one.point.lengths.right_mm) / one.count;
+    for (const model::Side side : model::kSides)
+      one.point.lengths[side] += (point.lengths[side] - one.point.lengths[side]) / one.count;
   }
   return result;
 }
@@ -118,32 +117,36 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
                   most));
 }
 
+/// Of the mean of a mark's readings.
+Eigen::Matrix2d noise_at(const CheckedPart& part,
+                         const Repeated& one,
+                         const Eigen::Matrix2d& by_mark) {
+  Eigen::Matrix2d covariance =
+      observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
+      one.count;
+  covariance.diagonal().array() += kLeastVarianceMm2;
+  return covariance;
+}
+
 /// Places the sheet and its marks by the readings and its prior.
 void lay(const CompensationMap& map, CheckedPart& part) {
-  const auto on_map = [](const model::SheetPlacement& sheet, MarkPoint mark) {
-    const model::BedPoint place = sheet.to_bed(mark);
-    return MarkPoint{place.x_mm, place.y_mm};
+  const auto on_map = [](const model::SheetPlacement& sheet, const Repeated& one) {
+    return model::identity_placement(sheet.to_bed(one.point.mark));
   };
-  const observation::PointNoise noise{part.noise.length_mm, part.noise.position_mm};
   part.placement = estimation::fit_placement(
       [&](const model::SheetPlacement& sheet, estimation::PlacementNormal& sum) {
         for (const Repeated& one : part.points) {
-          const MarkPoint& mark = one.point.mark;
-          const auto here = map.lengths(on_map(sheet, mark));
+          const auto here = map.lengths(on_map(sheet, one));
           if (!here) return false;
-          Eigen::Matrix2d covariance =
-              observation::covariance_of(noise, here->mark_jacobian) / one.count;
-          covariance.diagonal().array() += kLeastVarianceMm2;
-          sum.add({one.point.lengths.left_mm - here->lengths.left_mm,
-                   one.point.lengths.right_mm - here->lengths.right_mm},
-                  here->mark_jacobian * sheet.sensitivity(mark),
-                  covariance.inverse());
+          sum.add(difference(one.point.lengths, here->lengths),
+                  here->mark_jacobian * sheet.sensitivity(one.point.mark),
+                  noise_at(part, one, here->mark_jacobian).inverse());
         }
         return true;
       },
       part.sheet);
   for (std::size_t i = 0; i < part.marks.size(); ++i)
-    part.marks[i] = on_map(part.placement, part.points[i].point.mark);
+    part.marks[i] = on_map(part.placement, part.points[i]);
 }
 
 tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
@@ -158,7 +161,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                   corrected.error().sentence());
   }
   const auto points = length_points(corrected->grid);
-  if (!points) return failed(Reason::no_lengths, points.error().sentence());
+  if (!points) return failed(Reason::no_lengths, points.error());
   CheckedPart part;
   part.notes = corrected->notes;
   part.points = merged(*points);
@@ -187,7 +190,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   if (once.holes.size() > kMostCheckedHoles)
     return too_many(once.holes.size(), kMostCheckedHoles, "holes");
   auto distances = observation::TapeDistances::in_given_order(std::move(once));
-  if (!distances) return failed(Reason::no_lengths, distances.error().sentence());
+  if (!distances) return failed(Reason::no_lengths, distances.error());
   CheckedPart part;
   for (const observation::Place& place : distances->places()) {
     const auto mark = map.inverse(place.lengths);
@@ -201,7 +204,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   // Edges belong to their sheet; distances between holes do not depend on it.
   if (any_of(set.distances,
              [](const HoleDistance& distance) { return distance.edge.has_value(); })) {
-    part.sheet = observation::SheetPrior{observation::kSheetShiftMm, observation::kSheetTurnRad};
+    part.sheet = observation::kSheetByEdges;
   }
   return part;
 }
@@ -264,66 +267,70 @@ class Gathered {
  public:
   explicit Gathered(const MapAt& at) : at_(at) {}
 
-  /// `first` is where the part's places begin among all.
-  void add(const CheckedPart& part, std::size_t first) {
+  /// `first` is where the part's places begin among all; `of` distinguishes several files: "", or
+  /// " of holes.json".
+  void add(const CheckedPart& part, std::size_t first, const std::string& of) {
     if (part.distances) {
-      add_distances(part, first);
+      add_distances(part, first, of);
     } else {
-      add_points(part, first);
+      add_points(part, first, of);
     }
   }
 
-  [[nodiscard]] CheckReadings readings() const {
-    CheckReadings readings;
+  [[nodiscard]] CheckReadings readings() && {
     const auto rows = std::ssize(residual_mm_);
     const auto places = std::ssize(at_.lengths);
-    readings.residual_mm = Eigen::Map<const Eigen::VectorXd>(residual_mm_.data(), rows);
-    readings.by_length.resize(rows, 2 * places);
-    readings.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
-    ReadingCovariance& covariance = readings.covariance;
-    covariance.own = own_;
+    readings_.residual_mm = Eigen::Map<const Eigen::VectorXd>(residual_mm_.data(), rows);
+    readings_.by_length.resize(rows, 2 * places);
+    readings_.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
+    ReadingCovariance& covariance = readings_.covariance;
     covariance.shared.resize(rows, shared_columns_);
     covariance.shared.setFromTriplets(shared_.begin(), shared_.end());
-    covariance.of_map = narrowed(readings.by_length * at_.factor);
-    readings.by_parameter = readings.by_length * at_.by_parameter;
-    readings.lengths_mm.resize(2 * places);
-    for (Eigen::Index i = 0; i < places; ++i) {
-      const ChainLengths& lengths = at_.lengths[as_size(i)];
-      readings.lengths_mm.segment<2>(2 * i) << lengths.left_mm, lengths.right_mm;
-    }
-    return readings;
+    covariance.of_map = narrowed(readings_.by_length * at_.factor);
+    readings_.by_parameter = readings_.by_length * at_.by_parameter;
+    readings_.lengths_mm.resize(2 * places);
+    for (Eigen::Index i = 0; i < places; ++i)
+      readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.lengths[as_size(i)]);
+    return std::move(readings_);
   }
 
  private:
   [[nodiscard]] Eigen::Index row() const { return std::ssize(residual_mm_); }
 
-  void add_points(const CheckedPart& part, std::size_t first) {
+  /// The rows that were named last are good or bad together.
+  void add_unit(std::string name, Eigen::MatrixXd covariance) {
+    const auto rows = as_size(covariance.rows());
+    readings_.units.push_back(
+        {std::move(name), readings_.units.size(), readings_.names.size() - rows, rows});
+    readings_.covariance.own.push_back(std::move(covariance));
+  }
+
+  void add_points(const CheckedPart& part, std::size_t first, const std::string& of) {
     const Eigen::Index before = row();
     const Eigen::Vector3d laid(
         part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
     Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
-      const ChainLengths& read = part.points[i].point.lengths;
-      const ChainLengths& mapped = at_.lengths[first + i];
+      const LengthPoint& point = part.points[i].point;
       const Eigen::Matrix2d& by_mark = at_.by_mark[first + i];
-      Eigen::MatrixXd own =
-          observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
-          part.points[i].count;
-      own.diagonal().array() += kLeastVarianceMm2;
-      if (!at_.covariance.empty()) own += at_.covariance[first + i];
-      own_.push_back(std::move(own));
       const auto chain = 2 * as_index(first + i);
       for (Eigen::Index side = 0; side < 2; ++side)
         by_length_.emplace_back(row() + side, chain + side, 1.0);
-      Eigen::Vector2d residual(read.left_mm - mapped.left_mm, read.right_mm - mapped.right_mm);
+      Eigen::Vector2d residual = difference(point.lengths, at_.lengths[first + i]);
       if (part.sheet) {
         auto by_own_sheet = by_sheet.middleRows<2>(2 * as_index(i));
-        by_own_sheet = by_mark * part.placement.sensitivity(part.points[i].point.mark);
+        by_own_sheet = by_mark * part.placement.sensitivity(point.mark);
         residual += by_own_sheet * laid;
       }
       append_all(residual_mm_, residual);
+      const std::string name = fmt::format("point {}{}", point.index + 1, of);
+      for (const char* side : {"left", "right"})
+        readings_.names.push_back(fmt::format("{}, {} chain", name, side));
+      Eigen::MatrixXd own = noise_at(part, part.points[i], by_mark);
+      if (!at_.covariance.empty()) own += at_.covariance[first + i];
+      add_unit(name, std::move(own));
     }
-    if (part.sheet) add_sheet(*part.sheet, by_sheet, before);
+    if (part.sheet) add_shared(by_sheet * part.sheet->sigma().asDiagonal(), before);
   }
 
   /// Errors that the rows from one on share, one sigma a column.
@@ -336,28 +343,21 @@ class Gathered {
     }
   }
 
-  /// Displacement of a sheet from its intended place.
-  void add_sheet(const observation::SheetPrior& sheet,
-                 const Eigen::MatrixX3d& by_sheet,
-                 Eigen::Index first_row) {
-    const Eigen::Vector3d sigma(
-        sheet.shift_sigma_mm, sheet.shift_sigma_mm, sheet.rotation_sigma_rad);
-    add_shared(by_sheet * sigma.asDiagonal(), first_row);
-  }
-
-  void add_distances(const CheckedPart& part, std::size_t first) {
+  void add_distances(const CheckedPart& part, std::size_t first, const std::string& of) {
     const MeasuredHoles& set = part.distances->set();
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
     const Eigen::VectorXd residual = part.distances->measured() - geometry.predicted_mm;
     const Eigen::Index before = row(), count = residual.size();
+    append_all(residual_mm_, residual);
     // The map's uncertainty at a hole, which all of its distances share.
     Eigen::MatrixXd by_map =
         Eigen::MatrixXd::Zero(count, at_.covariance.empty() ? 0 : geometry.by_mark.cols());
     Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
     for (Eigen::Index k = 0; k < count; ++k) {
       const HoleDistance& distance = set.distances[as_size(k)];
-      residual_mm_.push_back(residual[k]);
-      own_.push_back(Eigen::MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
+      readings_.names.push_back(words_of(set, distance) + of);
+      add_unit(readings_.names.back(),
+               Eigen::MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
       std::vector<std::size_t> ends = {distance.from};
       if (!distance.edge) ends.push_back(distance.to);
       for (const std::size_t hole : ends) {
@@ -383,37 +383,17 @@ class Gathered {
     add_shared(set.hole_sigma_mm * geometry.by_mark, before);
     add_shared(by_map, before);
     add_shared(set.sheet.size_sigma_mm * geometry.by_size, before);
-    const double tape_zero_mm = tape_zero_sigma_mm(set.tape);
-    if (tape_zero_mm != 0.0)
-      add_shared(Eigen::VectorXd::Constant(count, tape_zero_mm), before);
-    if (part.sheet) add_sheet(*part.sheet, by_sheet, before);
+    add_shared(Eigen::VectorXd::Constant(count, tape_zero_sigma_mm(set.tape)), before);
+    if (part.sheet) add_shared(by_sheet * part.sheet->sigma().asDiagonal(), before);
   }
 
   const MapAt& at_;
+  CheckReadings readings_;
   std::vector<double> residual_mm_;
-  std::vector<Eigen::MatrixXd> own_;
   Entries by_length_;
   Entries shared_;
   Eigen::Index shared_columns_ = 0;
 };
-
-/// `of` distinguishes several files: "", or " of holes.json".
-void name_rows(const CheckedPart& part, const std::string& of, CheckReadings& readings) {
-  const auto add = [&readings](std::string name, std::size_t rows) {
-    readings.units.push_back(
-        {std::move(name), readings.units.size(), readings.names.size() - rows, rows});
-  };
-  for (const auto& [point, count] : part.points) {
-    for (const char* side : {"left", "right"})
-      readings.names.push_back(fmt::format("point {}{}, {} chain", point.index + 1, of, side));
-    add(fmt::format("point {}{}", point.index + 1, of), 2);
-  }
-  if (!part.distances) return;
-  for (const HoleDistance& distance : part.distances->set().distances) {
-    readings.names.push_back(words_of(part.distances->set(), distance) + of);
-    add(readings.names.back(), 1);
-  }
-}
 
 }  // namespace
 
@@ -439,11 +419,11 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   if (!at) return tl::unexpected(at.error());
   Gathered gathered(*at);
   std::size_t first = 0;
-  for (const CheckedPart& part : parts) {
-    gathered.add(part, first);
-    first += part.marks.size();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    gathered.add(parts[k], first, files.size() > 1 ? " of " + files[k].name : std::string{});
+    first += parts[k].marks.size();
   }
-  CheckReadings readings = gathered.readings();
+  CheckReadings readings = std::move(gathered).readings();
   constexpr double kUsualPitchMm = 6.35;
   readings.changes = map.machine() != nullptr
                          ? model::ReadingModel(*map.machine()).possible_changes()
@@ -452,7 +432,6 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
       map.machine() != nullptr ? map.machine()->chain_zero : model::ChainLengths{};
   readings.zero_mm = {zero.left_mm, zero.right_mm};
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    name_rows(parts[k], files.size() > 1 ? " of " + files[k].name : std::string{}, readings);
     for (const std::string& note : parts[k].notes) readings.notes.push_back(head_of(files[k]) + note);
   }
   return readings;

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "grid/map/map_field.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid {
 
@@ -39,7 +40,7 @@ class CompensationMap {
       throw std::invalid_argument(
           "a map without a machine has no value where its surface fades out");
     }
-    field_ = MapField::make(contents_);
+    field_ = std::make_shared<const MapField>(contents_);
   }
   /// This map with another continuation.
   [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const {
@@ -98,8 +99,7 @@ class CompensationMap {
       const auto found = field->at(mark);
       if (!found) return tl::unexpected(found.error());
       const MapLengths& here = found->here;
-      const Eigen::Vector2d missing(wanted.left_mm - here.lengths.left_mm,
-                                    wanted.right_mm - here.lengths.right_mm);
+      const Eigen::Vector2d missing = difference(wanted, here.lengths);
       const Eigen::Vector2d move = here.mark_jacobian.inverse() * missing;
       if (!move.allFinite()) break;
       // A step may leave the domain temporarily, but not to where the chains cannot hold the sled.
@@ -107,7 +107,7 @@ class CompensationMap {
       if (move.norm() >= kConvergedMm) continue;
       // On the domain's edge the last step may end outside by the tolerance.
       const model::MarkPoint inside = within(mark, 0.0);
-      if (std::hypot(inside.x_mm - mark.x_mm, inside.y_mm - mark.y_mm) < kConvergedMm)
+      if (distance_mm(inside, mark) < kConvergedMm)
         mark = inside;
       if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
       return mark;

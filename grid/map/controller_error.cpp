@@ -7,6 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/map/largest_error.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 #include "model/controllers/payout.hpp"
 
@@ -33,8 +34,7 @@ std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map,
     moved += step;
     const auto lengths = map.lengths(there);
     if (!lengths) return std::nullopt;
-    jacobian.col(axis) << (lengths->left_mm - here.left_mm) / step,
-        (lengths->right_mm - here.right_mm) / step;
+    jacobian.col(axis) = difference(*lengths, here) / step;
   }
   return jacobian;
 }
@@ -92,8 +92,7 @@ std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
     const auto lengths = paid_out(places[i].commanded);
     if (!lengths) return std::nullopt;
     errors.segment<2>(2 * as_index(i)) =
-        places[i].to_tool * Eigen::Vector2d(lengths->left_mm - places[i].lengths.left_mm,
-                                            lengths->right_mm - places[i].lengths.right_mm);
+        places[i].to_tool * difference(*lengths, places[i].lengths);
   }
   return errors;
 }

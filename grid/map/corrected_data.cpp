@@ -58,7 +58,7 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
                                                 const Machine& with_visits,
                                                 const Machine& without) {
   const auto points = length_points(grid);
-  if (!points) return failed(FitReason::no_lengths, points.error().sentence());
+  if (!points) return failed(FitReason::no_lengths, points.error());
   std::vector<model::Visit> visits;
   for (const MeasuredPoint& point : grid.points)
     visits.push_back({model::identity_placement(point.mark), *point.order});

@@ -50,16 +50,14 @@ class DistancesPart final : public FitPart {
       draft.notes.push_back(name.empty() ? note : fmt::format("{}: {}", name, note));
     if (name.empty()) note_noise(fitting.estimate.noise_factor, draft.notes);
     if (file == 0) note_frame(draft.frame_notes);
-    const auto rejected = std::count_if(fit.distances.begin(),
-                                        fit.distances.end(),
-                                        [](const FittedDistance& one) { return one.rejected; });
+    const DistancesUsed used = distances_used(fit.distances, set().tape.sigma_mm);
     draft.sources.push_back(fmt::format(
         "{} distances between {} holes of {}{}, each predicted by the others within {:.2f} mm rms",
         fit.distances.size(),
         fit.holes.size(),
         name,
-        rejected == 0 ? "" : fmt::format(" ({} left out)", rejected),
-        fit.left_out_good.rms_mm));
+        used.rejected == 0 ? "" : fmt::format(" ({} left out)", used.rejected),
+        used.left_out_good.rms_mm));
     if (fitting.input.surface == estimation::SurfaceUse::on_evidence)
       add_holes(draft, fitting, fit);
     draft.distances.push_back(std::move(fit));
@@ -123,7 +121,7 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& 
   }
   auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {
-    return failed(FitReason::no_lengths, distances.error().sentence());
+    return failed(FitReason::no_lengths, distances.error());
   }
   if (auto possible = check_readings_of(*set.machine, set.readings, "set's"); !possible)
     return tl::unexpected(possible.error());

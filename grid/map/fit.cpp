@@ -14,6 +14,7 @@
 #include "grid/map/lattice_residual.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/observation/length_points.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid {
 
@@ -122,7 +123,7 @@ tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
 tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                                                      const FitOptions& options) {
   const auto points = length_points(grid);
-  if (!points) return failed(FitReason::no_lengths, points.error().sentence());
+  if (!points) return failed(FitReason::no_lengths, points.error());
   Lattice lattice = lattice_of(*points);
   if (auto full = check_full(lattice); !full) return tl::unexpected(full.error());
 
@@ -168,8 +169,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
     MapPoint result;
     result.mark = point.mark;
     result.lengths = point.lengths;
-    const Eigen::Vector2d chain(point.lengths.left_mm - here->lengths.left_mm,
-                                point.lengths.right_mm - here->lengths.right_mm);
+    const Eigen::Vector2d chain = difference(point.lengths, here->lengths);
     result.mapped_mm = -(here->mark_jacobian.inverse() * chain);
     map.points.push_back(result);
   }

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "grid/containers.hpp"
-#include "grid/observation/tape_zero.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid {
@@ -18,14 +18,6 @@ using model::MarkPoint;
 
 /// Sigmas from which a tape's zero offset is reported: one sound file in 370 exceeds it.
 constexpr double kTapeZeroSigmas = 3.0;
-
-ErrorSummary left_out_summary(const std::vector<FittedDistance>& distances, bool with_rejected) {
-  std::vector<double> left_out;
-  for (const FittedDistance& distance : distances) {
-    if (!distance.rejected || with_rejected) left_out.push_back(distance.left_out_mm);
-  }
-  return summary_of(left_out);
-}
 
 void note_rejected(const MeasuredHoles& set,
                    const FittedDistances& fit,
@@ -101,8 +93,6 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
   constexpr Eigen::Index kTapeZero = 2;
   if (tape_zero_sigma_mm(set.tape) > 0.0)
     fit.tape_zero = FoundTapeZero{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
-  fit.left_out_all = left_out_summary(fit.distances, true);
-  fit.left_out_good = left_out_summary(fit.distances, false);
   return fit;
 }
 
@@ -111,7 +101,7 @@ MapPoint map_point(const FittedHole& hole) {
   point.mark = hole.place;
   point.lengths = hole.lengths;
   const auto shifted = [&hole](MarkPoint from) {
-    return Eigen::Vector2d(hole.place.x_mm - from.x_mm, hole.place.y_mm - from.y_mm);
+    return difference(hole.place, from);
   };
   point.as_stated_mm = point.sheet_placed_mm = shifted(hole.as_stated);
   point.mapped_mm = point.left_out_mm = shifted(hole.predicted);
@@ -121,11 +111,14 @@ MapPoint map_point(const FittedHole& hole) {
 DistancesUsed distances_used(const std::vector<FittedDistance>& distances, double tape_sigma_mm) {
   DistancesUsed used;
   used.tape_sigma_mm = tape_sigma_mm;
+  std::vector<double> all, good;
   for (const FittedDistance& distance : distances) {
     (distance.rejected ? used.rejected : used.used) += 1;
+    all.push_back(distance.left_out_mm);
+    if (!distance.rejected) good.push_back(distance.left_out_mm);
   }
-  used.left_out_all = left_out_summary(distances, true);
-  used.left_out_good = left_out_summary(distances, false);
+  used.left_out_all = summary_of(all);
+  used.left_out_good = summary_of(good);
   return used;
 }
 

@@ -46,8 +46,6 @@ struct FittedDistances {
   std::vector<FittedDistance> distances;
   std::vector<FittedHole> holes;
   std::optional<FoundTapeZero> tape_zero;
-  ErrorSummary left_out_all;   ///< every reading
-  ErrorSummary left_out_good;  ///< those that fit
 };
 [[nodiscard]] FittedDistances fitted_distances(const observation::TapeDistances& distances,
                                                const estimation::Estimate& estimate,

@@ -6,6 +6,7 @@
 #include "grid/containers.hpp"
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/map/map_accuracy.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
@@ -24,7 +25,7 @@ Eigen::Vector2d landed_minus_sent(model::BedPoint commanded,
                             model::MarkPoint mark) {
   const model::BedPoint place = sheet.to_bed(mark);
   return sheet.rotation().transpose() *
-         Eigen::Vector2d(place.x_mm - commanded.x_mm, place.y_mm - commanded.y_mm);
+         difference(place, commanded);
 }
 
 /// Fits the placement of the sheet under the uncalibrated machine, by weighted least squares on its
@@ -35,7 +36,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
                                           const model::ReadingModel& stated) {
   std::vector<LengthPoint> good;
   for (const FittedPoint& point : points) {
-    if (!point.bad) good.push_back(point.point);
+    if (!point.is_rejected()) good.push_back(point.point);
   }
   const observation::ChainLengthReadings readings =
       chain_length_readings(good, noise, 0.0, grid.sheet);
@@ -65,8 +66,7 @@ Eigen::Vector2d error_as_stated(const model::ReadingModel& model,
   const auto reading = model.at(sheet.to_bed(point.mark));
   if (!reading) return Eigen::Vector2d::Zero();
   return to_tool(reading->position_jacobian * sheet.rotation(),
-                 Eigen::Vector2d(point.lengths.left_mm - reading->lengths.left_mm,
-                                 point.lengths.right_mm - reading->lengths.right_mm));
+                 difference(point.lengths, reading->lengths));
 }
 
 }  // namespace
@@ -77,16 +77,9 @@ std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
   std::vector<FittedPoint> fitted;
   for (const estimation::UnitEstimate& unit : estimate.units) {
     if (unit.observation != observation) continue;
-    FittedPoint point;
-    point.file = observation;
-    point.point = points[unit.unit];
-    point.bad = unit.is_rejected();
-    point.distance = unit.distance;
-    point.residual_mm = unit.residual;
-    point.left_out_residual_mm = unit.left_out;
-    point.blocked_residual_mm = unit.left_out_with_group;
-    point.mark_jacobian = estimate.observations[observation].places[unit.unit].by_mark;
-    fitted.push_back(point);
+    fitted.push_back({unit,
+                      points[unit.unit],
+                      estimate.observations[observation].places[unit.unit].by_mark});
   }
   return fitted;
 }
@@ -95,9 +88,9 @@ MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points) {
   std::vector<HeldOutResidual> one;
   std::vector<HeldOutResidual> blocks;
   for (const FittedPoint& point : points) {
-    if (point.bad) continue;
-    one.push_back({point.left_out_residual_mm, point.mark_jacobian});
-    blocks.push_back({point.blocked_residual_mm, point.mark_jacobian});
+    if (point.is_rejected()) continue;
+    one.push_back({point.left_out, point.mark_jacobian});
+    blocks.push_back({point.left_out_with_group, point.mark_jacobian});
   }
   MapAccuracy accuracy;
   accuracy.leave_one_out = summarise(one);
@@ -116,12 +109,12 @@ std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
     MapPoint point;
     point.mark = fitted.point.mark;
     point.lengths = fitted.point.lengths;
-    point.bad = fitted.bad;
+    point.bad = fitted.is_rejected();
     point.distance_sigmas = fitted.distance;
     point.as_stated_mm = error_as_stated(stated, {}, fitted.point);
     point.sheet_placed_mm = error_as_stated(stated, laid, fitted.point);
-    point.mapped_mm = to_tool(fitted.mark_jacobian, fitted.residual_mm);
-    point.left_out_mm = to_tool(fitted.mark_jacobian, fitted.left_out_residual_mm);
+    point.mapped_mm = to_tool(fitted.mark_jacobian, fitted.residual);
+    point.left_out_mm = to_tool(fitted.mark_jacobian, fitted.left_out);
     result.push_back(point);
   }
   return result;

@@ -12,25 +12,10 @@
 
 namespace chaintrue::grid {
 
-/// One point after the fit.
-struct FittedPoint {
-  std::size_t file = 0;  ///< the number of its file
+/// One point after the fit, with its residuals in the chains.
+struct FittedPoint : estimation::UnitEstimate {
   LengthPoint point;
-  bool bad = false;
-  double distance = 0.0;  ///< of the left-out residual, in sigmas
-  /// Measured minus predicted, in the chains.
-  Eigen::Vector2d residual_mm = Eigen::Vector2d::Zero();           ///< of the finished map
-  Eigen::Vector2d left_out_residual_mm = Eigen::Vector2d::Zero();  ///< of a map made without this point
-  Eigen::Vector2d blocked_residual_mm = Eigen::Vector2d::Zero();   ///< of a map made without its part of the bed
-  Eigen::Matrix2d mark_jacobian;         ///< d(lengths)/d(mark)
-};
-
-struct PointsFit {
-  estimation::Estimate estimate;
-  std::vector<FittedPoint> points;  ///< in the order of the observation's
-  [[nodiscard]] const model::SheetPlacement& sheet() const {
-    return estimate.observations.front().sheet;
-  }
+  Eigen::Matrix2d mark_jacobian;  ///< d(lengths)/d(mark)
 };
 
 /// The points that are the estimate's observation of that number.
@@ -45,5 +30,18 @@ struct PointsFit {
 [[nodiscard]] std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
                                                const MeasuredGrid& grid,
                                                const observation::PointNoise& noise);
+
+struct LatticeFit {
+  LatticeResidual residual;
+  /// Measured minus predicted by the lines through the point, in the order of the points.
+  std::vector<Eigen::Vector2d> left_out_residual_mm;
+};
+
+/// Interpolates the residuals of an estimate without its penalised surface. Empty unless the points are
+/// single nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, the
+/// readings are free of noise (with noise the fit has clearly fewer effective parameters than
+/// readings), and the lines predict left-out points nearly as well.
+[[nodiscard]] std::optional<LatticeFit> fit_lattice(
+    const estimation::Estimate& estimate, const std::vector<FittedPoint>& points);
 
 }  // namespace chaintrue::grid

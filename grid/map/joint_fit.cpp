@@ -229,7 +229,7 @@ double stated_noise_mm2(const std::vector<FittedPoint>& points, const MapNoise& 
   double sum = 0.0;
   int count = 0;
   for (const FittedPoint& point : points) {
-    if (point.bad) continue;
+    if (point.is_rejected()) continue;
     sum += 2.0 * noise.position_mm * noise.position_mm +
            noise.length_mm * noise.length_mm * point.mark_jacobian.inverse().squaredNorm();
     ++count;

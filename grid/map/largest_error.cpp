@@ -9,6 +9,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/map/map_parts.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "grid/random.hpp"
 #include "grid/raster.hpp"
@@ -43,9 +44,7 @@ Eigen::Matrix2Xd differences_at(const std::vector<MapDifference>& differences,
     const auto from = differences[k].from.lengths(mark);
     const auto to = differences[k].to.lengths(mark);
     if (!from || !to) return Eigen::Matrix2Xd(2, 0);
-    at.col(as_index(k)) << to->lengths.left_mm - from->lengths.left_mm,
-        to->lengths.right_mm - from->lengths.right_mm;
-    at.col(as_index(k)) *= differences[k].share;
+    at.col(as_index(k)) = differences[k].share * difference(to->lengths, from->lengths);
   }
   return at;
 }

@@ -44,12 +44,12 @@ Eigen::Index line_at(const std::vector<double>& lines_mm, double coordinate_mm) 
 }
 
 /// The node of each point of the fit; rejected points and places without a point are empty nodes.
-std::optional<LatticeNodes> places_of(const PointsFit& fit) {
+std::optional<LatticeNodes> places_of(const std::vector<FittedPoint>& points) {
   std::vector<model::MarkPoint> marks;
   Eigen::Index good = 0;
-  for (const FittedPoint& point : fit.points) {
+  for (const FittedPoint& point : points) {
     marks.push_back(point.point.mark);
-    good += point.bad ? 0 : 1;
+    good += point.is_rejected() ? 0 : 1;
   }
   LatticeNodes places = lattice_nodes(marks);
   constexpr Eigen::Index kFewestLines = 4;
@@ -60,22 +60,24 @@ std::optional<LatticeNodes> places_of(const PointsFit& fit) {
 }
 
 /// Measured minus the calibrated machine with its chains' scales, at every node; empty ones NaN.
-model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit,
+model::PerSide<Eigen::MatrixXd> left_by_machine(const estimation::Estimate& estimate,
+                                                const std::vector<FittedPoint>& points,
                                                 const LatticeNodes& places) {
   const Eigen::MatrixXd none =
       Eigen::MatrixXd::Constant(places.visits.rows(), places.visits.cols(), kEmpty);
   model::PerSide<Eigen::MatrixXd> values{none, none};
-  const model::ReadingModel model(fit.estimate.machine);
-  for (std::size_t i = 0; i < fit.points.size(); ++i) {
-    if (fit.points[i].bad) continue;
-    const LengthPoint& point = fit.points[i].point;
+  const model::ReadingModel model(estimate.machine);
+  const model::SheetPlacement& sheet = estimate.observations.front().sheet;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].is_rejected()) continue;
+    const LengthPoint& point = points[i].point;
     // The fit reached every point with these settings.
-    const model::ChainLengths lengths = model.at(fit.sheet().to_bed(point.mark)).value().lengths;
+    const model::ChainLengths lengths = model.at(sheet.to_bed(point.mark)).value().lengths;
     const auto [ix, iy] = places.of_mark[i];
-    values.left(ix, iy) =
-        point.lengths.left_mm - (1.0 + fit.estimate.surface.scale.left) * lengths.left_mm;
-    values.right(ix, iy) =
-        point.lengths.right_mm - (1.0 + fit.estimate.surface.scale.right) * lengths.right_mm;
+    for (const Side side : model::kSides) {
+      values[side](ix, iy) =
+          point.lengths[side] - (1.0 + estimate.surface.scale[side]) * lengths[side];
+    }
   }
   return values;
 }
@@ -96,35 +98,18 @@ double predicted(const LatticeNodes& places,
 
 }  // namespace
 
-Eigen::Matrix2Xd spread_of_nodes(const Eigen::MatrixXd& weights,
-                                 const Eigen::Matrix2d& node,
-                                 const Eigen::MatrixXd& own_mm2) {
-  Eigen::Matrix2Xd spread(2, 2 * weights.size());
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    const Eigen::Matrix2d covariance =
-        node + own_mm2.reshaped()[i] * Eigen::Matrix2d::Identity();
-    // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.
-    const double first = std::sqrt(covariance(0, 0));
-    const double across = first > 0.0 ? covariance(0, 1) / first : 0.0;
-    spread.col(2 * i) = weights.reshaped()[i] * Eigen::Vector2d(first, across);
-    spread.col(2 * i + 1)
-        << 0.0,
-        weights.reshaped()[i] * std::sqrt(std::max(0.0, covariance(1, 1) - across * across));
-  }
-  return spread;
-}
-
-std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
-  const auto places = places_of(fit);
+std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
+                                      const std::vector<FittedPoint>& points) {
+  const auto places = places_of(points);
   if (!places) return std::nullopt;
-  const model::PerSide<Eigen::MatrixXd> values = left_by_machine(fit, *places);
+  const model::PerSide<Eigen::MatrixXd> values = left_by_machine(estimate, points, *places);
   LatticeFit lattice;
   std::vector<Eigen::Vector2d> errors_here;
   std::vector<Eigen::Vector2d> errors_there;
-  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [ix, iy] = places->of_mark[i];
-    Eigen::Vector2d residual = fit.points[i].left_out_residual_mm;
-    if (!fit.points[i].bad) {
+    Eigen::Vector2d residual = points[i].left_out;
+    if (!points[i].is_rejected()) {
       errors_there.push_back(residual);
       residual = {values.left(ix, iy) - predicted(*places, values.left, ix, iy),
                   values.right(ix, iy) - predicted(*places, values.right, ix, iy)};
@@ -134,7 +119,7 @@ std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
     lattice.left_out_residual_mm.push_back(residual);
   }
   const bool noisy =
-      fit.estimate.effective_parameters < kMetClosely * 2.0 * as_double(errors_here.size());
+      estimate.effective_parameters < kMetClosely * 2.0 * as_double(errors_here.size());
   if (noisy || rms(errors_here) > kStillPredicts * rms(errors_there)) return std::nullopt;
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;

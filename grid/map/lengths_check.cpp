@@ -20,7 +20,7 @@ void name_rows(const observation::BeltLengthReadings& observed,
     const auto rows = as_size(unit.rows);
     readings.units.push_back({name, unit.index, readings.names.size(), rows});
     for (std::size_t i = 0, row = 0; row < rows; ++i) {
-      if (place.known && !place.counting.empty() && !place.counting[i]) continue;
+      if (place.known && !place.counts(as_index(i))) continue;
       ++row;
       readings.names.push_back(place.known ? fmt::format("{}, {}", name, mechanism.lengths()[i])
                                            : fmt::format("{}, check {}", name, row));
@@ -28,37 +28,55 @@ void name_rows(const observation::BeltLengthReadings& observed,
   }
 }
 
+/// The effect of a millimetre of each length at a place on the rows of its unit.
+Eigen::MatrixXd by_length_of(const observation::LengthsAtPlace& place,
+                             const observation::UnitState& unit) {
+  if (!place.known) return unit.by_reading;
+  Eigen::MatrixXd by_length =
+      Eigen::MatrixXd::Zero(unit.covariance.rows(), place.lengths_mm.size());
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < by_length.cols(); ++i) {
+    if (place.counts(i)) by_length(row++, i) = 1.0;
+  }
+  return by_length;
+}
+
 tl::expected<CheckReadings, CheckFailure> readings_of(
     const FittedMechanism& fitted, const observation::BeltLengthReadings& observed) {
+  const observation::View view(fitted.mechanism);
+  const auto line = observed.linearise(view, {.parameters = true});
+  if (!line) {
+    return failed(CheckReason::unreachable,
+                  fmt::format("point {}: {}",
+                              observed.places()[line.error().place].name,
+                              line.error().sentence()));
+  }
   const auto lengths = std::ssize(fitted.mechanism->lengths());
   const auto units = std::ssize(observed.units());
   CheckReadings readings;
   readings.noise_dof = fitted.noise_dof;
   readings.lengths = as_size(lengths);
-  readings.residual_mm.resize(observed.rows());
+  readings.residual_mm = observed.measured() - line->predicted;
+  readings.by_parameter = line->by_setting;
   readings.lengths_mm.resize(lengths * units);
-  readings.by_parameter.resize(observed.rows(), fitted.mechanism->values().size());
   readings.by_length.resize(observed.rows(), lengths * units);
-  const observation::View view(fitted.mechanism);
-  std::vector<Eigen::Triplet<double>> by_length;
+  std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index u = 0; u < units; ++u) {
-    const observation::Unit& unit = observed.units()[as_size(u)];
-    auto line = observed.line_of(view, as_size(u));
-    if (!line) {
-      return failed(CheckReason::unreachable,
-                    fmt::format("{}: {}", observed.name_of(as_size(u)), line.error().sentence()));
-    }
-    readings.residual_mm.segment(unit.first_row, unit.rows) =
-        observed.measured().segment(unit.first_row, unit.rows) - line->predicted;
-    readings.by_parameter.middleRows(unit.first_row, unit.rows) = line->by_parameter;
-    readings.lengths_mm.segment(lengths * u, lengths) = line->lengths_mm;
-    for (Eigen::Index i = 0; i < unit.rows; ++i) {
+    const observation::UnitState& unit = line->units[as_size(u)];
+    const std::size_t at = observed.place_of(as_size(u));
+    const observation::LengthsAtPlace& place = observed.readings()[at];
+    // The place was found above.
+    readings.lengths_mm.segment(lengths * u, lengths) =
+        place.lengths_mm - observed.block_line(view, {{at}, {}}, false)->residual_mm;
+    const Eigen::MatrixXd by_length = by_length_of(place, unit);
+    for (Eigen::Index i = 0; i < by_length.rows(); ++i) {
       for (Eigen::Index k = 0; k < lengths; ++k)
-        by_length.emplace_back(unit.first_row + i, lengths * u + k, line->by_length(i, k));
+        entries.emplace_back(
+            observed.units()[as_size(u)].first_row + i, lengths * u + k, by_length(i, k));
     }
-    readings.covariance.own.push_back(std::move(line->covariance));
+    readings.covariance.own.push_back(unit.covariance);
   }
-  readings.by_length.setFromTriplets(by_length.begin(), by_length.end());
+  readings.by_length.setFromTriplets(entries.begin(), entries.end());
   readings.covariance.shared.resize(observed.rows(), 0);
   readings.covariance.of_map =
       narrowed(readings.by_parameter * linear::covariance_root(fitted.covariance));

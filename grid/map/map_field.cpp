@@ -6,8 +6,8 @@
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/raster.hpp"
-#include "interp/spline_pair.hpp"
-#include "model/reading_model.hpp"
+#include "interp/tensor_spline.hpp"
+#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -31,176 +31,90 @@ class SplineSurface final : public interp::Surface {
   Eigen::VectorXd coefficients_;
 };
 
-/// On a calibrated machine.
-class ModelField final : public MapField {
+/// On a calibrated machine with penalised surfaces: G F, with the two sparse rows G of the design.
+class DesignSpread {
  public:
-  explicit ModelField(const ModelSurface& surface)
-      : MapField(surface.sheet),
-        surface_(surface),
+  explicit DesignSpread(const ModelSurface& surface)
+      : sheet_(surface.sheet),
         model_(surface.machine),
-        factor_(surface.covariance_factor.transpose()),
-        left_(surface.residual.basis, surface.residual.coefficients.left),
-        right_(surface.residual.basis, surface.residual.coefficients.right) {
-    surface_.covariance_factor.resize(0, 0);
-  }
+        settings_(surface.settings),
+        columns_(surface.columns),
+        basis_(surface.residual.basis),
+        factor_(surface.covariance_factor.transpose()) {}
 
- private:
-  [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
-                                                              Asked asked) const override {
-    const auto reading = model_.at(sheet().to_bed(mark));
-    if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
-    MapSpread found{corrected(mark, *reading), {}};
-    if (asked == Asked::spread) found.spread_mm = spread(mark, *reading);
-    return found;
-  }
-
-  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
-    return {&left_, &right_};
-  }
-
-  [[nodiscard]] MapLengths corrected(MarkPoint mark, const model::PointReading& reading) const {
-    const auto result = surface_.residual.apply(
-        mark, reading.lengths, reading.position_jacobian * surface_.sheet.rotation());
-    return {result.lengths, result.mark_jacobian};
-  }
-
-  /// G F, with the two sparse rows G of the design.
-  [[nodiscard]] Eigen::Matrix2Xd spread(MarkPoint mark, const model::PointReading& reading) const {
-    const FitColumns& columns = surface_.columns;
+  Eigen::Matrix2Xd operator()(MarkPoint mark,
+                              const MapLengths& /*here*/,
+                              const model::PointReading* reading) const {
     const Eigen::Matrix<double, 2, 3> by_sheet =
-        reading.position_jacobian * surface_.sheet.sensitivity(mark);
+        reading->position_jacobian * sheet_.sensitivity(mark);
     Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
-    for (std::size_t i = 0; i < surface_.settings.size(); ++i) {
-      const auto column = as_index(i);
-      const Setting setting = surface_.settings[i];
-      const auto in_sheet =
-          static_cast<Eigen::Index>(setting) - static_cast<Eigen::Index>(Setting::sheet_x_mm);
-      const Eigen::Vector2d slope = in_sheet < 0 ? model_.sensitivity(reading, setting)
-                                                 : Eigen::Vector2d(by_sheet.col(in_sheet));
-      add(column, slope[0], spread.col(0));
-      add(column, slope[1], spread.col(1));
+    for (std::size_t i = 0; i < settings_.size(); ++i) {
+      const Setting setting = settings_[i];
+      const Eigen::Vector2d slope =
+          model::is_of_sheet(setting) ? Eigen::Vector2d(by_sheet.col(model::sheet_column(setting)))
+                                      : model_.sensitivity(*reading, setting);
+      add(as_index(i), slope[0], spread.col(0));
+      add(as_index(i), slope[1], spread.col(1));
     }
-    add(columns.scale(Side::left), reading.lengths.left_mm, spread.col(0));
-    add(columns.scale(Side::right), reading.lengths.right_mm, spread.col(1));
-    const interp::BasisSupport support = surface_.residual.basis.at(mark.x_mm, mark.y_mm);
-    for (std::size_t k = 0; k < support.index.size(); ++k) {
-      add(columns.spline(Side::left) + support.index[k], support.value[k], spread.col(0));
-      add(columns.spline(Side::right) + support.index[k], support.value[k], spread.col(1));
+    const interp::BasisSupport support = basis_.at(mark.x_mm, mark.y_mm);
+    for (const Side side : model::kSides) {
+      auto own = spread.col(row_of(side));
+      add(columns_.scale(side), reading->lengths[side], own);
+      for (std::size_t k = 0; k < support.index.size(); ++k)
+        add(columns_.spline(side) + support.index[k], support.value[k], own);
     }
     return spread.transpose();
   }
 
+ private:
   /// F is lower triangular: the column of F' ends at the diagonal.
   void add(Eigen::Index column, double slope, Eigen::Ref<Eigen::VectorXd> sum) const {
     sum.head(column + 1) += slope * factor_.col(column).head(column + 1);
   }
 
-  ModelSurface surface_;
+  model::SheetPlacement sheet_;
   model::ReadingModel model_;
+  std::vector<Setting> settings_;
+  FitColumns columns_;
+  interp::BsplineBasis basis_;
   Eigen::MatrixXd factor_;  // F'
-  SplineSurface left_;
-  SplineSurface right_;
 };
 
-/// Of a reading at a node.
-Eigen::Matrix2d node_covariance(const MapNoise& noise, const MapLengths& here) {
-  return observation::covariance_of({noise.length_mm, noise.position_mm}, here.mark_jacobian);
-}
+/// Of surfaces through the nodes of a lattice, two columns a node: each has the readings' noise,
+/// with the place's error carried into the chains by the slope, its doubt and the interpolation's
+/// estimated error, which grows with the weights beyond the lattice. The bicubic's weights
+/// approximate the quintic's.
+struct NodeSpread {
+  interp::TensorSpline splines;
+  Eigen::MatrixXd doubt_mm;
+  double interpolation_sigma_mm;
+  /// Least share of the interpolation's error: 1 counts it in full inside the lattice.
+  double least_share;
+  MapNoise noise;
 
-/// On a calibrated machine, through readings without noise on a lattice.
-class LatticeField final : public MapField {
- public:
-  LatticeField(const ModelSurface& surface, const MapNoise& noise)
-      : MapField(surface.sheet),
-        scale_(surface.residual.scale),
-        model_(surface.machine),
-        splines_(surface.lattice.value()),
-        noise_(noise) {}
-
- private:
-  [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
-                                                              Asked asked) const override {
-    const auto reading = model_.at(sheet().to_bed(mark));
-    if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
-    const auto spline = splines_.at(mark);
-    const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
-    MapSpread found;
-    MapLengths& here = found.here;
-    here.lengths = {factor[0] * reading->lengths.left_mm + spline.left.value,
-                    factor[1] * reading->lengths.right_mm + spline.right.value};
-    here.mark_jacobian << spline.left.dx, spline.left.dy, spline.right.dx, spline.right.dy;
-    here.mark_jacobian += factor.asDiagonal() * reading->position_jacobian * sheet().rotation();
-    if (asked == Asked::spread) {
-      found.spread_mm = splines_.spread(
-          mark, noise_.factor_found * noise_.factor_found * node_covariance(noise_, here));
+  Eigen::Matrix2Xd operator()(MarkPoint mark,
+                              const MapLengths& here,
+                              const model::PointReading* /*reading*/) const {
+    const Eigen::MatrixXd weights = splines.cardinal_weights(mark.x_mm, mark.y_mm);
+    const double between = interpolation_sigma_mm * interpolation_sigma_mm *
+                           std::max(least_share, 1.0 / weights.squaredNorm());
+    const Eigen::Matrix2d node =
+        noise.factor_found * noise.factor_found *
+        observation::covariance_of({noise.length_mm, noise.position_mm}, here.mark_jacobian);
+    Eigen::Matrix2Xd spread(2, 2 * weights.size());
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      const double own_mm2 = std::pow(doubt_mm.reshaped()[i], 2) + between;
+      const Eigen::Matrix2d covariance = node + own_mm2 * Eigen::Matrix2d::Identity();
+      // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.
+      const double first = std::sqrt(covariance(0, 0));
+      const double across = first > 0.0 ? covariance(0, 1) / first : 0.0;
+      const double second = std::sqrt(std::max(0.0, covariance(1, 1) - across * across));
+      spread.col(2 * i) = weights.reshaped()[i] * Eigen::Vector2d(first, across);
+      spread.col(2 * i + 1) = weights.reshaped()[i] * Eigen::Vector2d(0.0, second);
     }
-    return found;
+    return spread;
   }
-
-  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
-    return splines_.surfaces();
-  }
-
-  model::PerSide<double> scale_;
-  model::ReadingModel model_;
-  LatticeSplines splines_;
-  MapNoise noise_;
 };
-
-/// Splines through the lengths themselves.
-class DirectField final : public MapField {
- public:
-  DirectField(const DirectSurface& surface, const MapNoise& noise)
-      : axes_(std::make_shared<const interp::TensorAxes>(
-            surface.x_nodes_mm, surface.y_nodes_mm, surface.ends)),
-        left_(axes_,
-              surface.lengths_mm.left,
-              parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.left)),
-        right_(axes_,
-               surface.lengths_mm.right,
-               parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.right)),
-        both_(left_, right_),
-        noise_(noise),
-        interpolation_sigma_mm_(surface.interpolation_sigma_mm) {}
-
- private:
-  /// Each node has the readings' noise, with the place's error carried into the chains by the
-  /// slope; between the nodes the interpolation's estimated error is added.
-  [[nodiscard]] tl::expected<MapSpread, MapFailure> continued(MarkPoint mark,
-                                                              Asked asked) const override {
-    const interp::PairGradient z = both_.at(mark.x_mm, mark.y_mm);
-    MapSpread found;
-    found.here.lengths = {z.value[0], z.value[1]};
-    found.here.mark_jacobian << z.dx[0], z.dy[0], z.dx[1], z.dy[1];
-    if (asked == Asked::lengths) return found;
-    const Eigen::MatrixXd weights = left_.cardinal_weights(mark.x_mm, mark.y_mm);
-    const Eigen::MatrixXd own = Eigen::MatrixXd::Constant(
-        weights.rows(),
-        weights.cols(),
-        interpolation_sigma_mm_ * interpolation_sigma_mm_ / weights.squaredNorm());
-    found.spread_mm = spread_of_nodes(weights, node_covariance(noise_, found.here), own);
-    return found;
-  }
-
-  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
-    return {&left_, &right_};
-  }
-
-  std::shared_ptr<const interp::TensorAxes> axes_;
-  interp::TensorSpline left_;
-  interp::TensorSpline right_;
-  interp::SplinePair both_;
-  MapNoise noise_;
-  double interpolation_sigma_mm_;
-};
-
-std::shared_ptr<MapField> field_of(const MapContents& contents) {
-  if (const auto* direct = std::get_if<DirectSurface>(&contents.surface))
-    return std::make_shared<DirectField>(*direct, contents.noise);
-  const auto& surface = std::get<ModelSurface>(contents.surface);
-  if (surface.lattice) return std::make_shared<LatticeField>(surface, contents.noise);
-  return std::make_shared<ModelField>(surface);
-}
 
 /// The search for the inverse may step outside the domain, so `refuse` has a policy too.
 interp::OutsidePolicy policy_of(Outside way) {
@@ -210,13 +124,85 @@ interp::OutsidePolicy policy_of(Outside way) {
 
 }  // namespace
 
-std::shared_ptr<const MapField> MapField::make(const MapContents& contents) {
-  std::shared_ptr<MapField> field = field_of(contents);
+MapField::MapField(const MapContents& contents) {
+  if (const auto* direct = std::get_if<DirectSurface>(&contents.surface)) {
+    const std::vector<double>&x = direct->x_nodes_mm, &y = direct->y_nodes_mm;
+    const auto axes = std::make_shared<const interp::TensorAxes>(x, y, direct->ends);
+    const auto spline = [&](const Eigen::MatrixXd& lengths_mm) {
+      return std::make_shared<const interp::TensorSpline>(
+          axes, lengths_mm, parabola_slopes(x, y, lengths_mm));
+    };
+    const auto left = spline(direct->lengths_mm.left);
+    surfaces_ = {left, spline(direct->lengths_mm.right)};
+    const Eigen::MatrixXd no_doubt = Eigen::MatrixXd::Zero(std::ssize(x), std::ssize(y));
+    spread_at_ =
+        NodeSpread{*left, no_doubt, direct->interpolation_sigma_mm, 0.0, contents.noise};
+  } else {
+    const auto& surface = std::get<ModelSurface>(contents.surface);
+    sheet_ = surface.sheet;
+    machine_.emplace(surface.machine);
+    scale_ = surface.residual.scale;
+    if (surface.lattice) {
+      const auto& [x, y, values_mm, doubt_mm, sigma_mm] = *surface.lattice;
+      const auto quintic =
+          std::make_shared<const interp::TensorAxes>(x, y, interp::TensorEnds{}, 5);
+      for (const Side side : model::kSides)
+        surfaces_[side] = std::make_shared<const interp::TensorSpline>(quintic, values_mm[side]);
+      spread_at_ = NodeSpread{{x, y, doubt_mm}, doubt_mm, sigma_mm, 1.0, contents.noise};
+    } else {
+      for (const Side side : model::kSides) {
+        surfaces_[side] = std::make_shared<const SplineSurface>(
+            surface.residual.basis, surface.residual.coefficients[side]);
+      }
+      spread_at_ = DesignSpread(surface);
+    }
+  }
   const OutsideRule& rule = contents.outside;
-  if (rule.way == Outside::continued) return field;
-  field->beyond_.emplace(Beyond{
+  if (rule.way == Outside::continued) return;
+  beyond_.emplace(Beyond{
       hull_of(contents.hull), {policy_of(rule.way), contents.edge_mm, rule.fade_width_mm}});
-  return field;
+}
+
+tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) const {
+  MapSpread answer;
+  MapLengths& here = answer.here;
+  here.mark_jacobian.setZero();
+  std::optional<model::PointReading> reading;
+  if (machine_) {
+    auto found = machine_->at(sheet_.to_bed(mark));
+    if (!found) return tl::unexpected(unreachable(model::mechanism_failure(found.error())));
+    reading = *std::move(found);
+    here.lengths = reading->lengths;
+    here.mark_jacobian = reading->position_jacobian * sheet_.rotation();
+  }
+  for (const Side side : model::kSides) {
+    const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
+    auto slope = here.mark_jacobian.row(row_of(side));
+    here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
+    slope = slope * (1.0 + scale_[side]) + Eigen::RowVector2d(own.dx, own.dy);
+  }
+  if (asked == Asked::spread) answer.spread_mm = spread_at_(mark, here, reading ? &*reading : nullptr);
+  if (!beyond_) return answer;
+  const Eigen::Vector2d change = add_change(mark, here);
+  if (asked == Asked::lengths) return answer;
+  answer.spread_mm.conservativeResize(Eigen::NoChange, answer.spread_mm.cols() + 1);
+  answer.spread_mm.rightCols<1>() = change;
+  return answer;
+}
+
+Eigen::Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();
+  if (beyond_->hull.contains(mark.x_mm, mark.y_mm)) return change;
+  for (const Side side : model::kSides) {
+    const Eigen::Index row = row_of(side);
+    const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
+    const interp::ValueGradient reply = interp::evaluate(
+        *surfaces_[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
+    change[row] = reply.value - own.value;
+    here.lengths[side] += change[row];
+    here.mark_jacobian.row(row) += Eigen::RowVector2d(reply.dx - own.dx, reply.dy - own.dy);
+  }
+  return change;
 }
 
 namespace {

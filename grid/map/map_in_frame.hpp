@@ -7,6 +7,7 @@
 #include <array>
 
 #include "grid/map/compensation_map.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid {
 
@@ -28,7 +29,7 @@ class MapInFrame final : public LengthMap {
       model::BedPoint point) const override {
     const auto found = map_.query(mark_of(point));
     if (!found) return tl::unexpected(found.error());
-    return LengthsAnswer{Eigen::Vector2d(found->lengths.left_mm, found->lengths.right_mm),
+    return LengthsAnswer{vector_of(found->lengths),
                          found->sigma,
                          found->tool_sigma_mm,
                          found->status};

@@ -1,33 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/mechanism_map.hpp"
 
+#include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 
+model::BedPoint SheetInFrame::on_sheet(model::ToolPosition position) const {
+  model::MarkPoint raw{factor * (position.x_mm - origin.x_mm), factor * (position.y_mm - origin.y_mm)};
+  if (displacement) {
+    const Eigen::Vector2d moved = displacement->at(raw);
+    raw.x_mm += moved.x();
+    raw.y_mm += moved.y();
+  }
+  return laid.to_bed(raw);
+}
+
+model::ToolPosition SheetInFrame::in_frame(model::BedPoint sheet) const {
+  // Each round reduces the error to a few thousandths, the slope of the displacement.
+  constexpr int kMostRounds = 40;
+  constexpr double kConvergedMm = 1e-10;
+  const model::MarkPoint there = laid.to_mark(sheet);
+  model::MarkPoint raw = there;
+  for (int round = 0; displacement && round < kMostRounds; ++round) {
+    const Eigen::Vector2d by = displacement->at(raw);
+    const model::MarkPoint next{there.x_mm - by.x(), there.y_mm - by.y()};
+    const double moved = distance_mm(next, raw);
+    raw = next;
+    if (moved < kConvergedMm) break;
+  }
+  return {origin.x_mm + raw.x_mm / factor, origin.y_mm + raw.y_mm / factor};
+}
+
 model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
                               const std::vector<model::BedPoint>& to) {
   const auto count = as_double(from.size());
-  model::MarkPoint a;
-  model::BedPoint b;
+  Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {
-    a = {a.x_mm + from[i].x_mm / count, a.y_mm + from[i].y_mm / count};
-    b = {b.x_mm + to[i].x_mm / count, b.y_mm + to[i].y_mm / count};
+    a += vector_of(from[i]) / count;
+    b += vector_of(to[i]) / count;
   }
-  double along = 0.0;
-  double across = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const double x = from[i].x_mm - a.x_mm;
-    const double y = from[i].y_mm - a.y_mm;
-    const double u = to[i].x_mm - b.x_mm;
-    const double v = to[i].y_mm - b.y_mm;
-    along += x * u + y * v;
-    across += x * v - y * u;
-  }
-  model::SheetPlacement sheet{0.0, 0.0, std::atan2(across, along)};
-  const model::BedPoint turned = sheet.to_bed(a);
-  sheet.x_mm = b.x_mm - turned.x_mm;
-  sheet.y_mm = b.y_mm - turned.y_mm;
+  Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < from.size(); ++i)
+    moment += (vector_of(from[i]) - a) * (vector_of(to[i]) - b).transpose();
+  model::SheetPlacement sheet{
+      0.0, 0.0, std::atan2(moment(0, 1) - moment(1, 0), moment.trace())};
+  const Eigen::Vector2d shift = b - sheet.rotation() * a;
+  sheet.x_mm = shift.x();
+  sheet.y_mm = shift.y();
   return sheet;
 }
 

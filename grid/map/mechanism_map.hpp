@@ -23,36 +23,33 @@
 #include "grid/containers.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
+#include "grid/map/tool_displacement.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/mechanism.hpp"
 
 namespace chaintrue::grid {
 
-/// Where points of the sheet are in a mechanism's frame, and back. Immutable, thread safe.
-class SheetInFrame {
- public:
-  virtual ~SheetInFrame() = default;
-  [[nodiscard]] virtual model::ToolPosition in_frame(model::BedPoint sheet) const = 0;
-  [[nodiscard]] virtual model::BedPoint on_sheet(model::ToolPosition position) const = 0;
+/// Where points of the sheet are in a mechanism's frame, and back:
+///
+///   on_sheet(m) = laid(raw + d(raw)),   raw = factor (m - origin)                            (2)
+///
+/// The inverse is found by fixed-point iteration: d changes by less than 0.01 mm per mm.
+struct SheetInFrame {
+  /// Of what the mechanism cuts, on the sheet.
+  model::SheetPlacement laid;
+  /// The sheet's millimetres over those of the frame.
+  double factor = 1.0;
+  model::ToolPosition origin{};
+  /// d; null: none.
+  std::shared_ptr<const ToolDisplacement> displacement = nullptr;
+
+  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const;
+  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const;
   /// On each axis, besides the fit's covariance.
-  [[nodiscard]] virtual double own_variance_mm2(model::BedPoint /*sheet*/) const { return 0.0; }
-};
-
-/// A sheet that was shifted and turned.
-class LaidSheet final : public SheetInFrame {
- public:
-  explicit LaidSheet(model::SheetPlacement laid = {}) : laid_(laid) {}
-  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const override {
-    const model::BedPoint at = laid_.to_bed(model::identity_placement(sheet));
-    return {at.x_mm, at.y_mm};
+  [[nodiscard]] double own_variance_mm2(model::BedPoint sheet) const {
+    return displacement ? displacement->own_variance_mm2(laid.to_mark(sheet)) : 0.0;
   }
-
-  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const override {
-    return model::identity_placement(laid_.to_mark({position.x_mm, position.y_mm}));
-  }
-
- private:
-  model::SheetPlacement laid_;
 };
 
 /// The shift and turn that lay `from` on `to`, by least squares.
@@ -61,7 +58,7 @@ class LaidSheet final : public SheetInFrame {
 
 struct PlacedMechanism {
   std::shared_ptr<const model::Mechanism> mechanism;
-  std::shared_ptr<const SheetInFrame> sheet;
+  SheetInFrame sheet;
 };
 
 /// States one sigma away, and the centre.
@@ -82,7 +79,7 @@ class MechanismMap : public LengthMap {
   /// three points.
   [[nodiscard]] static MechanismMap of(const FittedMechanism& fitted,
                                        const std::vector<model::BedPoint>& measured) {
-    const PlacedMechanism best{fitted.mechanism, std::make_shared<const LaidSheet>()};
+    const PlacedMechanism best{fitted.mechanism, {}};
     const model::MechanismExtent e = fitted.mechanism->extent();
     std::vector<model::MarkPoint> points;
     for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
@@ -105,7 +102,7 @@ class MechanismMap : public LengthMap {
     if (!area_.domain().contains(point.x_mm, point.y_mm))
       return tl::unexpected(MapReason::outside_map);
     const auto found = fitted_.mechanism->predict(
-        fitted_.sheet->in_frame(point), {}, model::Derivatives::by_position);
+        fitted_.sheet.in_frame(point), {}, model::Derivatives::by_position);
     if (!found) return tl::unexpected(unreachable(found.error()));
     return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
   }
@@ -123,7 +120,7 @@ class MechanismMap : public LengthMap {
       model::ChainLengths lengths) const override {
     const auto found = fitted_.mechanism->locate_by_first(lengths);
     if (!found) return tl::unexpected(unreachable(found.error()));
-    return fitted_.sheet->on_sheet(*found);
+    return fitted_.sheet.on_sheet(*found);
   }
 
   [[nodiscard]] MapStatus status(model::BedPoint point) const override {
@@ -141,7 +138,7 @@ class MechanismMap : public LengthMap {
       variance.left_mm += std::pow(there->left_mm - centre->left_mm, 2);
       variance.right_mm += std::pow(there->right_mm - centre->right_mm, 2);
     }
-    const double own = fitted_.sheet->own_variance_mm2(point);
+    const double own = fitted_.sheet.own_variance_mm2(point);
     return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
   }
 
@@ -153,12 +150,12 @@ class MechanismMap : public LengthMap {
         const PlacedMechanism& other = spread_.others[as_size(i)];
         const auto there = other.mechanism->locate_by_first(*paid_out);
         if (!there) continue;
-        const model::BedPoint tool = other.sheet->on_sheet(*there);
-        spread.col(i) << tool.x_mm - point.x_mm, tool.y_mm - point.y_mm;
+        const model::BedPoint tool = other.sheet.on_sheet(*there);
+        spread.col(i) = difference(tool, point);
       }
     }
     spread.rightCols<2>() =
-        std::sqrt(fitted_.sheet->own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
+        std::sqrt(fitted_.sheet.own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
     return spread;
   }
 
@@ -173,7 +170,7 @@ class MechanismMap : public LengthMap {
  private:
   static tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(
       const PlacedMechanism& placed, model::BedPoint point) {
-    return placed.mechanism->first_lengths(placed.sheet->in_frame(point));
+    return placed.mechanism->first_lengths(placed.sheet.in_frame(point));
   }
 
   PlacedMechanism fitted_;

@@ -24,19 +24,19 @@ StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid) {
   return stated;
 }
 
-std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
+std::optional<RepeatNoise> noise_from_repeats(const std::vector<FittedPoint>& points,
                                               const observation::PointNoise& noise,
                                               const observation::PointNoise& rounding) {
   std::vector<LengthPoint> good;
   std::vector<const FittedPoint*> fitted;
-  for (const FittedPoint& point : fit.points) {
-    if (point.bad) continue;
+  for (const FittedPoint& point : points) {
+    if (point.is_rejected()) continue;
     good.push_back(point.point);
     fitted.push_back(&point);
   }
   RepeatScatter scatter(noise, rounding);
   for (const auto& group : repeat_groups(good)) {
-    for (const std::size_t i : group) scatter.add(fitted[i]->residual_mm, fitted[i]->mark_jacobian);
+    for (const std::size_t i : group) scatter.add(fitted[i]->residual, fitted[i]->mark_jacobian);
     scatter.end_group();
   }
   return scatter.noise();

@@ -30,9 +30,10 @@ struct RepeatNoise {
 /// From the scatter of a fit's residuals within each group of repeats, not below what rounding
 /// leaves; outliers do not count. Empty with fewer than four degrees of freedom (two repeats),
 /// which is too few, and if repeats with all digits agree exactly.
-[[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
-                                                            const observation::PointNoise& noise,
-                                                            const observation::PointNoise& rounding);
+[[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(
+    const std::vector<FittedPoint>& points,
+    const observation::PointNoise& noise,
+    const observation::PointNoise& rounding);
 
 /// The scatter of whitened residuals within groups of repeats, gathered point by point.
 class RepeatScatter {

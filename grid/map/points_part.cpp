@@ -45,9 +45,9 @@ bool states_noise(const MeasuredGrid& grid) {
 /// A surface through every node has no residuals there, but its own left-out residuals.
 void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& lattice) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].bad) continue;
-    points[i].residual_mm.setZero();
-    points[i].left_out_residual_mm = lattice.left_out_residual_mm[i];
+    if (points[i].is_rejected()) continue;
+    points[i].residual.setZero();
+    points[i].left_out = lattice.left_out_residual_mm[i];
   }
 }
 
@@ -92,7 +92,7 @@ class PointsPart final : public FitPart {
   [[nodiscard]] tl::expected<void, FitFailure> find_noise(Fitting& alone) override {
     if (noise.knowledge != interp::NoiseKnowledge::unknown) return {};
     prefer_smoother(alone);
-    if (const auto repeats = noise_from_repeats(fit_of(alone, 0), noise_, rounding_)) {
+    if (const auto repeats = noise_from_repeats(points_of(alone), noise_, rounding_)) {
       noise_.length_mm *= repeats->factor;
       noise_.position_mm *= repeats->factor;
       noise = {interp::NoiseKnowledge::from_repeats, repeats->dof};
@@ -107,7 +107,7 @@ class PointsPart final : public FitPart {
       return {};
     }
     Fitting plain = with_plain_calibration(alone);
-    if ((lattice_ = fit_lattice(fit_of(plain, 0)))) alone = std::move(plain);
+    if ((lattice_ = fit_lattice(plain.estimate, points_of(plain)))) alone = std::move(plain);
     return {};
   }
 
@@ -133,7 +133,7 @@ class PointsPart final : public FitPart {
               const Fitting& fitting,
               std::size_t file,
               const std::string& name) const override {
-    std::vector<FittedPoint> points = fit_of(fitting, file).points;
+    std::vector<FittedPoint> points = points_of(fitting, file);
     if (lattice_) replace_residuals(points, *lattice_);
     if (draft.points.empty()) {
       draft.map.noise = {
@@ -171,8 +171,9 @@ class PointsPart final : public FitPart {
         chain_length_readings(points_, noise_, noise.degrees_of_freedom, grid_.sheet));
   }
 
-  [[nodiscard]] PointsFit fit_of(const Fitting& fitting, std::size_t file) const {
-    return {fitting.estimate, fitted_points(points_, fitting.estimate, file)};
+  [[nodiscard]] std::vector<FittedPoint> points_of(const Fitting& fitting,
+                                                   std::size_t file = 0) const {
+    return fitted_points(points_, fitting.estimate, file);
   }
 
   /// Readings with all digits, from a simulator or a very good measurement, support a smoother
@@ -185,7 +186,7 @@ class PointsPart final : public FitPart {
     auto fit = Fitting::of(std::move(smoother));
     if (!fit) return;
     const auto left_out_mm = [&](const Fitting& one) {
-      return held_out_accuracy(fitted_points(points_, one.estimate, 0)).leave_one_out.chain.rms_mm;
+      return held_out_accuracy(points_of(one)).leave_one_out.chain.rms_mm;
     };
     if (left_out_mm(*fit) > kClearlyBetter * left_out_mm(alone)) return;
     alone = *std::move(fit);
@@ -212,11 +213,10 @@ class PointsPart final : public FitPart {
     input.noise = {interp::NoiseKnowledge::unknown, 0.0};
     input.surface = estimation::SurfaceUse::none;
     input.held_out_together.clear();
-    const std::vector<FittedPoint> points = fitted_points(points_, fit.estimate, 0);
-    Eigen::VectorXd weights(std::ssize(points));
-    for (std::size_t i = 0; i < points.size(); ++i)
-      weights[as_index(i)] = points[i].bad ? 0.0 : 1.0;
-    input.fixed_weights = weights;
+    const auto& units = fit.estimate.units;
+    Eigen::VectorXd& weights = input.fixed_weights.emplace(std::ssize(units));
+    for (std::size_t u = 0; u < units.size(); ++u)
+      weights[as_index(u)] = units[u].is_rejected() ? 0.0 : 1.0;
     const auto plain = estimation::estimate(input);
     if (!plain || !plain->converged) return fit;
     estimation::Estimate& estimate = fit.estimate;
@@ -276,7 +276,7 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& g
   auto corrected = corrected_data(grid);
   if (!corrected) return tl::unexpected(corrected.error());
   auto points = length_points(corrected->grid);
-  if (!points) return failed(FitReason::no_lengths, points.error().sentence());
+  if (!points) return failed(FitReason::no_lengths, points.error());
   MeasuredGrid& own = corrected->grid;
   if (states_noise(own)) own.noise = not_below_rounding(*own.noise, grid);
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)

@@ -160,10 +160,17 @@ double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& e
   return std::sqrt(squares_mm2 / std::max(within, 1));
 }
 
+/// Settings and the error of the tool with them, root mean square over the area.
+struct TypedSettings {
+  ControllerSettings settings;
+  Eigen::VectorXd errors_mm;
+  double rms_mm;
+};
+
 /// The best settings, rounded; empty if the controller cannot go to a place with any intermediate
 /// ones.
-std::optional<ControllerSettings> best_settings(const Truth& truth,
-                                                const std::vector<MeasuredPlace>& places) {
+std::optional<TypedSettings> best_settings(const Truth& truth,
+                                           const std::vector<MeasuredPlace>& places) {
   const std::vector<FreeSetting> free = free_settings(truth.machine);
   // No cut is more accurate than a twentieth of a millimetre, and places carry no more information
   // than the points that they come from.
@@ -181,16 +188,17 @@ std::optional<ControllerSettings> best_settings(const Truth& truth,
     settings = *better;
   }
   round_to_type(free, truth.machine.controller.settings, settings);
-  return settings;
+  const auto errors = errors_with(truth.machine, settings, places);
+  if (!errors) return std::nullopt;
+  return TypedSettings{settings, *errors, rms_of(places, *errors)};
 }
 
 /// The tool's error with the best settings for such a machine.
 std::optional<double> left_with(const Truth& truth, const Machine& machine) {
   const std::vector<MeasuredPlace> places = truth.places(machine);
   if (places.empty()) return std::nullopt;
-  const auto settings = best_settings(truth, places);
-  const auto errors = settings ? errors_with(truth.machine, *settings, places) : std::nullopt;
-  return errors ? std::optional(rms_of(places, *errors)) : std::nullopt;
+  const auto best = best_settings(truth, places);
+  return best ? std::optional(best->rms_mm) : std::nullopt;
 }
 
 Machine without_effect(Machine machine, const std::string& effect) {
@@ -253,13 +261,12 @@ tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
   constexpr double kWorthTyping = 0.9;
   double left_mm = rms_of(places, *before);
   if (left_mm >= kBeyondTheMap * truth.sigma_mm) {
-    const auto settings = best_settings(truth, places);
-    const auto after = settings ? errors_with(truth.machine, *settings, places) : std::nullopt;
-    if (after && rms_of(places, *after) <= kWorthTyping * left_mm) {
-      result.settings = *settings;
-      result.typed = summary_of_errors(places, *after);
+    const auto best = best_settings(truth, places);
+    if (best && best->rms_mm <= kWorthTyping * left_mm) {
+      result.settings = best->settings;
+      result.typed = summary_of_errors(places, best->errors_mm);
       result.worth_typing = true;
-      left_mm = rms_of(places, *after);
+      left_mm = best->rms_mm;
     }
   }
   result.lacking = lacking_of(truth, left_mm);

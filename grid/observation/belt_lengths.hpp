@@ -110,10 +110,7 @@ class BeltLengthReadings final : public Observation {
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
     const Eigen::Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
-    Linearisation result;
-    result.predicted.resize(rows());
-    result.by_setting = Eigen::MatrixXd::Zero(rows(), parameters + (columns.sheet ? 3 : 0));
-    result.by_nuisance.resize(rows(), 0);
+    Linearisation result = blank(parameters + (columns.sheet ? 3 : 0));
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const std::size_t end = b + 1 < blocks_.size() ? first_unit_[b + 1] : units_.size();
       if (first_unit_[b] == end) continue;
@@ -153,41 +150,6 @@ class BeltLengthReadings final : public Observation {
   [[nodiscard]] tl::expected<BlockLine, Unreachable> block_line(const View& view,
                                                                 const Block& block,
                                                                 bool with_parameters) const;
-
-  /// One place's unit, linearised about a view: its part of predicted(), A and C, and the effect
-  /// of a millimetre of each length on its rows.
-  struct UnitLine {
-    Eigen::VectorXd predicted;
-    Eigen::MatrixXd by_parameter;
-    Eigen::MatrixXd covariance;
-    Eigen::MatrixXd by_length;   ///< rows x lengths
-    Eigen::VectorXd lengths_mm;  ///< f at the place, all lengths
-  };
-  /// \throws std::invalid_argument for a unit of a block that a tape joins.
-  [[nodiscard]] tl::expected<UnitLine, Unreachable> line_of(const View& view,
-                                                            std::size_t unit) const {
-    const std::size_t place = place_of(unit);
-    if (place >= readings_.size() || !blocks_[block_of_[place]].distances.empty())
-      throw precondition("unit {} is of places that a tape joins", unit);
-    const Block& block = blocks_[block_of_[place]];
-    auto rows = rows_of(view, block, true);
-    if (!rows) return tl::unexpected(rows.error());
-    const auto line = block_line(view, block, false);
-    if (!line) return tl::unexpected(line.error());
-    const LengthsAtPlace& own = readings_[place];
-    Eigen::MatrixXd by_length = std::move(rows->by_reading);
-    if (own.known) {
-      by_length = Eigen::MatrixXd::Zero(rows->predicted.size(), own.lengths_mm.size());
-      Eigen::Index row = 0;
-      for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i)
-        if (own.counts(i)) by_length(row++, i) = 1.0;
-    }
-    return UnitLine{std::move(rows->predicted),
-                    std::move(rows->by_parameter),
-                    std::move(rows->covariance),
-                    std::move(by_length),
-                    own.lengths_mm - line->residual_mm};
-  }
 
   /// In the order of places().
   [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }

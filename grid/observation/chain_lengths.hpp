@@ -14,6 +14,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/observation/observation.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {
@@ -36,15 +37,23 @@ class ChainLengthReadings final : public Observation {
                       PointNoise noise,
                       double noise_dof,
                       std::optional<SheetPrior> sheet)
-      : ChainLengthReadings(
-            GivenOrder{}, sorted(std::move(places)), ordered, noise, noise_dof, sheet) {}
+      : Observation(ordered, noise_dof), noise_(noise) {
+    sheet_ = sheet;
+    sort(places, [](const Place& a, const Place& b) {
+      return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
+             std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
+    });
+    take(std::move(places));
+  }
   /// As above, in the order of `places`.
   [[nodiscard]] static ChainLengthReadings in_given_order(std::vector<Place> places,
                                                           bool ordered,
                                                           PointNoise noise,
                                                           double noise_dof,
                                                           std::optional<SheetPrior> sheet) {
-    return {GivenOrder{}, std::move(places), ordered, noise, noise_dof, sheet};
+    ChainLengthReadings readings({}, ordered, noise, noise_dof, sheet);
+    readings.take(std::move(places));
+    return readings;
   }
 
   [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
@@ -67,8 +76,7 @@ class ChainLengthReadings final : public Observation {
         own = view.correction->at(places_[i].mark, own, Eigen::Matrix2d::Zero()).lengths;
       }
       const auto row = 2 * as_index(i);
-      all(row) = own.left_mm;
-      all(row + 1) = own.right_mm;
+      all.segment<2>(row) = vector_of(own);
     }
     return all;
   }
@@ -77,10 +85,7 @@ class ChainLengthReadings final : public Observation {
       const View& view, const Columns& columns) const override {
     const std::vector<model::Setting> settings = settings_in(columns);
     const model::MarkFrame frame(view.chains().machine());
-    Linearisation line;
-    line.predicted.resize(rows());
-    line.by_setting.resize(rows(), std::ssize(settings));
-    line.by_nuisance.resize(rows(), 0);
+    Linearisation line = blank(std::ssize(settings));
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const model::MarkPoint place = frame.place(places_[i].mark);
       const auto reading = view.chains().at(view.sheet.to_bed(place));
@@ -95,8 +100,7 @@ class ChainLengthReadings final : public Observation {
         state.by_length = corrected.by_length;
       }
       const auto row = 2 * as_index(i);
-      line.predicted(row) = lengths.left_mm;
-      line.predicted(row + 1) = lengths.right_mm;
+      line.predicted.segment<2>(row) = vector_of(lengths);
       line.by_setting.middleRows<2>(row) =
           state.by_length.asDiagonal() * lengths_by_setting(view, *reading, place, settings);
       UnitState unit;
@@ -117,29 +121,12 @@ class ChainLengthReadings final : public Observation {
   [[nodiscard]] const PointNoise& noise() const { return noise_; }
 
  private:
-  static std::vector<Place> sorted(std::vector<Place> places) {
-    sort(places, [](const Place& a, const Place& b) {
-      return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
-             std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
-    });
-    return places;
-  }
-
-  struct GivenOrder {};
-  ChainLengthReadings(GivenOrder,
-                      std::vector<Place> places,
-                      bool ordered,
-                      PointNoise noise,
-                      double noise_dof,
-                      std::optional<SheetPrior> sheet)
-      : Observation(ordered, noise_dof), noise_(noise) {
+  void take(std::vector<Place> places) {
     places_ = std::move(places);
-    sheet_ = sheet;
     measured_.resize(2 * std::ssize(places_));
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const auto row = 2 * as_index(i);
-      measured_(row) = places_[i].lengths.left_mm;
-      measured_(row + 1) = places_[i].lengths.right_mm;
+      measured_.segment<2>(row) = vector_of(places_[i].lengths);
       units_.push_back({row, 2, places_[i].index});
     }
   }

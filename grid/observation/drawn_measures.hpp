@@ -29,6 +29,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/observation/observation.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::observation {
@@ -98,10 +99,7 @@ class DrawnMeasures final : public Observation {
     const auto at = located(view, columns.parameters);
     if (!at) return tl::unexpected(at.error());
     const Eigen::Index p = columns.parameters ? view.mechanism->values().size() : 0;
-    Linearisation line;
-    line.predicted.resize(rows());
-    line.by_setting = Eigen::MatrixXd::Zero(rows(), p + (columns.sheet ? 3 : 0));
-    line.by_nuisance.resize(rows(), 0);
+    Linearisation line = blank(p + (columns.sheet ? 3 : 0));
     for (std::size_t k = 0; k < measures_.size(); ++k) {
       const auto row = as_index(k);
       const DrawnMeasure& m = measures_[k];
@@ -151,7 +149,7 @@ class DrawnMeasures final : public Observation {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto tool = view.mechanism->locate_by_first(points_[i].paid_out);
       if (!tool) return tl::unexpected(tool.error().at(i));
-      Located own{{tool->x_mm, tool->y_mm}, Eigen::Matrix2Xd::Zero(2, 0)};
+      Located own{vector_of(*tool), Eigen::Matrix2Xd::Zero(2, 0)};
       if (with_parameters) {
         const auto lengths = view.mechanism->predict(*tool, {}, wanted);
         if (!lengths) return tl::unexpected(lengths.error().at(i));

@@ -7,20 +7,20 @@
 #include <memory>
 
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
-tl::unexpected<NoLengths> no_lengths(std::size_t index, const std::string& why) {
+tl::unexpected<std::string> no_lengths(std::size_t index, const std::string& why) {
   return tl::unexpected(
-      NoLengths{LengthPointsReason::no_lengths,
-                fmt::format("point {} gives a command and no lengths, but {}", index + 1, why)});
+      fmt::format("point {} gives a command and no lengths, but {}", index + 1, why));
 }
 
 }  // namespace
 
-tl::expected<std::vector<LengthPoint>, NoLengths> length_points(const MeasuredGrid& grid) {
+tl::expected<std::vector<LengthPoint>, std::string> length_points(const MeasuredGrid& grid) {
   const bool commands =
       any_of(grid.points, [](const MeasuredPoint& point) { return !point.lengths; });
   std::unique_ptr<const model::ControllerKinematics> controller;
@@ -66,7 +66,7 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near = [&](const std::vector<std::size_t>& group) {
       const model::MarkPoint first = points[group.front()].mark;
-      return std::hypot(first.x_mm - points[i].mark.x_mm, first.y_mm - points[i].mark.y_mm) <=
+      return distance_mm(first, points[i].mark) <=
              kRepeatDistanceMm;
     };
     auto* group = find_where(groups, near);

@@ -23,13 +23,10 @@ struct LengthPoint {
   std::optional<model::BedPoint> commanded = std::nullopt;
 };
 
-/// A point gives a command that its controller cannot reach, or no controller is stated.
-enum class LengthPointsReason { no_lengths };
-using NoLengths = Failure<LengthPointsReason>;
-
 /// Every point's lengths. A point that gives a command has the lengths that the machine's
-/// controller pays out for it.
-[[nodiscard]] tl::expected<std::vector<LengthPoint>, NoLengths> length_points(
+/// controller pays out for it. Fails with a sentence where that cannot be reached, or no controller
+/// is stated.
+[[nodiscard]] tl::expected<std::vector<LengthPoint>, std::string> length_points(
     const MeasuredGrid& grid);
 
 /// Points as an observation, in their order.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
@@ -27,26 +28,19 @@ std::string words_of(const MeasuredHoles& set, const HoleDistance& distance) {
                        : fmt::format("{}-{}", from, set.holes.at(distance.to).name);
 }
 
+EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge) {
+  const model::Bed bed = set.machine ? set.machine->bed : model::Bed{};
+  const double sign = edge == SheetEdge::left || edge == SheetEdge::bottom ? 1.0 : -1.0;
+  if (edge == SheetEdge::left || edge == SheetEdge::right)
+    return {set.sheet.width_mm.value_or(bed.width_mm), 0, sign};
+  return {set.sheet.height_mm.value_or(bed.height_mm), 1, sign};
+}
+
 double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance) {
   const model::BedPoint from = set.holes.at(distance.from).commanded;
-  if (!distance.edge) {
-    const model::BedPoint to = set.holes.at(distance.to).commanded;
-    return std::hypot(from.x_mm - to.x_mm, from.y_mm - to.y_mm);
-  }
-  const model::Bed bed = set.machine ? set.machine->bed : model::Bed{};
-  const double half_width = 0.5 * set.sheet.width_mm.value_or(bed.width_mm);
-  const double half_height = 0.5 * set.sheet.height_mm.value_or(bed.height_mm);
-  switch (*distance.edge) {
-    case SheetEdge::left:
-      return half_width + from.x_mm;
-    case SheetEdge::right:
-      return half_width - from.x_mm;
-    case SheetEdge::top:
-      return half_height - from.y_mm;
-    case SheetEdge::bottom:
-      break;
-  }
-  return half_height + from.y_mm;
+  if (!distance.edge) return distance_mm(from, set.holes.at(distance.to).commanded);
+  const EdgeLine line = edge_line(set, *distance.edge);
+  return 0.5 * line.size_mm + line.sign * vector_of(from)[line.axis];
 }
 
 std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {

@@ -59,6 +59,14 @@ struct Tape {
   std::optional<double> tape_zero_offset_sigma_mm = std::nullopt;
 };
 
+/// One sigma of an unstated tape zero offset, mm: a hook has 1 to 2 mm of play, and from edge to
+/// edge of two holes it is a bit's width, 3.2 or 6.35 mm.
+inline constexpr double kAssumedTapeZeroMm = 3.0;
+/// A fit always estimates one for all distances of a file. Zero if it is stated as exact.
+[[nodiscard]] inline double tape_zero_sigma_mm(const Tape& tape) {
+  return tape.tape_zero_offset_sigma_mm.value_or(kAssumedTapeZeroMm);
+}
+
 /// The sheet whose edges were measured. Absent sizes are the bed's.
 struct SheetSize {
   std::optional<double> width_mm;
@@ -88,6 +96,13 @@ struct MeasuredHoles {
 [[nodiscard]] double length_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// "A-B", "A to the top edge".
 [[nodiscard]] std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
+/// A place is 0.5 size + sign times its coordinate away from an edge.
+struct EdgeLine {
+  double size_mm;     ///< of the sheet, square to the edge
+  Eigen::Index axis;  ///< 0: x, of a left or right edge; 1: y
+  double sign;
+};
+[[nodiscard]] EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge);
 /// The commanded distance, on a sheet aligned with the bed.
 [[nodiscard]] double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance);
 

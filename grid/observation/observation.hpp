@@ -79,6 +79,10 @@ struct SheetPrior {
   bool knows_x = true;
   bool knows_y = true;
   bool knows_rotation = true;
+  /// Of x, y and the rotation.
+  [[nodiscard]] Eigen::Vector3d sigma() const {
+    return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad};
+  }
   /// True for a setting that is not the sheet's.
   [[nodiscard]] bool knows(model::Setting setting) const {
     if (setting == model::Setting::sheet_x_mm) return knows_x;
@@ -248,6 +252,15 @@ class Observation {
   Observation(Observation&&) = default;
   Observation& operator=(const Observation&) = default;
   Observation& operator=(Observation&&) = default;
+
+  /// Zeros for so many settings, without places and units.
+  [[nodiscard]] Linearisation blank(Eigen::Index settings) const {
+    return {Eigen::VectorXd::Zero(rows()),
+            Eigen::MatrixXd::Zero(rows(), settings),
+            Eigen::MatrixXd::Zero(rows(), nuisance_sigma_.size()),
+            {},
+            {}};
+  }
 
   std::vector<Place> places_;
   std::vector<Unit> units_;

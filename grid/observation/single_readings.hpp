@@ -52,12 +52,9 @@ class SingleReadings final : public Observation {
       const View& view, const Columns& columns) const override {
     const std::vector<model::Setting> settings = settings_in(columns);
     const model::Machine& machine = view.chains().machine();
-    Linearisation line;
-    line.predicted.resize(rows());
+    Linearisation line = blank(std::ssize(settings));
     for (std::size_t k = 0; k < readings_.size(); ++k)
       line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
-    line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
-    line.by_nuisance.resize(rows(), 0);
     for (std::size_t s = 0; s < settings.size(); ++s) {
       if (model::is_of_sheet(settings[s])) continue;
       const model::Machine moved = model::with_setting(

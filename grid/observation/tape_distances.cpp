@@ -10,8 +10,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
-#include "grid/failed.hpp"
-#include "grid/observation/tape_zero.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/reading_model.hpp"
@@ -21,36 +20,7 @@
 namespace chaintrue::grid::observation {
 namespace {
 
-using model::BedPoint;
 using model::MarkPoint;
-
-struct EdgeRow {
-  double size_mm;  ///< of the sheet, square to the edge
-  int axis;        ///< 0: x, 1: y
-  double sign;     ///< of the hole's coordinate in its distance from the edge
-};
-
-EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
-  const model::Bed bed = set.machine ? set.machine->bed : model::Bed{};
-  const double width_mm = set.sheet.width_mm.value_or(bed.width_mm);
-  const double height_mm = set.sheet.height_mm.value_or(bed.height_mm);
-  switch (edge) {
-    case SheetEdge::left:
-      return {width_mm, 0, 1.0};
-    case SheetEdge::right:
-      return {width_mm, 0, -1.0};
-    case SheetEdge::top:
-      return {height_mm, 1, -1.0};
-    case SheetEdge::bottom:
-      break;
-  }
-  return {height_mm, 1, 1.0};
-}
-
-Eigen::MatrixXd tape_zero_covariance(const MeasuredHoles& set) {
-  const auto count = std::ssize(set.distances);
-  return Eigen::MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
-}
 
 /// A set in an order that the file's does not change.
 struct Sorted {
@@ -103,17 +73,16 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
     const MarkPoint from = marks.at(distance.from);
     const auto a = 2 * as_index(distance.from);
     if (distance.edge) {
-      const EdgeRow row = edge_row(set, *distance.edge);
-      geometry.predicted_mm[k] =
-          0.5 * row.size_mm + row.sign * (row.axis == 0 ? from.x_mm : from.y_mm);
-      geometry.by_mark(k, a + row.axis) = row.sign;
+      const EdgeLine line = edge_line(set, *distance.edge);
+      geometry.predicted_mm[k] = 0.5 * line.size_mm + line.sign * vector_of(from)[line.axis];
+      geometry.by_mark(k, a + line.axis) = line.sign;
       // Half of the sheet's excess size is at each edge.
-      geometry.by_size(k, row.axis) = 0.5;
+      geometry.by_size(k, line.axis) = 0.5;
       continue;
     }
     const MarkPoint to = marks.at(distance.to);
     const auto b = 2 * as_index(distance.to);
-    const Eigen::Vector2d way(from.x_mm - to.x_mm, from.y_mm - to.y_mm);
+    const Eigen::Vector2d way = difference(from, to);
     geometry.predicted_mm[k] = way.norm();
     const Eigen::Vector2d unit = way / way.norm();
     geometry.by_mark.block<1, 2>(k, a) = unit.transpose();
@@ -133,7 +102,8 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
       set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
   noise.size_mm2 =
       std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
-  noise.tape_zero_mm2 = tape_zero_covariance(set);
+  noise.tape_zero_mm2 =
+      Eigen::MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
   return noise;
 }
 
@@ -170,24 +140,23 @@ double tape_factor(const model::Machine& machine) {
 SheetPrior sheet_measured(const MeasuredHoles& set) {
   // Two readings to upright edges, from holes this far apart in height, determine the rotation.
   constexpr double kApartMm = 100.0;
-  SheetPrior measured{kSheetShiftMm, kSheetTurnRad, false, false, false};
+  SheetPrior measured = kSheetByEdges;
+  measured.knows_x = measured.knows_y = measured.knows_rotation = false;
   for (const HoleDistance& a : set.distances) {
     if (!a.edge) continue;
-    const bool upright = *a.edge == SheetEdge::left || *a.edge == SheetEdge::right;
-    (upright ? measured.knows_x : measured.knows_y) = true;
+    const Eigen::Index axis = edge_line(set, *a.edge).axis;
+    (axis == 0 ? measured.knows_x : measured.knows_y) = true;
     for (const HoleDistance& b : set.distances) {
-      if (!b.edge || (*b.edge == SheetEdge::left || *b.edge == SheetEdge::right) != upright)
-        continue;
-      const BedPoint p = set.holes.at(a.from).commanded;
-      const BedPoint q = set.holes.at(b.from).commanded;
-      if (std::abs(upright ? p.y_mm - q.y_mm : p.x_mm - q.x_mm) > kApartMm)
-        measured.knows_rotation = true;
+      if (!b.edge || edge_line(set, *b.edge).axis != axis) continue;
+      const Eigen::Vector2d apart =
+          difference(set.holes.at(a.from).commanded, set.holes.at(b.from).commanded);
+      if (std::abs(apart[1 - axis]) > kApartMm) measured.knows_rotation = true;
     }
   }
   return measured;
 }
 
-tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(MeasuredHoles set) {
+tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredHoles set) {
   if (!set.machine) throw std::invalid_argument("holes without a machine predict no distances");
   raise_to_rounding(set);
   TapeDistances result(std::move(set));
@@ -196,12 +165,11 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
-      return failed(TapeDistancesReason::no_lengths,
-                    fmt::format("the controller cannot reach hole {} at ({:.1f}, {:.1f}): {}",
-                                hole.name,
-                                hole.commanded.x_mm,
-                                hole.commanded.y_mm,
-                                lengths.error().sentence()));
+      return tl::unexpected(fmt::format("the controller cannot reach hole {} at ({:.1f}, {:.1f}): {}",
+                                        hole.name,
+                                        hole.commanded.x_mm,
+                                        hole.commanded.y_mm,
+                                        lengths.error().sentence()));
     }
     result.places_.push_back(
         {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
@@ -218,7 +186,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
   return result;
 }
 
-tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const MeasuredHoles& set,
+tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& set,
                                                                     NumberedFrom first) {
   const Sorted sorted = sorted_set(set);
   auto result = in_given_order(sorted.set);

@@ -33,7 +33,6 @@
 #include "grid/containers.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "grid/observation/observation.hpp"
-#include "grid/observation/tape_zero.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -66,9 +65,8 @@ struct DistanceNoise {
 /// Sigma of exactly stated values, mm: no workshop reading is more accurate.
 inline constexpr double kKnownNuisanceMm = 1e-6;
 
-/// Prior sigmas of a sheet's placement if its edges were measured.
-inline constexpr double kSheetShiftMm = 50.0;
-inline constexpr double kSheetTurnRad = 0.03;
+/// Of a sheet's placement if its edges were measured.
+inline constexpr SheetPrior kSheetByEdges{50.0, 0.03};
 
 /// Directions in which the measured edges determine the sheet's placement.
 [[nodiscard]] SheetPrior sheet_measured(const MeasuredHoles& set);
@@ -79,17 +77,14 @@ struct NumberedFrom {
   std::size_t distance = 0;
 };
 
-enum class TapeDistancesReason { no_lengths };
-using TapeDistancesFailure = Failure<TapeDistancesReason>;
-
 class TapeDistances final : public Observation {
  public:
-  /// Sorts holes by place and distances by their holes. Fails with no_lengths where a command is out
+  /// Sorts holes by place and distances by their holes. Fails with a sentence where a command is out
   /// of the controller's reach. \throws std::invalid_argument for a set without a machine.
-  [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> of(
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(
       const MeasuredHoles& set, NumberedFrom first = {});
   /// The same in the order of the set.
-  [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> in_given_order(
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> in_given_order(
       MeasuredHoles set);
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
@@ -105,9 +100,8 @@ class TapeDistances final : public Observation {
     const double factor = tape_factor(view.chains().machine());
     const DistanceGeometry geometry = distance_geometry(set_, marks);
     const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
-    Linearisation line;
+    Linearisation line = blank(std::ssize(settings));
     line.predicted = factor * geometry.predicted_mm;
-    line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
     for (std::size_t i = 0; i < states->size(); ++i) {
       const ChainPlaceState& place = (*states)[i];
       // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
@@ -115,12 +109,8 @@ class TapeDistances final : public Observation {
           place.by_length.asDiagonal() *
           lengths_by_setting(view, place.reading, place.mark, settings);
       const Eigen::Matrix2Xd marks_by_setting = -place.by_mark.inverse() * lengths;
-      for (Eigen::Index s = 0; s < lengths.cols(); ++s) {
-        line.by_setting.col(s) +=
-            by_mark.middleCols<2>(2 * as_index(i)) * marks_by_setting.col(s);
-      }
+      line.by_setting += by_mark.middleCols<2>(2 * as_index(i)) * marks_by_setting;
     }
-    line.by_nuisance.resize(rows(), nuisance_sigma_.size());
     line.by_nuisance << factor * geometry.by_size, Eigen::VectorXd::Ones(rows()), by_mark;
     for (Eigen::Index k = 0; k < rows(); ++k) {
       const double sigma = sigma_of(set_, set_.distances[as_size(k)]);

@@ -5,21 +5,31 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
 
-struct PlacedEnd {
-  Eigen::Vector2d at;
-  Eigen::Matrix2Xd by_parameter;
-};
-
 using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
-constexpr model::MechanismReason kNoHole{
-    "no_hole", "the lengths that were paid out for a hole do not meet"};
+MaybePlaced placed(const model::Mechanism& mechanism,
+                   const TapeEnd& end,
+                   const model::ToolPosition& place) {
+  const Eigen::Index parameters = mechanism.values().size();
+  if (const auto* hole = std::get_if<AtHole>(&end)) return placed_hole(mechanism, *hole);
+  if (const auto* fixed = std::get_if<AtFixedPoint>(&end)) {
+    const model::FixedPoint point = mechanism.fixed_points().at(fixed->index);
+    return PlacedEnd{vector_of(point.at), point.by_parameter};
+  }
+  return PlacedEnd{vector_of(place), Eigen::Matrix2Xd::Zero(2, parameters)};
+}
 
-MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
+}  // namespace
+
+tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechanism& mechanism,
+                                                             const AtHole& hole) {
+  constexpr model::MechanismReason kNoHole{
+      "no_hole", "the lengths that were paid out for a hole do not meet"};
   const auto at =
       model::locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
   if (!at) return tl::unexpected(at.error());
@@ -41,22 +51,8 @@ MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
     by_position.row(row) = there->by_position.row(as_index(i));
     by_parameter.row(row++) = there->by_parameter.row(as_index(i));
   }
-  return PlacedEnd{{at->x_mm, at->y_mm}, -by_position.inverse() * by_parameter};
+  return PlacedEnd{vector_of(*at), -by_position.inverse() * by_parameter};
 }
-
-MaybePlaced placed(const model::Mechanism& mechanism,
-                   const TapeEnd& end,
-                   const model::ToolPosition& place) {
-  const Eigen::Index parameters = mechanism.values().size();
-  if (const auto* hole = std::get_if<AtHole>(&end)) return hole_at(mechanism, *hole);
-  if (const auto* fixed = std::get_if<AtFixedPoint>(&end)) {
-    const model::FixedPoint point = mechanism.fixed_points().at(fixed->index);
-    return PlacedEnd{{point.at.x_mm, point.at.y_mm}, point.by_parameter};
-  }
-  return PlacedEnd{{place.x_mm, place.y_mm}, Eigen::Matrix2Xd::Zero(2, parameters)};
-}
-
-}  // namespace
 
 tl::expected<DistanceLine, model::MechanismFailure> distance_line(
     const model::Mechanism& mechanism,

@@ -56,6 +56,14 @@ struct DistanceLine {
   Eigen::RowVectorXd by_parameter;
 };
 
+/// An end in the mechanism's frame, and its derivative by theta.
+struct PlacedEnd {
+  Eigen::Vector2d at;
+  Eigen::Matrix2Xd by_parameter;
+};
+[[nodiscard]] tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(
+    const model::Mechanism& mechanism, const AtHole& hole);
+
 /// `places` are the positions of its ends; entries for ends that are not places are ignored.
 [[nodiscard]] tl::expected<DistanceLine, model::MechanismFailure> distance_line(
     const model::Mechanism& mechanism,

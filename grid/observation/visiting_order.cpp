@@ -8,6 +8,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -42,7 +43,7 @@ Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& 
     const model::MarkPoint& mark = points[i].mark;
     const bool again = any_of(visits.first, [&](const MarkInLine& place) {
       const model::MarkPoint& other = points[place.index].mark;
-      return std::hypot(other.x_mm - mark.x_mm, other.y_mm - mark.y_mm) <= kRepeatDistanceMm;
+      return distance_mm(other, mark) <= kRepeatDistanceMm;
     });
     if (again) {
       visits.again.push_back(i);

@@ -26,6 +26,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -175,8 +176,7 @@ class DistanceChooser {
     std::vector<HoleDistance> distances;
     for (std::size_t a = 0; a < holes.size(); ++a) {
       for (std::size_t b = a + 1; b < holes.size(); ++b) {
-        const double way_mm = std::hypot(holes[a]->place.x_mm - holes[b]->place.x_mm,
-                                         holes[a]->place.y_mm - holes[b]->place.y_mm);
+        const double way_mm = distance_mm(holes[a]->place, holes[b]->place);
         if (way_mm <= request_.longest_mm) distances.push_back({.from = a, .to = b});
       }
     }

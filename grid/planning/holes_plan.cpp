@@ -14,6 +14,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/planning/distance_choice.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
@@ -46,7 +47,7 @@ std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, Mark
     lengths.col(as_index(i)) = model.sensitivity(*reading, model::kMachineSettings[i]);
   }
   lengths.rightCols<2>() =
-      Eigen::Vector2d(reading->lengths.left_mm, reading->lengths.right_mm).asDiagonal();
+      vector_of(reading->lengths).asDiagonal();
   PlannedPlace planned{place, {}};
   planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
       -model::SheetPlacement{}.sensitivity(place);
@@ -103,7 +104,7 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
 bool is_free(const Holes& holes, std::size_t moving, MarkPoint place, double apart_mm) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (i == moving) continue;
-    if (std::hypot(holes[i]->place.x_mm - place.x_mm, holes[i]->place.y_mm - place.y_mm) < apart_mm)
+    if (distance_mm(holes[i]->place, place) < apart_mm)
       return false;
   }
   return true;
@@ -120,8 +121,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
       double way = 1e9;
       for (const PlannedPlace* hole : holes) {
         way = std::min(way,
-                       std::hypot(hole->place.x_mm - candidate.place.x_mm,
-                                  hole->place.y_mm - candidate.place.y_mm));
+                       distance_mm(hole->place, candidate.place));
       }
       if (way <= best_way + kSameWayMm) continue;
       best_way = way;
@@ -268,12 +268,7 @@ Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
   prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =
       estimation::stated_knowledge(machine).covariance;
-  if (edges) {
-    prior.diagonal().tail<3>() =
-        Eigen::Array3d(
-            observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad)
-            .square();
-  }
+  if (edges) prior.diagonal().tail<3>() = observation::kSheetByEdges.sigma().cwiseAbs2();
   return prior;
 }
 
@@ -304,8 +299,7 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
   prior << estimation::stated_knowledge(*set.machine)
                .covariance.diagonal()
                .head(model::kMachineSettings.size()),
-      std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2),
-      std::pow(observation::kSheetTurnRad, 2);
+      observation::kSheetByEdges.sigma().cwiseAbs2();
   const linear::Cholesky covariance(
       observation::marginal_covariance(*line, distances->nuisance_sigma()) +
       line->by_setting * prior.asDiagonal() * line->by_setting.transpose());

@@ -10,6 +10,7 @@
 #include "grid/failed.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/observation/length_points.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
 #include "grid/synthetic/generator.hpp"
@@ -84,7 +85,7 @@ class Planner {
       const MarkPoint& place = places[i];
       // A point nearer than this to another one adds little information.
       const bool taken = any_of(marks, [&](const MarkPoint& mark) {
-        return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
+        return distance_mm(mark, place) <=
                2.0 * kRepeatDistanceMm;
       });
       if (taken || errors[i] <= kWorse * largest) continue;

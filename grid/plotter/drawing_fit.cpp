@@ -11,6 +11,7 @@
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/failed.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/plotter/drawing_slips.hpp"
 #include "grid/statistics.hpp"
 
@@ -97,7 +98,7 @@ std::optional<Eigen::VectorXd> next_drawing(const TestDrawing& drawing, const Dr
   for (const DrawnCross& cross : drawing.crosses) {
     const auto pen = pen_of_command(drawing.firmware, fit.to_set, *fit.mechanism, cross.commanded);
     if (!pen) return std::nullopt;
-    pens.emplace_back(pen->x_mm, pen->y_mm);
+    pens.push_back(vector_of(*pen));
   }
   Eigen::VectorXd values(std::ssize(drawing.measures));
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/input_checks/transformation_search.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
@@ -112,7 +113,7 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
     if (own.kind != Kind::bow) continue;
     const model::BedPoint a = drawing.crosses.at(own.from).commanded;
     const model::BedPoint b = drawing.crosses.at(own.to).commanded;
-    const double length = std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm);
+    const double length = distance_mm(b, a);
     if (std::abs(own.value_mm) <= kMostBowShare * length) continue;
     return DrawingFailure{
         DrawingFailure::Reason::bow_is_a_length,

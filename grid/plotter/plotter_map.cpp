@@ -12,10 +12,12 @@ namespace chaintrue::grid {
 namespace {
 
 using model::BedPoint;
+using model::MarkPoint;
 
-BedPoint middle_of(const std::vector<BedPoint>& points) {
-  BedPoint sum;
-  for (const BedPoint& point : points) {
+template <class Point>
+Point middle_of(const std::vector<Point>& points) {
+  Point sum;
+  for (const Point& point : points) {
     sum.x_mm += point.x_mm;
     sum.y_mm += point.y_mm;
   }
@@ -34,9 +36,9 @@ std::vector<BedPoint> crosses_of(const SetPlotter& set) {
 }
 
 /// Where a plotter's pen is when these lengths are counted. \throws std::invalid_argument.
-std::vector<BedPoint> pens_of(const model::Mechanism& plotter,
-                              const std::vector<model::ChainLengths>& counted) {
-  std::vector<BedPoint> pens;
+std::vector<MarkPoint> pens_of(const model::Mechanism& plotter,
+                               const std::vector<model::ChainLengths>& counted) {
+  std::vector<MarkPoint> pens;
   for (const model::ChainLengths& lengths : counted) {
     const auto pen = plotter.locate_by_first(lengths);
     if (!pen)
@@ -47,11 +49,9 @@ std::vector<BedPoint> pens_of(const model::Mechanism& plotter,
   return pens;
 }
 
-std::shared_ptr<const SheetInFrame> page(model::SheetPlacement laid) {
-  return std::make_shared<const LaidSheet>(laid);
-}
+}  // namespace
 
-MechanismMap map_of(const KnownPlotter& plotter) {
+MechanismMap plotter_map(const KnownPlotter& plotter) {
   if (!plotter.found) throw std::invalid_argument("a plotter of which nothing was found");
   const SetPlotter& set = plotter.set;
   const auto found = model::make_plotter_mechanism(machine_found(set, *plotter.found));
@@ -67,17 +67,19 @@ MechanismMap map_of(const KnownPlotter& plotter) {
                                               sentence_of(lengths.error().reason)));
     counted.push_back(*lengths);
   }
-  const BedPoint middle = middle_of(crosses), drawn = middle_of(pens_of(*found, counted));
-  const PlacedMechanism best{found, page({drawn.x_mm - middle.x_mm, drawn.y_mm - middle.y_mm})};
+  const BedPoint middle = middle_of(crosses);
+  const MarkPoint drawn = middle_of(pens_of(*found, counted));
+  const PlacedMechanism best{found, {{middle.x_mm - drawn.x_mm, middle.y_mm - drawn.y_mm}}};
   // The page of each plotter one sigma away is placed so that its crosses best match those of the fit.
   std::vector<model::ChainLengths> of_fit;
-  std::vector<model::MarkPoint> on_page, measured;
+  std::vector<BedPoint> on_page;
+  std::vector<MarkPoint> measured;
   for (const BedPoint& cross : crosses) {
     measured.push_back(model::identity_placement(cross));
-    const auto lengths = found->first_lengths(best.sheet->in_frame(cross));
+    const auto lengths = found->first_lengths(best.sheet.in_frame(cross));
     if (!lengths) continue;
     of_fit.push_back(*lengths);
-    on_page.push_back(measured.back());
+    on_page.push_back(cross);
   }
   const model::MechanismExtent e = found->extent();
   const BedPoint by = set.pins_middle;
@@ -86,8 +88,8 @@ MechanismMap map_of(const KnownPlotter& plotter) {
                        plotter.found->covariance(),
                        [&](const Eigen::VectorXd& values) {
                          auto other = found->with_values(values);
-                         auto sheet = page(laid_on(on_page, pens_of(*other, of_fit)));
-                         return PlacedMechanism{std::move(other), std::move(sheet)};
+                         const auto laid = laid_on(pens_of(*other, of_fit), on_page);
+                         return PlacedMechanism{std::move(other), {laid}};
                        }),
           MeasuredArea(measured,
                        {e.x_min_mm + by.x_mm,
@@ -95,10 +97,5 @@ MechanismMap map_of(const KnownPlotter& plotter) {
                         e.y_min_mm + by.y_mm,
                         e.y_max_mm + by.y_mm})};
 }
-
-}  // namespace
-
-PlotterMap::PlotterMap(const KnownPlotter& plotter)
-    : MechanismMap(map_of(plotter)) {}
 
 }  // namespace chaintrue::grid

@@ -13,7 +13,7 @@
 /// whole.
 ///
 /// \code
-///   const PlotterMap map(plotter);
+///   const MechanismMap map = plotter_map(plotter);
 ///   const auto lengths = map.lengths({420.0, 120.0});
 /// \endcode
 #pragma once
@@ -23,12 +23,9 @@
 
 namespace chaintrue::grid {
 
-/// Immutable, thread safe. Over the drawing area; what was measured is the rectangle of the crosses.
-class PlotterMap final : public MechanismMap {
- public:
-  /// \throws std::invalid_argument without a fit, or if the controller or the fitted plotter does
-  /// not reach a cross.
-  explicit PlotterMap(const KnownPlotter& plotter);
-};
+/// Over the drawing area; what was measured is the rectangle of the crosses. \throws
+/// std::invalid_argument without a fit, or if the controller or the fitted plotter does not reach a
+/// cross.
+[[nodiscard]] MechanismMap plotter_map(const KnownPlotter& plotter);
 
 }  // namespace chaintrue::grid

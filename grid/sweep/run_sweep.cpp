@@ -8,6 +8,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/parallel.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::sweep {
@@ -127,10 +128,8 @@ CellResult hold_against_truth(const SweepSpec& spec,
     }
     model::ChainLengths disturbed{};
     if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
-    const Eigen::Vector2d chain{
-        answer->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
-        answer->lengths.right_mm - real->lengths.right_mm -
-            level.unmodelled_mm * disturbed.right_mm};
+    const Eigen::Vector2d chain = difference(answer->lengths, real->lengths) -
+                                  level.unmodelled_mm * vector_of(disturbed);
     errors.add(chain, real->position_jacobian.inverse() * chain);
   }
   return errors.result();

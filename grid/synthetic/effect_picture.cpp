@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/synthetic/effect_picture.hpp"
 
+#include "grid/plane_vectors.hpp"
+
 namespace chaintrue::grid::synthetic {
 namespace {
 
@@ -31,7 +33,7 @@ ShiftedSquare square_at(const Machine& machine,
   std::array<Eigen::Vector2d, 4> cut;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     square.corner_shift_mm[i] = shift[i];
-    cut[i] = Eigen::Vector2d{corners[i].x_mm, corners[i].y_mm} + shift[i];
+    cut[i] = vector_of(corners[i]) + shift[i];
   }
   for (std::size_t i = 0; i < corners.size(); ++i) {
     square.side_mm[i] = (cut[(i + 1) % corners.size()] - cut[i]).norm();

@@ -51,7 +51,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
   if (!distances) {
-    return failed(CutReason::no_lengths, distances.error().sentence());
+    return failed(CutReason::no_lengths, distances.error());
   }
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
   const model::ReadingModel model(made.truth);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/synthetic/strength.hpp"
 
+#include "grid/plane_vectors.hpp"
 #include "grid/synthetic/design.hpp"
 
 namespace chaintrue::grid::synthetic {
@@ -62,9 +63,8 @@ SessionSignature signature(const Machine& stated,
     const model::MarkPoint place = model::identity_placement(visits[i].position);
     const model::MarkPoint written = mark_frame.written(place);
     const model::MarkPoint usual = stated_mark_frame.written(place);
-    const Eigen::Vector2d moved{written.x_mm - usual.x_mm, written.y_mm - usual.y_mm};
-    const Eigen::Vector2d gained{after[i].left_mm - before[i].left_mm,
-                                 after[i].right_mm - before[i].right_mm};
+    const Eigen::Vector2d moved = difference(written, usual);
+    const Eigen::Vector2d gained = difference(after[i], before[i]);
     result.length_by_xy.push_back(reading->position_jacobian);
     result.residual_mm.emplace_back(gained - reading->position_jacobian * moved);
   }

@@ -62,7 +62,7 @@ KnownPlotter known_plotter() {
 
 TEST(PlotterMap, EqualsTheFittedPlotterOnItsPage) {
   const KnownPlotter plotter = known_plotter();
-  const PlotterMap map(plotter);
+  const MechanismMap map = plotter_map(plotter);
   const auto mechanism = model::make_plotter_mechanism(machine_found(plotter.set, *plotter.found));
   const PlotterController controller(
       plotter.set.firmware, plotter.set.machine, plotter.set.pins_middle);
@@ -105,14 +105,14 @@ TEST(PlotterMap, KnowsItsErrorOfShapeAndNotOfPlace) {
   plotter.found->pin_spacing_mm.sigma = plotter.found->zero_left_mm.sigma = 0.0;
   plotter.found->zero_right_mm.sigma = plotter.found->scale_left_mm_per_m.sigma = 0.0;
   plotter.found->scale_right_mm_per_m.sigma = 0.0;
-  const auto turned = PlotterMap(plotter).query({600.0, 100.0});
+  const auto turned = plotter_map(plotter).query({600.0, 100.0});
   ASSERT_TRUE(turned);
   ASSERT_TRUE(turned->tool_sigma_mm);
   EXPECT_LT(*turned->tool_sigma_mm, 0.02);  // 2 mm of rise on 1204 turn by 1.7 mrad
   // Off the drawing area there is no answer; nor without a drawing.
-  EXPECT_FALSE(PlotterMap(plotter).query({600.0, 900.0}));
+  EXPECT_FALSE(plotter_map(plotter).query({600.0, 900.0}));
   plotter.found.reset();
-  EXPECT_THROW((void)PlotterMap(plotter), std::invalid_argument);
+  EXPECT_THROW((void)plotter_map(plotter), std::invalid_argument);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ struct LengthsOf {
   }
   Lengths operator()(const grid::KnownPlotter& plotter) const {
     try {
-      return std::make_unique<const grid::PlotterMap>(plotter);
+      return std::make_unique<const grid::MechanismMap>(grid::plotter_map(plotter));
     } catch (const std::invalid_argument& error) {
       refuse(file.name,
              "/set/machine/area",

@@ -67,7 +67,7 @@ grid::MeasuredGrid commands_of(std::uint64_t seed) {
     grid.points.push_back(point);
   }
   const auto paid_out = grid::length_points(grid);
-  if (!paid_out) throw std::runtime_error("commands_of: " + paid_out.error().sentence());
+  if (!paid_out) throw std::runtime_error("commands_of: " + paid_out.error());
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const model::BedPoint near = *grid.points[i].commanded;
     const Vec2 place =

@@ -125,7 +125,7 @@ Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& g
               grid::files::read(grid::files::parse_optical, scan, options).grid};
   result.grid.noise = grid::StatedNoise{0.1, 0.3, 12.0};
   const auto lengths = grid::length_points(result.grid);
-  if (!lengths) throw std::runtime_error(lengths.error().sentence());
+  if (!lengths) throw std::runtime_error(lengths.error());
   for (std::size_t i = 0; i < lengths->size(); ++i) {
     result.grid.points[i].lengths = (*lengths)[i].lengths;
     result.grid.points[i].commanded.reset();

@@ -83,7 +83,7 @@ double error_at(const grid::CompensationMap& map,
 Outcome run_scan(const PlannedSet& set, const grid::MeasuredGrid& whole, int marks) {
   Outcome outcome{.kind = set.kind, .seed = set.seed, .points = marks};
   const auto points = grid::length_points(whole);
-  if (!points) throw std::runtime_error(points.error().sentence());
+  if (!points) throw std::runtime_error(points.error());
   generator::Dice dice(set.seed, "marks of a scan");
   std::vector<bool> drawn(whole.points.size(), false);
   grid::MeasuredGrid few = whole;

@@ -293,7 +293,7 @@ void promised_by_plotter(Outcome& outcome) {
   const PlotterSet set = plotter_set(*kind, {}, 0.0, 0.0, outcome.seed);
   const auto fit = grid::fit_drawing(set.drawing);
   if (!fit) return outcome.fail();
-  const grid::PlotterMap map({set.drawing, grid::found_by(*fit)});
+  const grid::MechanismMap map = grid::plotter_map({set.drawing, grid::found_by(*fit)});
   const auto pens_of = [&](const Eigen::Matrix2Xd& commands) {
     Eigen::Matrix2Xd pens(2, commands.cols());
     for (Eigen::Index i = 0; i < commands.cols(); ++i)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/belts/tool_displacement.hpp"
+#include "grid/map/tool_displacement.hpp"
+
+#include "grid/plane_vectors.hpp"
 
 #include <cmath>
 
@@ -12,7 +14,7 @@ Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
   for (std::size_t i = 0; i < from.size(); ++i) {
     for (std::size_t j = 0; j < to.size(); ++j) {
       const double u = std::sqrt(5.0) *
-                       std::hypot(from[i].x_mm - to[j].x_mm, from[i].y_mm - to[j].y_mm) / reach_mm;
+                       distance_mm(from[i], to[j]) / reach_mm;
       kernel(as_index(i), as_index(j)) = (1.0 + u + u * u / 3.0) * std::exp(-u);
     }
   }
