@@ -132,7 +132,7 @@ FAULTS = [
           "result_.caused > kCaused",
           "decision|abstain|diagnosis.*nothing|false_?alarm"),
     Fault("budget_keeps_noise", "grid/diagnosis/error_budget.cpp",
-          "take_away(noise, settings);",
+          "rest = without(rest, part);",
           "",
           "budget"),
     # grid/files
