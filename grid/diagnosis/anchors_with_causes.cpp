@@ -81,7 +81,8 @@ struct AnchorsWithCauses {
 };
 
 tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
-    const BeltsAnalysis& analysis, const MeasuredBelts& belts, const BeltsFit& alone) {
+    const BeltsAnalysis& analysis) {
+  const MeasuredBelts& belts = analysis.measured;
   const AveragedAnchors& averaged = analysis.averaged;
   std::vector<CauseInAnchorFit> causes;
   std::vector<SizedCause> sizes;
@@ -109,44 +110,32 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
   BeltsFit fit =
       belts::fit_report(without_causes, FitDiagnostics(without_causes, frame), covariance);
   fit.causes = std::move(causes);
-  fit.rms_mm = alone.rms_mm;
-  fit.half_left_out = prediction_by_halves(analysis.belts, {frame, sizes, {}});
+  fit.rms_mm = analysis.before.rms_mm;
+  fit.half_left_out = prediction_by_halves(analysis.belts, frame, sizes);
   return AnchorsWithCauses{{std::move(fit), std::move(frame), std::move(covariance)},
                            std::move(without_causes)};
 }
 
-tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const MeasuredBelts& belts) {
-  const auto alone = fit_belts(belts);
-  if (!alone) return tl::unexpected(alone.error());
-  const auto analysed = analyse(belts, {});
-  if (!analysed) {
-    return tl::unexpected(
-        BeltsFitFailure{BeltsFitFailure::Reason::no_frame, analysed.error().sentence()});
-  }
-  return fit_anchors_with_causes(*analysed, belts, *alone);
-}
-
 }  // namespace
 
-tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis,
-                                                        const MeasuredBelts& belts,
-                                                        const BeltsFit& alone) {
-  return fit_anchors_with_causes(analysis, belts, alone).map([](AnchorsWithCauses found) {
-    return std::move(found.alone.fit);
-  });
+tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis) {
+  return fit_anchors_with_causes(analysis).map(
+      [](AnchorsWithCauses found) { return std::move(found.alone.fit); });
 }
 
 tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts) {
-  return fit_anchors_with_causes(belts).map(
-      [](AnchorsWithCauses found) { return std::move(found.alone.fit); });
+  return analyse(belts, {}).and_then(
+      [](const BeltsAnalysis& analysis) { return fit_with_causes(analysis); });
 }
 
 tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_with_causes_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets) {
   if (belts.points.empty()) return fit_belts_and_holes(belts, sets);
-  auto found = fit_anchors_with_causes(belts);
-  if (!found) return tl::unexpected(found.error());
-  return fit_belts_and_holes(found->without_causes, sets, std::move(found->alone));
+  return analyse(belts, {})
+      .and_then(fit_anchors_with_causes)
+      .and_then([&sets](AnchorsWithCauses found) {
+        return fit_belts_and_holes(found.without_causes, sets, std::move(found.alone));
+      });
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -138,20 +138,21 @@ struct SizeMoments {
 class Averaging {
  public:
   Averaging(const belts::AnchorVector& about, const Analysis& a)
-      : about_(about), known_(a.known), system_(a.system), comparison_(a.comparison) {
+      : about_(about), a_(a), system_(a.system) {
     for (const Regressor& own : system_.regressors)
       share_of_effect_[own.cause.effect] += std::exp(own.log_prior);
   }
 
   AveragedAnchors averaged() {
-    (void)comparison_.best();  // throws if there is none
+    (void)a_.comparison.best();  // throws if there is none
     std::vector<double> log_weights;
-    for (const CandidateModel& model : comparison_.models)
+    const std::vector<CandidateModel>& models = a_.comparison.models;
+    for (const CandidateModel& model : models)
       log_weights.push_back(model.log_weight + log_prior_change(model));
     const double most = *max_element(log_weights);
     for (std::size_t m = 0; m < log_weights.size(); ++m) {
       const double weight = std::exp(log_weights[m] - most);
-      if (weight > kLeastWeight) add(comparison_.models[m], weight);
+      if (weight > kLeastWeight) add(models[m], weight);
     }
     const std::vector<Key> reported = reported_causes();
     const belts::AnchorVector mean = change_with(reported);
@@ -236,11 +237,11 @@ class Averaging {
   }
 
   void add(const CandidateModel& model, double weight) {
-    const MarginalisedSystem& marginalised = comparison_.marginalised_systems[model.marginalised];
+    const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[model.marginalised];
     auto& noise = noise_[{model.marginalised, model.discrepancy}];
     if (noise == nullptr) noise = discrepancy_noise(system_, marginalised, model.discrepancy);
     Estimate found = estimate(system_, marginalised, model.regressors, noise.get());
-    weight *= std::exp(hold_to_usual_sizes(known_, system_, found));
+    weight *= std::exp(hold_to_usual_sizes(a_.known, system_, found));
     total_ += weight;
     std::vector<Key> causes;
     for (const int index : model.regressors) causes.push_back(key_of(system_.regressor(index)));
@@ -252,7 +253,7 @@ class Averaging {
     for (std::size_t k = 0; k < model.regressors.size(); ++k) {
       const auto row = as_index(k);
       const Regressor& own = system_.regressor(model.regressors[k]);
-      SizedCause cause{own.cause, own.values};
+      SizedCause cause = own;
       cause.values.front() = size_at(own, found.coefficient(row));
       const double slope = std::abs(size_slope(own, found.coefficient(row)));
       SizeMoments& moments = sizes_[key_of(own)];
@@ -262,9 +263,8 @@ class Averaging {
   }
 
   const belts::AnchorVector& about_;
-  const std::vector<SizedCause>& known_;
+  const Analysis& a_;
   const RegressorSystem& system_;
-  const ModelComparison& comparison_;
   std::map<const void*, double> share_of_effect_;
   double total_ = 0.0;
   std::vector<Part> parts_;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/failed.hpp"
+#include "grid/progress.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -31,6 +33,10 @@ constexpr SearchLimits kSearch{.of_a_cause = 3, .one_event_visits = 4.0};
 /// With more rows a pattern costs seconds: one kernel, at the end alone.
 constexpr Eigen::Index kManyRows = 500;
 constexpr std::size_t kKernelOfMany = 1;
+
+constexpr int kBeltWorkSteps = 2;
+constexpr WorkStep kFitting{"anchors alone", 1, kBeltWorkSteps};
+constexpr WorkStep kComparingBelts{"the causes against each other", 2, kBeltWorkSteps};
 
 /// The system's regressors at the values that were found before.
 RegressorSet found_before(const Analysis& a) {
@@ -159,7 +165,7 @@ std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const A
   std::vector<SizedCause> causes;
   for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
     const Regressor& d = a.system.regressor(a.estimate.regressors[k]);
-    causes.push_back({d.cause, d.values});
+    causes.push_back(d);
     causes.back().values.front() = size_at(d, a.estimate.coefficient(as_index(k)));
   }
   belts::AnchorFit from = belts.frame;
@@ -175,21 +181,26 @@ Analysis analysis_of_laws(const BeltsAnalysis& a) {
   return own;
 }
 
-tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
-                                                      const DiagnosisOptions& options) {
+tl::expected<BeltsAnalysis, BeltsFitFailure> analyse(const MeasuredBelts& belts,
+                                                     const DiagnosisOptions& options) {
   BeltsAnalysis a;
+  tell(options.progress, kFitting);
+  auto before = fit_belts(belts);
+  if (!before) return tl::unexpected(before.error());
+  a.before = *std::move(before);
+  tell(options.progress, kComparingBelts);
+  a.measured = belts;
   a.belts = without_distances(belts);
   const auto alone = belts::fit_anchors_robustly(a.belts);
-  if (!alone) {
-    return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
-                                           "no four anchors fit these lengths"});
-  }
+  if (!alone)
+    return failed(BeltsFitFailure::Reason::no_frame, "no four anchors fit these lengths");
   a.alone = a.frame = *alone;
   a.sigma_mm = kUsualSpreadMm;
   a.options = options;
   a.candidates = candidates(a.belts);
   const BeltRules rules(a);
-  if (auto done = compare_in_rounds(rules, a); !done) return tl::unexpected(done.error());
+  if (const auto done = compare_in_rounds(rules, a); !done)
+    return failed(BeltsFitFailure::Reason::no_frame, done.error().sentence());
   a.averaged = averaged_anchors(a.frame.state.anchors, a);
   decide_by(rules, true, a);
   return a;

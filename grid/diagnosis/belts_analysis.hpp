@@ -6,11 +6,14 @@
 
 #include <tl/expected.hpp>
 
+#include "grid/belts/belts_fit.hpp"
 #include "grid/diagnosis/averaged_anchors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 struct BeltsAnalysis : Analysis {
+  MeasuredBelts measured;
+  BeltsFit before;           ///< the anchors alone, by fit_belts()
   MeasuredBelts belts;       ///< without distances, which carry no information about a cause
   belts::AnchorFit alone;    ///< anchors and places without a cause
   belts::AnchorFit frame;    ///< about which the system is linear, with the known causes
@@ -33,9 +36,9 @@ class BeltRules final : public AnalysisRules {
 };
 
 /// To the averaged anchors, with the decision of the comparison alone; judge() makes it a verdict.
-/// Precondition: fit_belts() takes these belts.
-[[nodiscard]] tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
-                                                                    const DiagnosisOptions& options);
+/// Fails where fit_belts() fails.
+[[nodiscard]] tl::expected<BeltsAnalysis, BeltsFitFailure> analyse(const MeasuredBelts& belts,
+                                                                   const DiagnosisOptions& options);
 
 /// The frame with the readings and the causes that the decision keeps; empty if that does not
 /// converge.

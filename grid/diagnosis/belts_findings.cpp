@@ -17,37 +17,22 @@ using model::kBelts;
 
 namespace {
 
-/// Places as the machine computes them from the upper two belts; empty if these do not meet.
-using Believed = std::vector<std::optional<FramePoint>>;
-
-Believed believed(const model::BeltMachine& by,
-                  const model::BeltMachine& real,
-                  const std::vector<model::effects::ActingEffect>& effects,
-                  const std::vector<FramePoint>& places) {
-  Believed result;
+/// rms of the distances from where the machine believes the tool, by the upper two belts, to where it is,
+/// after the best rigid motion of the frame, which only places the sheet. Without places where these
+/// belts do not meet.
+double shape_error_mm(const model::BeltMachine& by,
+                      const model::BeltMachine& real,
+                      const std::vector<model::effects::ActingEffect>& effects,
+                      const std::vector<FramePoint>& places) {
+  // During cutting the upper two hold; effects that set in at a visit are present.
+  constexpr int kAfterAll = 1000000000;
+  std::vector<Eigen::Vector4d> rows;
   for (const FramePoint& at : places) {
-    // During cutting the upper two hold; effects that set in at a visit are present.
-    constexpr int kAfterAll = 1000000000;
     const auto tl = model::belts::read_belt(real, effects, {Belt::tl, {}, kAfterAll}, at);
     const auto tr = model::belts::read_belt(real, effects, {Belt::tr, {}, kAfterAll}, at);
-    std::optional<FramePoint> one;
-    if (tl && tr) {
-      if (const auto place = model::place_of_upper(by, tl->value, tr->value)) one = *place;
-    }
-    result.push_back(one);
-  }
-  return result;
-}
-
-/// rms of the shifts after the best rigid motion of the frame, which only places the sheet.
-double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& places) {
-  std::vector<Eigen::Vector4d> rows;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (!believed[k]) continue;
-    rows.emplace_back(places[k].x_mm,
-                      places[k].y_mm,
-                      believed[k]->x_mm - places[k].x_mm,
-                      believed[k]->y_mm - places[k].y_mm);
+    if (!tl || !tr) continue;
+    if (const auto believed = model::place_of_upper(by, tl->value, tr->value))
+      rows.emplace_back(at.x_mm, at.y_mm, believed->x_mm - at.x_mm, believed->y_mm - at.y_mm);
   }
   if (rows.size() < 2) return 0.0;
   const auto n = std::ssize(rows);
@@ -75,26 +60,24 @@ double uncertain_mm(const model::BeltMachine& machine,
         belts::anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
     const double own =
-        shape_error_mm(believed(belts::with_anchors(machine, moved), machine, {}, places), places);
+        shape_error_mm(belts::with_anchors(machine, moved), machine, {}, places);
     square += own * own;
   }
   return std::sqrt(square);
 }
 
-ToolError tool_error(const FitGivenCauses& given,
-                     const MeasuredBelts& belts,
-                     const BeltsFit& alone,
-                     const model::BeltMachine& machine,
-                     const Eigen::MatrixXd& covariance) {
+ToolError tool_error(const BeltsAnalysis& a,
+                     const FitGivenCauses& given,
+                     const model::BeltMachine& machine) {
   const auto effects = resolved(given.causes);
   const std::vector<FramePoint>& places = given.frame.state.places;
   ToolError error;
-  error.after_mm = uncertain_mm(machine, covariance, places);
+  error.after_mm = uncertain_mm(machine, a.averaged.covariance_mm2, places);
   const auto of = [&](const model::BeltMachine& by) {
-    return std::hypot(shape_error_mm(believed(by, machine, effects, places), places), error.after_mm);
+    return std::hypot(shape_error_mm(by, machine, effects, places), error.after_mm);
   };
-  if (belts.machine.anchors_known) error.stated_mm = of(belts.machine);
-  error.before_mm = of(alone.machine);
+  if (a.belts.machine.anchors_known) error.stated_mm = of(a.belts.machine);
+  error.before_mm = of(a.before.machine);
   return error;
 }
 
@@ -102,9 +85,8 @@ ToolError tool_error(const FitGivenCauses& given,
 double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   belts::AnchorFit from = given.frame;
   from.counting.assign(belts.points.size(), belts::kAllBelts);
-  const auto fitted = fit_given_causes(belts, given.causes, from);
-  const FitGivenCauses& at = fitted ? *fitted : given;
-  const Eigen::VectorXd left = belts::reading_lines(at.without_causes, at.frame.state).residual_mm;
+  const FitGivenCauses at = fit_given_causes(belts, given.causes, from).value_or(given);
+  const Eigen::VectorXd left = belts::reading_lines(at.belts, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / as_double(left.size()));
 }
 
@@ -112,7 +94,7 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
 /// scale does and would otherwise be corrected twice. Unknown if no frame fits the tape after that.
 std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const FitGivenCauses& given) {
   if (belts.distances.empty()) return std::nullopt;
-  MeasuredBelts taped = given.without_causes;
+  MeasuredBelts taped = given.belts;
   taped.distances = belts.distances;
   const auto fitted = belts::fit_anchors_from(taped, given.frame.state, given.frame.counting);
   if (!fitted) return std::nullopt;
@@ -120,53 +102,38 @@ std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const Fi
   return belts::fit_report(taped, view, view.covariance()).scale;
 }
 
-}  // namespace
-
-std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                   const FitGivenCauses& given) {
-  return belts::predict_by_halves(
-      belts,
-      given.frame,
-      [&](const belts::AnchorFit& from) -> std::optional<belts::Refitted> {
-        auto fitted = fit_given_causes(belts, given.causes, from);
-        if (!fitted) return std::nullopt;
-        return belts::Refitted{std::move(fitted->frame), std::move(fitted->without_causes)};
-      });
-}
-
+/// Converged anchors, places and sizes with the causes of the decision.
 FitGivenCauses explained(const BeltsAnalysis& a) {
   if (auto given = fit_as_decided(a, a)) return *std::move(given);
-  FitGivenCauses as_before{a.frame, a.known, without_effects(a.belts, a.known, a.frame.state)};
+  FitGivenCauses as_before{{a.frame, without_effects(a.belts, a.known, a.frame.state)}, a.known};
   as_before.frame.counting = decided_counting(a);
   return as_before;
 }
 
-BeltsFindings belts_findings(const BeltsAnalysis& a,
-                             const FitGivenCauses& given,
-                             const MeasuredBelts& belts,
-                             const BeltsFit& alone) {
+BeltsFindings findings_of(const BeltsAnalysis& a,
+                          const FitGivenCauses& given,
+                          const belts::FitDiagnostics& view) {
   const belts::AnchorFit& frame = given.frame;
   BeltsFindings found;
-  found.machine = belts::with_anchors(belts.machine, a.averaged.anchors);
-  const Eigen::MatrixXd covariance = a.averaged.covariance_mm2;
+  found.machine = belts::with_anchors(a.belts.machine, a.averaged.anchors);
   for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
+    const AnchorCoordinate& before = a.before.coordinates[i];
     const auto at = as_index(i);
-    found.coordinates[i] = {alone.coordinates[i].name,
-                            alone.coordinates[i].stated_mm,
-                            alone.coordinates[i].fitted_mm,
+    found.coordinates[i] = {before.name,
+                            before.stated_mm,
+                            before.fitted_mm,
                             a.averaged.anchors[at],
-                            std::sqrt(covariance(at, at))};
+                            std::sqrt(a.averaged.covariance_mm2(at, at))};
   }
-  found.spread_before_mm = alone.residual_sigma_mm;
-  found.rms_before_mm = rms_of_all_mm(a.belts, {a.alone, {}, a.belts});
+  found.spread_before_mm = a.before.residual_sigma_mm;
+  found.rms_before_mm = rms_of_all_mm(a.belts, {{a.alone, a.belts}, {}});
   found.rms_mm = rms_of_all_mm(a.belts, given);
-  const belts::FitDiagnostics view(given.without_causes, frame);
   double good_square = 0.0;
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    BeltPlacePicture place{frame.state.places[k], belts.points[k].order, {}, {}, {}};
+  for (std::size_t k = 0; k < a.belts.points.size(); ++k) {
+    BeltPlacePicture place{frame.state.places[k], a.belts.points[k].order, {}, {}, {}};
     for (const Belt belt : kBelts) {
       const BeltResidual left = view.residual(k, belt);
-      place.before_mm[belt] = alone.places[k].belts[belt].residual_mm;
+      place.before_mm[belt] = a.before.places[k].belts[belt].residual_mm;
       place.after_mm[belt] = left.residual_mm;
       place.bad[belt] = !frame.counting[k][belt];
       if (left.counts) good_square += left.residual_mm * left.residual_mm;
@@ -176,16 +143,17 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
   const auto values = std::ssize(a.estimate.free);
   found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
-  found.prediction_before = alone.half_left_out;
-  found.prediction = prediction_by_halves(a.belts, given);
-  found.tool = tool_error(given, belts, alone, found.machine, covariance);
-  found.scale = scale_given_causes(belts, given);
+  found.prediction_before = a.before.half_left_out;
+  found.prediction = prediction_by_halves(a.belts, frame, given.causes);
+  found.tool = tool_error(a, given, found.machine);
+  found.scale = scale_given_causes(a.measured, given);
   if (found.scale) found.tool.scale_mm_per_m = 1000.0 * found.scale->sigma;
-  found.firmware_fit = belts.firmware_fit;
+  found.firmware_fit = a.measured.firmware_fit;
   return found;
 }
 
-Unexplained unexplained(const BeltsAnalysis& a) {
+/// The unexplained pattern if the decision has one; else only its probability.
+Unexplained pattern_of_belts(const BeltsAnalysis& a) {
   Unexplained result;
   result.probability = std::clamp(a.decision.discrepancy, 0.0, 1.0);
   if (a.noise == nullptr) return result;
@@ -198,8 +166,6 @@ Unexplained unexplained(const BeltsAnalysis& a) {
   result.length_mm = a.noise->process.kernel.fields.front().length;
   return result;
 }
-
-namespace {
 
 /// Residual chi^2 of a place's other readings at their best position.
 double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
@@ -234,12 +200,10 @@ std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::
   return other;
 }
 
-}  // namespace
-
-std::vector<Outlier> bad_belts(const FitGivenCauses& given) {
-  const belts::FitDiagnostics view(given.without_causes, given.frame);
+/// Rejected readings; a place with more than one is listed as a whole.
+std::vector<Outlier> bad_belts(const FitGivenCauses& given, const belts::FitDiagnostics& view) {
   std::vector<Outlier> result;
-  for (std::size_t k = 0; k < given.without_causes.points.size(); ++k) {
+  for (std::size_t k = 0; k < given.belts.points.size(); ++k) {
     std::vector<Belt> bad;
     Outlier outlier;
     outlier.of = Observations::belts;
@@ -260,6 +224,24 @@ std::vector<Outlier> bad_belts(const FitGivenCauses& given) {
     result.push_back(outlier);
   }
   return result;
+}
+
+}  // namespace
+
+std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
+                                                   const belts::AnchorFit& frame,
+                                                   const std::vector<SizedCause>& causes) {
+  return belts::predict_by_halves(belts, frame, [&](const belts::AnchorFit& from) {
+    return fit_given_causes(belts, causes, from);
+  });
+}
+
+void take_belts_findings(const BeltsAnalysis& a, Diagnosis& d) {
+  const FitGivenCauses given = explained(a);
+  const belts::FitDiagnostics view(given.belts, given.frame);
+  d.unexplained = pattern_of_belts(a);
+  d.outliers = bad_belts(given, view);
+  d.belts = findings_of(a, given, view);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/belts_given_causes.hpp"
+#include "grid/diagnosis/belts_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,9 @@ namespace {
 
 /// A value that least squares estimates: number `value` of cause `cause`.
 struct FreeValue {
-  std::size_t cause = 0;
-  std::size_t value = 0;
+  std::size_t cause;
+  std::size_t value;
+  const EffectParameter* parameter;
 };
 
 std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
@@ -31,14 +32,10 @@ std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
   for (std::size_t j = 0; j < causes.size(); ++j) {
     const auto& parameters = causes[j].cause.effect->parameters;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-      if (!parameters[i].integer) free.push_back({j, i});
+      if (!parameters[i].integer) free.push_back({j, i, &parameters[i]});
     }
   }
   return free;
-}
-
-const EffectParameter& parameter_of(const std::vector<SizedCause>& causes, FreeValue which) {
-  return causes[which.cause].cause.effect->parameters[which.value];
 }
 
 /// Derivative of the readings by each, mm per unit.
@@ -50,7 +47,7 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
   constexpr double kStep = 0.05;
   Eigen::MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
   for (std::size_t f = 0; f < free.size(); ++f) {
-    const double step = kStep * parameter_of(causes, free[f]).prior_sigma;
+    const double step = kStep * free[f].parameter->prior_sigma;
     const SizedCause& here = causes[free[f].cause];
     SizedCause there = here;
     there.values[free[f].value] += step;
@@ -68,7 +65,7 @@ bool moved(const Eigen::VectorXd& change,
   constexpr double kConverged = 1e-4;
   bool converged = true;
   for (std::size_t f = 0; f < free.size(); ++f) {
-    const auto& parameter = parameter_of(causes, free[f]);
+    const EffectParameter& parameter = *free[f].parameter;
     double& value = causes[free[f].cause].values[free[f].value];
     double next = value + change[belts::kAnchorUnknowns + as_index(f)];
     if (parameter.name.ends_with("_rad")) {
@@ -83,10 +80,9 @@ bool moved(const Eigen::VectorXd& change,
 }
 
 /// (1), in millimetres: changes of the five anchor coordinates, then of the values.
-Eigen::VectorXd least_squares(const MeasuredBelts& without_causes,
-                              const belts::AnchorFit& frame,
-                              const Eigen::MatrixXd& columns) {
-  const ObservationSet set = observations_of(without_causes, frame.state, frame.counting, 1.0);
+Eigen::VectorXd least_squares(const FitGivenCauses& given, const Eigen::MatrixXd& columns) {
+  const belts::AnchorFit& frame = given.frame;
+  const ObservationSet set = observations_of(given.belts, frame.state, 1.0, frame.counting);
   const RegressorSystem system = linearise(set, estimation::stated_state(set)).value();
   Eigen::MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
   design.leftCols<belts::kAnchorUnknowns>() = system.by_setting;
@@ -139,47 +135,43 @@ MeasuredBelts without_effects(const MeasuredBelts& belts,
 
 ObservationSet observations_of(const MeasuredBelts& belts,
                                const belts::FrameState& state,
-                               const belts::Counting& counting,
-                               double sigma_mm) {
-  const MeasuredBelts untaped = without_distances(belts);
-  const auto mechanism = belts::mechanism_at(untaped, state);
+                               double sigma_mm,
+                               const belts::Counting& counting) {
+  const auto mechanism = belts::mechanism_at(belts, state);
   std::vector<model::FramePoint> about = state.places;
   for (model::FramePoint& at : about) {
     if (mechanism->predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
     const model::ToolPosition middle = mechanism->extent().centre();
     at = {middle.x_mm, middle.y_mm};
   }
+  const belts::Counting all(belts.points.size(), belts::kAllBelts);
   return estimation::observation_set(
       {},
       {std::make_shared<const observation::BeltLengthReadings>(
-          belts::readings_of(untaped, counting, sigma_mm, about))},
+          belts::readings_of(belts, counting.empty() ? all : counting, sigma_mm, about))},
       mechanism);
 }
 
 std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
-                                         std::vector<SizedCause> causes,
-                                         const belts::AnchorFit& from) {
+                                               std::vector<SizedCause> causes,
+                                               const belts::AnchorFit& from) {
   // Sizes and frame are nearly linear in each other: three rounds suffice except for zeros of an
   // arm's length, which take six.
   constexpr int kMostRounds = 12;
-  const MeasuredBelts untaped = without_distances(belts);
-  FitGivenCauses given{from, std::move(causes), {}};
+  FitGivenCauses given{{from, {}}, std::move(causes)};
   const auto take_out = [&] {
-    given.without_causes = without_effects(untaped, given.causes, given.frame.state);
+    given.belts = without_effects(belts, given.causes, given.frame.state);
   };
   take_out();
   const std::vector<FreeValue> free = free_values(given.causes);
   for (int round = 0; round < kMostRounds; ++round) {
-    auto frame =
-        belts::fit_anchors_from(given.without_causes, given.frame.state, given.frame.counting);
+    auto frame = belts::fit_anchors_from(given.belts, given.frame.state, given.frame.counting);
     if (!frame) return std::nullopt;
     given.frame = *std::move(frame);
     take_out();
     if (free.empty() && round > 0) break;
     const Eigen::VectorXd change =
-        least_squares(given.without_causes,
-                      given.frame,
-                      value_columns(untaped, given.causes, given.frame.state, free));
+        least_squares(given, value_columns(belts, given.causes, given.frame.state, free));
     const bool is_settled = moved(change, free, given.causes);
     take_out();
     if (is_settled && round > 0) break;

@@ -31,16 +31,15 @@ constexpr std::size_t kMostOnceMore = 200;
 
 /// Belts that are pulled on the way to a place, and that way in words.
 struct Approach {
-  const char* words;
-  std::vector<Belt> pulled;
+  std::string_view words;
+  std::optional<std::vector<Belt>> pulled;
 };
-const std::vector<Approach>& approaches(model::Orientation orientation) {
-  static const std::vector<Approach> upright = {{"", {}}};
-  static const std::vector<Approach> flat = {{", coming from the left", {Belt::tl, Belt::bl}},
-                                             {", coming from the right", {Belt::tr, Belt::br}},
-                                             {", coming from above", {Belt::tl, Belt::tr}},
-                                             {", coming from below", {Belt::bl, Belt::br}}};
-  return orientation == model::Orientation::flat ? flat : upright;
+std::vector<Approach> approaches(model::Orientation orientation) {
+  if (orientation != model::Orientation::flat) return {{"", std::nullopt}};
+  return {{", coming from the left", {{Belt::tl, Belt::bl}}},
+          {", coming from the right", {{Belt::tr, Belt::br}}},
+          {", coming from above", {{Belt::tl, Belt::tr}}},
+          {", coming from below", {{Belt::bl, Belt::br}}}};
 }
 
 /// Future places, one more visit each, with their proposed readings, and the state that predicts their
@@ -48,11 +47,10 @@ const std::vector<Approach>& approaches(model::Orientation orientation) {
 class NextPlaces {
  public:
   /// Belts are pulled `times` as hard as at the measured places.
-  explicit NextPlaces(const BeltsAnalysis& a, double times = 1.0) : times_(times) {
-    belts.machine = a.belts.machine;
+  explicit NextPlaces(const BeltsAnalysis& a, double times = 1.0) : a_(a), times_(times) {
+    belts.machine = belts::with_anchors(a.belts.machine, a.frame.state.anchors);
     belts.reference_pull = reference_pull(a.belts).value_or(BeltPull{});
     state.anchors = a.frame.state.anchors;
-    machine = belts::with_anchors(belts.machine, state.anchors);
     for (const BeltPoint& point : a.belts.points) {
       if (point.order) next_visit = std::max(next_visit.value_or(0), *point.order + 1);
     }
@@ -62,7 +60,7 @@ class NextPlaces {
   bool add(model::FramePoint at,
            const std::optional<std::vector<Belt>>& pulled,
            const std::optional<BeltPull>& pull = std::nullopt) {
-    const auto lengths = model::lengths_at(machine, at);
+    const auto lengths = model::lengths_at(belts.machine, at);
     if (!lengths) return false;
     BeltPoint point;
     point.lengths_mm = *lengths;
@@ -75,7 +73,7 @@ class NextPlaces {
     return true;
   }
 
-  /// Its rows are filled in by the prediction.
+  /// The place added last; its rows are filled in by the prediction.
   void propose(MeasurementKind kind, std::string what, model::BedPoint command) {
     Candidate candidate{
         {kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
@@ -83,32 +81,46 @@ class NextPlaces {
     candidates.push_back(std::move(candidate));
   }
 
-  MeasuredBelts belts;
+  /// Each alternative's prediction; sets the rows of the candidates.
+  [[nodiscard]] std::vector<Alternative> predicted() {
+    const RegressorSystem system =
+        system_of(belts, state, observations_of(belts, state, a_.sigma_mm));
+    for (std::size_t u = 0; u < system.units.size() && !candidates.empty(); ++u) {
+      const SystemUnit& unit = system.units[u];
+      Rows& rows = candidates[system.places[u].place].rows;
+      for (Eigen::Index row = 0; row < unit.rows; ++row) rows.push_back(unit.first_row + row);
+    }
+    return alternatives_about(a_, system, [&](const SizedCause& own) {
+      return std::optional(column_of(belts, state, system, own));
+    });
+  }
+
+  MeasuredBelts belts;  ///< the machine with the anchors of the state
   belts::FrameState state;
-  model::BeltMachine machine;  ///< with the anchors of the state
   std::optional<int> next_visit;
-  std::vector<Candidate> candidates;  ///< a point each
+  std::vector<Candidate> candidates;  ///< a point each, or none
 
  private:
+  const BeltsAnalysis& a_;
   double times_;
 };
 
 /// On a raster over the frame; coarser if each place can be reached in four ways.
-void add_places(model::Orientation orientation, NextPlaces& next) {
-  const model::FramePoint centre = model::centre_of(next.machine);
-  const auto& anchors = next.machine.anchors;
+void add_places(NextPlaces& next) {
+  const model::BeltMachine& machine = next.belts.machine;
+  const model::FramePoint centre = model::centre_of(machine);
+  const auto& anchors = machine.anchors;
   const double left = 0.5 * (anchors.tl.x_mm + anchors.bl.x_mm);
   const double right = 0.5 * (anchors.tr.x_mm + anchors.br.x_mm);
   const double top = 0.5 * (anchors.tl.y_mm + anchors.tr.y_mm);
   const double aside = kMargin * (right - left);
   const interp::Rectangle area{left + aside, right - aside, kMargin * top, top - kMargin * top};
-  const bool flat = orientation == model::Orientation::flat;
+  const bool flat = machine.orientation == model::Orientation::flat;
   for (const model::MarkPoint& at : raster(area, flat ? 5 : 9, flat ? 4 : 7, RasterOf::nodes)) {
     const auto whole = [](double mm) { return kRasterMm * std::round(mm / kRasterMm) + 0.0; };
     const model::BedPoint command{whole(at.x_mm - centre.x_mm), whole(at.y_mm - centre.y_mm)};
-    for (const Approach& way : approaches(orientation)) {
-      const auto pulled = way.pulled.empty() ? std::nullopt : std::optional(way.pulled);
-      if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, pulled))
+    for (const Approach& way : approaches(machine.orientation)) {
+      if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, way.pulled))
         next.propose(
             MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words), command);
     }
@@ -117,7 +129,7 @@ void add_places(model::Orientation orientation, NextPlaces& next) {
 
 void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlaces& next) {
   if (!next.next_visit) return;
-  const model::FramePoint centre = model::centre_of(next.machine);
+  const model::FramePoint centre = model::centre_of(next.belts.machine);
   const std::size_t count = a.belts.points.size();
   for (std::size_t i = 0; i < kRevisits; ++i) {
     const std::size_t k = i * (count - 1) / (kRevisits - 1);
@@ -132,27 +144,6 @@ void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlace
   }
 }
 
-/// Each alternative's prediction for future places, and the rows of each place.
-struct PredictedPlaces {
-  std::vector<Alternative> alternatives;
-  std::vector<Rows> rows;
-};
-
-PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
-  const RegressorSystem system =
-      system_of(next.belts, next.state, observations_of(next.belts, next.state, a.sigma_mm));
-  PredictedPlaces predicted;
-  predicted.alternatives = alternatives_about(a, system, [&](const Regressor& own) {
-    return std::optional(column_of(next.belts, next.state, system, {own.cause, own.values}));
-  });
-  predicted.rows.resize(system.units.size());
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    for (Eigen::Index row = 0; row < system.units[u].rows; ++row)
-      predicted.rows[system.places[u].place].push_back(system.units[u].first_row + row);
-  }
-  return predicted;
-}
-
 /// For every place again, the last one first, with `times` the pull.
 std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) {
   if (a.belts.points.size() > kMostOnceMore) return std::nullopt;
@@ -162,7 +153,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
   for (BeltPoint& point : next.belts.points) {
     if (next.next_visit) point.order = (*next.next_visit)++;
   }
-  const std::vector<Alternative> alternatives = predicted_at(a, next).alternatives;
+  const std::vector<Alternative> alternatives = next.predicted();
   auto rows = numbers_below<Eigen::Index>(alternatives.front().mean.size());
   return expected_discrimination(alternatives, rows).named_alone;
 }
@@ -200,12 +191,10 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   }
   result.is_open = true;
   NextPlaces next(a);
-  add_places(a.belts.machine.orientation, next);
+  add_places(next);
   add_revisits(a, indices, next);
-  const PredictedPlaces predicted = predicted_at(a, next);
-  for (std::size_t k = 0; k < next.candidates.size(); ++k)
-    next.candidates[k].rows = predicted.rows[k];
-  result.measurements = most_telling(predicted.alternatives, std::move(next.candidates));
+  const std::vector<Alternative> predicted = next.predicted();
+  result.measurements = most_telling(predicted, std::move(next.candidates));
   mark_repeats(result.measurements);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);

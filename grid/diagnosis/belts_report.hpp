@@ -8,30 +8,19 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Converged anchors, places and sizes with the causes of the decision.
-[[nodiscard]] FitGivenCauses explained(const BeltsAnalysis& analysis);
-
-/// fit_with_causes() by an analysis of the same belts that is not judged yet, `alone` as below.
-[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis,
-                                                                      const MeasuredBelts& belts,
-                                                                      const BeltsFit& alone);
+/// fit_with_causes() by an analysis of the same belts that is not judged yet.
+[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis);
 
 /// Prediction of the lower belts of each half of the places by a fit to the other, including the
 /// causes' sizes; empty with too few places.
-[[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                                 const FitGivenCauses& given);
+[[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(
+    const MeasuredBelts& belts,
+    const belts::AnchorFit& frame,
+    const std::vector<SizedCause>& causes);
 
-/// Everything except words; `alone` is the result of fit_belts() for the same belts.
-[[nodiscard]] BeltsFindings belts_findings(const BeltsAnalysis& analysis,
-                                           const FitGivenCauses& given,
-                                           const MeasuredBelts& belts,
-                                           const BeltsFit& alone);
-
-/// The unexplained pattern if the decision has one; else only its probability.
-[[nodiscard]] Unexplained unexplained(const BeltsAnalysis& analysis);
-
-/// Rejected readings; a place with more than one is listed as a whole.
-[[nodiscard]] std::vector<Outlier> bad_belts(const FitGivenCauses& given);
+/// Rejected readings (a place with more than one is listed as a whole), the unexplained pattern if the
+/// decision has one, else only its probability, and `belts` without a second pass.
+void take_belts_findings(const BeltsAnalysis& analysis, Diagnosis& diagnosis);
 
 /// Measurements are proposed if they succeed with a probability of a quarter: eight that reach a
 /// sixth would be wasted effort.
@@ -58,16 +47,11 @@ struct BeltsNext {
                                           const PointIndices& indices);
 
 /// What to measure next; last, if no tape determines the scale, the distance that would.
-[[nodiscard]] std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
-                                                           const MeasuredBelts& belts,
-                                                           const BeltsFit& alone,
-                                                           const Decision& decision,
+[[nodiscard]] std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& analysis,
+                                                           const BeltsNext& next,
                                                            const PointIndices& indices);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
-void put_belts_into_words(const MeasuredBelts& belts,
-                          const BeltsFit& alone,
-                          const BeltsNext& next,
-                          Diagnosis& diagnosis);
+void put_into_words(const BeltsAnalysis& analysis, const BeltsNext& next, Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

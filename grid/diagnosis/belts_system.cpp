@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
+#include <utility>
 
 #include "grid/diagnosis/discrepancy.hpp"
 #include "model/effects/catalogue.hpp"
@@ -83,155 +83,89 @@ std::vector<int> about(const std::vector<int>& visits, int visit) {
           visits.begin() + std::clamp<std::ptrdiff_t>(at + half + 1, 0, last)};
 }
 
-/// The whitened rows of lengths that are added at the places of a system.
-Eigen::VectorXd whitened_lengths(const RegressorSystem& system, const Eigen::VectorXd& added) {
-  Eigen::VectorXd column(system.e.size());
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    column.segment(system.units[u].first_row, system.units[u].rows) =
-        system.units[u].by_reading *
-        added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));
-  }
-  return column;
+/// For an expected effect, the share that makes it alone as likely as no cause (CausePrior).
+double share_of(const Effect& effect, const CausePrior& prior) {
+  return effect.expected > 0.0 ? effect.expected * prior.shares * kPriorOfNothing / kPriorOfOne
+                               : effect.share;
 }
 
-/// The lengths that one cause adds. From its first visit on they do not depend on that visit, so one
-/// evaluation serves all visits.
-class AddedLengths {
- public:
-  AddedLengths(const MeasuredBelts& belts, const belts::FrameState& state)
-      : belts_(belts), state_(state) {}
-
-  [[nodiscard]] Eigen::VectorXd of(const SizedCause& cause) {
-    if (cause.cause.effect->parameters.size() == 1) return added_by(belts_, {cause}, state_);
-    SizedCause from_the_start = cause;
-    from_the_start.values.back() = std::numeric_limits<int>::min();
-    const auto [known, is_new] = known_.try_emplace(from_the_start.values);
-    if (is_new) known->second = added_by(belts_, {from_the_start}, state_);
-    Eigen::VectorXd added = known->second;
-    for (std::size_t k = 0; k < belts_.points.size(); ++k) {
-      if (belts_.points[k].order.value_or(0) < cause.values.back())
-        added.segment<4>(belts::row_of(k, Belt::tl)).setZero();
-    }
-    return added;
-  }
-
- private:
-  const MeasuredBelts& belts_;
-  const belts::FrameState& state_;
-  std::map<std::vector<double>, Eigen::VectorXd> known_;
-};
-
-class Columns {
- public:
-  Columns(const MeasuredBelts& belts,
-          const belts::FrameState& state,
-          const std::vector<SizedCause>& known,
-          RegressorSystem& system)
-      : belts_(belts),
-        state_(state),
-        known_(known),
-        system_(system),
-        visits_(visits_to_set_in(belts)) {}
-
-  void add(const CauseId& cause) {
-    added_.emplace(belts_, state_);
-    const auto& parameters = cause.effect->parameters;
-    const SizedCause* found =
-        find_where(known_, [&cause](const SizedCause& own) { return own.cause == cause; });
-    std::vector<double> values =
-        found != nullptr ? found->values : model::effects::nominal_values(*cause.effect);
-    const double side = share_of(cause) / as_double(cause.effect->sides.size());
-    if (parameters.size() == 1) return add_one({cause, values}, found != nullptr, side);
-    std::vector<int> visits = thinned(visits_);
-    if (found != nullptr) {
-      const std::vector<int> near = about(visits_, static_cast<int>(values.back()));
-      append_all(visits, near);
-      sort_unique(visits);
-    }
-    const double share = side / as_double(visits.size());
-    for (const int visit : visits) {
-      values.back() = visit;
-      if (parameters.front().integer) {
-        for (const Teeth& own : kTeeth) {
-          values.front() = own.teeth;
-          add_one({cause, values}, false, share * own.share);
-        }
-      } else if (parameters.size() > 2) {
-        add_ways({cause, values}, found, share);
-      } else {
-        add_one({cause, values}, found != nullptr, share);
+/// A cause with all values at which it is compared. `found` is the cause as the comparison before found
+/// it, or null; what sets in may do so at each of `visits`.
+std::vector<Regressor> tried_of(const CauseId& cause,
+                                const SizedCause* found,
+                                const std::vector<int>& visits,
+                                const CausePrior& prior) {
+  const Effect& effect = *cause.effect;
+  const std::size_t parameters = effect.parameters.size();
+  const bool known = found != nullptr;
+  std::vector<int> set_in = parameters > 1 ? thinned(visits) : std::vector<int>{0};
+  Regressor own{known ? *found : SizedCause{cause, model::effects::nominal_values(effect)}};
+  if (known && parameters > 1)
+    append_all(set_in, about(visits, static_cast<int>(own.values.back())));
+  sort_unique(set_in);
+  own.expected = effect.expected > 0.0;
+  const double share =
+      share_of(effect, prior) / as_double(effect.sides.size()) / as_double(set_in.size());
+  std::vector<Regressor> tried;
+  const auto add = [&](bool refined, double of_value) {
+    own.refined = refined;
+    own.log_prior = std::log(share * of_value);
+    tried.push_back(own);
+  };
+  for (const int visit : set_in) {
+    if (parameters > 1) own.values.back() = visit;
+    if (effect.parameters.front().integer) {
+      for (const Teeth& one : kTeeth) {
+        own.values.front() = one.teeth;
+        add(false, one.share);
+      }
+    } else if (parameters < 3) {
+      add(known, 1.0);
+    } else {
+      if (known) {
+        own.values[1] = found->values[1];
+        add(true, 1.0 / (kWays + 1));
+      }
+      for (int way = 0; way < kWays; ++way) {
+        own.values[1] =
+            std::remainder(2.0 * std::numbers::pi * way / kWays, 2.0 * std::numbers::pi);
+        add(false, 1.0 / kWays);
       }
     }
   }
+  return tried;
+}
 
- private:
-  /// For an expected effect, the share that makes it alone as likely as no cause (CausePrior).
-  [[nodiscard]] double share_of(const CauseId& cause) const {
-    const Effect& effect = *cause.effect;
-    if (!(effect.expected > 0.0)) return effect.share;
-    return effect.expected * system_.prior.shares * kPriorOfNothing / kPriorOfOne;
-  }
-
-  void add_ways(SizedCause own, const SizedCause* found, double share) {
-    if (found != nullptr) {
-      own.values[1] = found->values[1];
-      add_one(own, true, share / (kWays + 1));
+/// Columns of one cause. From its first visit on a column does not depend on that visit, so one
+/// evaluation serves all visits.
+ColumnOf columns_of(const MeasuredBelts& belts,
+                    const belts::FrameState& state,
+                    const RegressorSystem& system) {
+  return [&, from_the_start = std::map<std::vector<double>, Eigen::VectorXd>()](
+             SizedCause cause) mutable {
+    if (cause.values.size() == 1) return column_of(belts, state, system, cause);
+    const double visit = std::exchange(cause.values.back(), std::numeric_limits<int>::min());
+    Eigen::VectorXd& whole = from_the_start[cause.values];
+    if (whole.size() == 0) whole = column_of(belts, state, system, cause);
+    Eigen::VectorXd column = whole;
+    for (std::size_t u = 0; u < system.units.size(); ++u) {
+      const SystemUnit& unit = system.units[u];
+      if (system.places[u].order < visit) column.segment(unit.first_row, unit.rows).setZero();
     }
-    for (int way = 0; way < kWays; ++way) {
-      own.values[1] = std::remainder(2.0 * std::numbers::pi * way / kWays, 2.0 * std::numbers::pi);
-      add_one(own, false, share / kWays);
-    }
-  }
-
-  void add_one(const SizedCause& own, bool refined, double share) {
-    const Eigen::VectorXd column = whitened_lengths(system_, added_->of(own));
-    if (!(column.norm() > 0.0)) return;
-    Regressor regressor;
-    regressor.cause = own.cause;
-    regressor.values = own.values;
-    regressor.log_prior = std::log(share);
-    regressor.refined = refined;
-    regressor.expected = own.cause.effect->expected > 0.0;
-    if (own.cause.effect->parameters.front().integer) {
-      regressor.fixed = true;
-      regressor.lowest = regressor.highest = 1.0;
-    } else {
-      SizedCause smaller = own;
-      smaller.values.front() *= refined ? kNearby : 0.5;
-      const Eigen::VectorXd other = whitened_lengths(system_, added_->of(smaller));
-      regressor.power = refined ? power_about(column, other) : power_of(column, other);
-      limit(regressor);
-      regressor.coefficient_sigma = sigma_of(regressor);
-    }
-    system_.regressors.push_back(std::move(regressor));
-    system_.g.add(column);
-  }
-
-  /// Prior sigma of the coefficient, from the spread of the size, so that a hard-to-see zero does
-  /// not become likelier.
-  [[nodiscard]] static double sigma_of(const Regressor& regressor) {
-    const double ratio = regressor.cause.effect->parameters.front().prior_sigma /
-                         std::max(std::abs(regressor.values.front()), 1e-12);
-    return std::pow(ratio, regressor.power);
-  }
-
-  const MeasuredBelts& belts_;
-  const belts::FrameState& state_;
-  const std::vector<SizedCause>& known_;
-  RegressorSystem& system_;
-  std::vector<int> visits_;
-  std::optional<AddedLengths> added_;
-};
+    return column;
+  };
+}
 
 }  // namespace
 
 Candidates candidates(const MeasuredBelts& belts) {
   const bool ordered = !visits_to_set_in(belts).empty();
-  std::array<bool, 2> is_pulled_anywhere{};
-  for (const BeltPoint& point : belts.points) {
-    for (const Belt belt : kBelts) is_pulled_anywhere[is_pulled(point, belt) ? 1 : 0] = true;
-  }
-  const bool tells_pull = is_pulled_anywhere[0] && is_pulled_anywhere[1];
+  const auto some_are = [&belts](bool pulled) {
+    return any_of(belts.points, [pulled](const BeltPoint& point) {
+      return any_of(kBelts, [&](Belt belt) { return is_pulled(point, belt) == pulled; });
+    });
+  };
+  const bool tells_pull = some_are(true) && some_are(false);
   const auto hidden_because = [&](const Effect* effect, EffectSide side) {
     if (effect == &model::belts::anchor_moved && side == EffectSide::all)
       return "moving the whole frame with its places changes no length: measure from two edges of "
@@ -242,8 +176,7 @@ Candidates candidates(const MeasuredBelts& belts) {
              "machine cut, and enter it under distances";
     if (effect->needs == model::effects::DataNeed::order && !ordered)
       return "the file does not have the order of the places: add order";
-    if ((effect == &model::belts::belt_stretch || effect == &model::belts::anchor_flex) &&
-        !tells_pull)
+    if (effect->by_tension && !tells_pull)
       return "no belt is pulled while others hold: name the pulled belts under pulled";
     return "";
   };
@@ -286,13 +219,6 @@ SystemPlace place_of(const MeasuredBelts& belts,
 
 }  // namespace
 
-ObservationSet observations_of(const MeasuredBelts& belts,
-                               const belts::FrameState& state,
-                               double sigma_mm) {
-  return observations_of(
-      belts, state, belts::Counting(belts.points.size(), belts::kAllBelts), sigma_mm);
-}
-
 RegressorSystem system_of(const MeasuredBelts& belts,
                           const belts::FrameState& state,
                           const ObservationSet& session,
@@ -318,8 +244,21 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   system.prior = prior_of_belts();
   system.discrepancies = &length_discrepancies(ordered);
   system.g = RegressorColumns(system.e.size());
-  Columns columns(belts, state, known, system);
-  for (const CauseId& cause : causes) columns.add(cause);
+  const std::vector<int> visits = visits_to_set_in(belts);
+  for (const CauseId& cause : causes) {
+    const SizedCause* found =
+        find_where(known, [&cause](const SizedCause& own) { return own.cause == cause; });
+    const ColumnOf column = columns_of(belts, state, system);
+    for (Regressor& own : tried_of(cause, found, visits, system.prior))
+      add_regressor(std::move(own), column, system);
+  }
+  for (Regressor& own : system.regressors) {
+    if (own.fixed) continue;
+    // From the spread of the size, so that a hard-to-see zero does not become likelier.
+    const double spread = own.cause.effect->parameters.front().prior_sigma /
+                          std::max(std::abs(own.values.front()), 1e-12);
+    own.coefficient_sigma = std::pow(spread, own.power);
+  }
   return system;
 }
 
@@ -327,7 +266,14 @@ Eigen::VectorXd column_of(const MeasuredBelts& belts,
                           const belts::FrameState& state,
                           const RegressorSystem& system,
                           const SizedCause& cause) {
-  return whitened_lengths(system, added_by(belts, {cause}, state));
+  const Eigen::VectorXd added = added_by(belts, {cause}, state);
+  Eigen::VectorXd column(system.e.size());
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    const SystemUnit& unit = system.units[u];
+    column.segment(unit.first_row, unit.rows) =
+        unit.by_reading * added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));
+  }
+  return column;
 }
 
 }  // namespace chaintrue::grid::diagnosis

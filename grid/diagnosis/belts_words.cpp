@@ -9,6 +9,7 @@
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/verdict_words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
+#include "model/belts/belt_effects.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -48,8 +49,7 @@ std::string short_of_a_name(const Diagnosis& d) {
     if (own.probability < kInTheSet || own.causes.empty()) continue;
     const CauseId& cause = own.causes.front();
     if (cause.effect->expected > 0.0) continue;
-    parts.push_back(
-        fmt::format("{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
+    parts.push_back(fmt::format("{}, {}", sized(cause, {}), percent(own.probability)));
     most = std::max(most, own.probability);
   }
   if (most < kToThinkOf) return "";
@@ -92,15 +92,15 @@ std::string sentence(const Diagnosis& d) {
 }
 
 /// Lengths counted from the belt's end show as an offset that all four need.
-std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
+std::string left_out_arms(const model::BeltMachine& machine, const Diagnosis& d) {
   // Error of arm and extension: a tape measures the arm better.
   constexpr double kEqualWithin = 0.1;
-  const double reach = model::reach_mm(belts.machine);
+  const double reach = model::reach_mm(machine);
   for (const Cause& c : d.causes) {
-    if (c.cause.effect->id != "belt_zero" || c.cause.side != EffectSide::all) continue;
+    if (c.cause.effect != &model::belts::belt_zero || c.cause.side != EffectSide::all) continue;
     const double offset = c.parameters.front().value;
     if (std::abs(offset + reach) < kEqualWithin * reach &&
-        belts.machine.lengths != model::BeltLengths::belt) {
+        machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
           "The lengths do not include arm and extension ({:.0f} mm in the settings; all lengths "
           "are {:.0f} mm too short): set \"lengths\": \"belt\", or import with --lengths belt, and "
@@ -119,100 +119,91 @@ bool tells(const BeltsNext& next) {
 
 /// For undecided causes: the proposed measurements, or what would separate them if none of these
 /// does.
-void advise_measurements(const BeltsNext& next, Diagnosis& d) {
-  if (!next.is_open) return;
-  std::string text;
+std::string next_words(const BeltsNext& next, const Diagnosis& d) {
+  std::vector<std::string> said;
   double reached = 0.0;
   if (tells(next)) {
     const NextMeasurement& first = next.measurements.front();
     reached = next.measurements.back().raises_probability_to;
-    text = next_in_words(
+    said.push_back(next_in_words(
         d,
         fmt::format("{} at ({:.0f}, {:.0f}) mm", first.words, first.mark->x_mm, first.mark->y_mm),
-        next.measurements);
+        next.measurements));
     if (reached < kLikelierThanNot) {
-      text +=
-          " The remaining causes are too close to the noise for so few places: measure at more, out "
-          "to the corners of the frame.";
+      said.emplace_back(
+          "The remaining causes are too close to the noise for so few places: measure at more, out "
+          "to the corners of the frame.");
     }
   }
-  const bool all_does = next.all_once_more && *next.all_once_more >= kWorthMeasuring;
-  if (!tells(next) && !all_does && !next.second_pass && !next.measurements.empty()) {
-    text =
-        "A few places do not separate the remaining causes, which are too close to the noise: "
-        "measure at more places, out to the corners of the frame.";
-  }
+  const double all = next.all_once_more.value_or(0.0);
   if (next.second_pass) {
-    text += (text.empty() ? "" : " ") + in_words(*next.second_pass);
-  } else if (all_does && *next.all_once_more > reached + kWorthASession) {
-    text += fmt::format(
-        "{}measuring every place again, the last one first, raises the chance of {} to {}.",
-        text.empty() ? "A few places do not separate the remaining causes: " : " More: ",
+    said.push_back(in_words(*next.second_pass));
+  } else if (all >= kWorthMeasuring && all > reached + kWorthASession) {
+    said.push_back(fmt::format(
+        "{}: measuring every place again, the last one first, raises the chance of {} to {}.",
+        said.empty() ? "A few places do not separate the remaining causes" : "More",
         aim_of(d),
-        percent(*next.all_once_more));
+        percent(all)));
   }
-  if (text.empty()) {
-    text = fmt::format("No further lengths separate the remaining causes{}: inspect the parts.",
-                       d.causes.empty() ? "" : ", because their effects are nearly the same");
+  if (!said.empty()) return fmt::format("{}", fmt::join(said, " "));
+  if (!next.measurements.empty()) {
+    return "A few places do not separate the remaining causes, which are too close to the noise: "
+           "measure at more places, out to the corners of the frame.";
   }
-  d.what_to_do.push_back(std::move(text));
+  return fmt::format("No further lengths separate the remaining causes{}: inspect the parts.",
+                     d.causes.empty() ? "" : ", because their effects are nearly the same");
 }
 
 void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
-  if (std::string arms = left_out_arms(belts, d); !arms.empty()) {
-    d.what_to_do.push_back(std::move(arms));
+  std::vector<std::string>& steps = d.what_to_do;
+  if (std::string arms = left_out_arms(belts.machine, d); !arms.empty()) {
+    steps.push_back(std::move(arms));
   } else {
     say_remedies(d);
   }
   if (!d.outliers.empty()) {
-    d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
-                                       joined(outliers_in_words(d), "and")));
+    steps.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
+                                joined(outliers_in_words(d), "and")));
   }
   if (const Law* law = claimed_law(d)) {
-    d.what_to_do.push_back(
+    steps.push_back(
         fmt::format("Inspect the {} belt and everything that it runs over for something with this "
                     "place or period. Then let the machine measure other places to confirm or rule "
                     "it out.",
                     model::words(belt_of(law->enters).value())));
   }
-  advise_measurements(next, d);
-  if (!d.belts->scale && !belts.distances.empty()) {
-    d.what_to_do.emplace_back(
+  if (next.is_open) steps.push_back(next_words(next, d));
+  if (d.belts->scale) return;
+  if (!belts.distances.empty()) {
+    steps.emplace_back(
         "Tape the distances again: no frame fits them together with the causes, so the scale is "
         "unknown.");
-  } else if (!d.belts->scale) {
-    const bool proposed = !d.next_measurements.empty() &&
-                          d.next_measurements.back().kind == MeasurementKind::distance;
-    d.what_to_do.push_back(fmt::format(
-        "Tape {}, and enter it under distances: belts do not show the size of the frame.",
-        proposed ? d.next_measurements.back().words
-                 : "one long distance, between two anchors or two holes that the machine cut"));
+    return;
   }
+  const bool proposed = !d.next_measurements.empty() &&
+                        d.next_measurements.back().kind == MeasurementKind::distance;
+  steps.push_back(fmt::format(
+      "Tape {}, and enter it under distances: belts do not show the size of the frame.",
+      proposed ? d.next_measurements.back().words
+               : "one long distance, between two anchors or two holes that the machine cut"));
 }
 
 /// The machine's own number and this one, and why they differ.
-std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, const Diagnosis& d) {
-  const auto readings = static_cast<double>(4 * belts.points.size());
-  std::string text;
-  if (belts.firmware_fit) {
-    text = fmt::format("\"Find Anchors fit: rms\": the machine printed {:.2f} mm; ",
-                       belts.firmware_fit->rms_mm);
-  } else {
-    text = "\"Find Anchors fit: rms\" for these readings would be ";
-  }
-  return text + fmt::format(
-                    "{}{:.2f} mm by its formula. It divides by all {:.0f} readings, but there are "
-                    "only {} degrees of freedom: the error of one belt's reading is {:.2f} mm{}.",
-                    belts.firmware_fit ? "anchors alone make " : "",
-                    alone.rms_mm,
-                    readings,
-                    alone.checks,
-                    alone.residual_sigma_mm,
-                    d.causes.empty()
-                        ? ""
-                        : fmt::format(", with {} by {:.2f} mm",
-                                      d.causes.size() == 1 ? "the cause" : "the causes",
-                                      d.belts->residual_sigma_mm));
+std::string firmware_words(const BeltsAnalysis& a, const Diagnosis& d) {
+  const std::optional<FirmwareFit>& machine = a.measured.firmware_fit;
+  return fmt::format(
+      "\"Find Anchors fit: rms\"{}{:.2f} mm by its formula. It divides by all {} readings, but there "
+      "are only {} degrees of freedom: the error of one belt's reading is {:.2f} mm{}.",
+      machine ? fmt::format(": the machine printed {:.2f} mm; anchors alone make ", machine->rms_mm)
+              : " for these readings would be ",
+      a.before.rms_mm,
+      4 * a.belts.points.size(),
+      a.before.checks,
+      a.before.residual_sigma_mm,
+      d.causes.empty() ? ""
+                       : fmt::format(", with {} by {:.2f} mm",
+                                     d.causes.size() == 1 ? "the cause" : "the causes",
+                                     d.belts->residual_sigma_mm));
 }
 
 }  // namespace
@@ -229,14 +220,12 @@ std::string in_words(const SecondPass& pass) {
       percent(pass.raises_probability_to));
 }
 
-std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
-                                             const MeasuredBelts& belts,
-                                             const BeltsFit& alone,
-                                             const Decision& decision,
+std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& a,
+                                             const BeltsNext& next,
                                              const PointIndices& indices) {
   std::vector<NextMeasurement> list;
   if (tells(next)) list = next.measurements;
-  const auto tape = alone.scale ? std::nullopt : distance_for_scale(belts, alone);
+  const auto tape = a.before.scale ? std::nullopt : distance_for_scale(a.measured, a.before);
   if (!tape) return list;
   NextMeasurement distance{
       MeasurementKind::distance,
@@ -251,25 +240,20 @@ std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
   distance.from = end_of(tape->distance.from, indices);
   distance.to = {end_of(tape->distance.to, indices)};
   // This distance does not discriminate between causes.
-  if (!list.empty()) {
-    distance.raises_probability_to = list.back().raises_probability_to;
-  } else {
-    distance.raises_probability_to = decision.listed.empty()
-                                         ? std::min(1.0, decision.nothing + decision.outliers)
-                                         : decision.marginal.front().probability;
-  }
+  const Decision& decision = a.decision;
+  distance.raises_probability_to =
+      !list.empty()              ? list.back().raises_probability_to
+      : decision.listed.empty() ? std::min(1.0, decision.nothing + decision.outliers)
+                                : decision.marginal.front().probability;
   list.push_back(std::move(distance));
   return list;
 }
 
-void put_belts_into_words(const MeasuredBelts& belts,
-                          const BeltsFit& alone,
-                          const BeltsNext& next,
-                          Diagnosis& d) {
-  d.notes.push_back(firmware_words(belts, alone, d));
+void put_into_words(const BeltsAnalysis& a, const BeltsNext& next, Diagnosis& d) {
+  d.notes.push_back(firmware_words(a, d));
   d.sentence = sentence(d);
   d.not_proved = not_proved_in_words(d);
-  advise(belts, next, d);
+  advise(a.measured, next, d);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -33,17 +33,15 @@ std::string offered_words(const OfferedCause& offered, const std::string& cause)
 
 std::vector<std::string> in_words(const CausesFit& fit) {
   std::vector<std::string> sentences;
-  const auto sized = [](const Cause& cause) {
+  const auto worded = [](const Cause& cause) {
     std::string same;
     for (const SameCause& other : cause.same_as) {
-      same += fmt::format(", or else {}{}: {}",
-                          other.cause.effect->cause,
-                          side_words(other.cause),
+      same += fmt::format(", or else {}: {}",
+                          sized(other.cause, {}),
                           in_workshop_units(other.cause, other.parameters.front()));
     }
-    return fmt::format("{}{} ({}; {}{})",
-                       cause.cause.effect->cause,
-                       side_words(cause.cause),
+    return fmt::format("{} ({}; {}{})",
+                       sized(cause.cause, {}),
                        in_workshop_units(cause.cause, cause.parameters.front()),
                        percent(cause.probability),
                        same);
@@ -52,7 +50,7 @@ std::vector<std::string> in_words(const CausesFit& fit) {
     sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");
   if (!fit.built_on.empty()) {
     std::vector<std::string> parts;
-    for (const Cause& cause : fit.built_on) parts.push_back(sized(cause));
+    for (const Cause& cause : fit.built_on) parts.push_back(worded(cause));
     sentences.push_back(
         fmt::format("Found and used in the map: {}. In parts of the bed left out of the fit the "
                     "map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
@@ -64,7 +62,7 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   if (sentences.empty() && fit.offered.empty())
     sentences.emplace_back("No single cause stands out, and the map needs none.");
   for (const OfferedCause& offered : fit.offered)
-    sentences.push_back(offered_words(offered, sized(offered.cause)));
+    sentences.push_back(offered_words(offered, worded(offered.cause)));
   if (fit.left_open_mm > 0.0) {
     sentences.push_back(
         fmt::format("{}. This contributes {:.2f} mm rms to the expected error.",

@@ -61,7 +61,7 @@ RegressorSet others_than(const Analysis& a, const CauseId& cause) {
 /// Whether the readings are more probable without it than with its values in the file.
 bool is_refuted(const Analysis& a, const CauseId& cause) {
   const auto g =
-      signature(a.session, a.state, a.system, cause, model::effects::nominal_values(*cause.effect));
+      signature(a.session, a.state, a.system, {cause, model::effects::nominal_values(*cause.effect)});
   if (!g) return false;
   const LawModel model(
       a, marginalised_system(a), others_than(a, cause), a.decision.best_discrepancy);

@@ -17,18 +17,15 @@ constexpr WorkStep kComparingDrawing{"the causes against each other", 1, 1};
 std::optional<DiagnosisFailure> refused(const TestDrawing& drawing) {
   using Reason = DiagnosisFailure::Reason;
   const auto fit = fit_drawing(drawing);
-  if (fit || fit.error().reason == DrawingReason::no_settings_fit ||
-      fit.error().reason == DrawingReason::not_converged)
+  if (fit) return std::nullopt;
+  const DrawingReason why = fit.error().reason;
+  if (why == DrawingReason::no_settings_fit || why == DrawingReason::not_converged)
     return std::nullopt;
-  const std::string sentence = fit.error().sentence();
-  switch (fit.error().reason) {
-    case DrawingReason::too_few:
-      return DiagnosisFailure{Reason::too_few_points, sentence};
-    case DrawingReason::cross_out_of_reach:
-      return DiagnosisFailure{Reason::point_unreachable, sentence};
-    default:
-      return DiagnosisFailure{Reason::contradictory_settings, sentence};
-  }
+  return DiagnosisFailure{why == DrawingReason::too_few ? Reason::too_few_points
+                          : why == DrawingReason::cross_out_of_reach
+                              ? Reason::point_unreachable
+                              : Reason::contradictory_settings,
+                          fit.error().sentence()};
 }
 
 std::vector<DrawnSetting> drawn_settings(const Analysis& a) {

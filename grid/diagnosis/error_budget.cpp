@@ -81,125 +81,107 @@ std::optional<double> over_a_part(const std::vector<Corner>& corners, const At& 
   return most;
 }
 
-class Budget {
- public:
-  explicit Budget(const Analysis& a) : a_(a), corners_(corners_of(a)) {
-    const Flags& outliers = marginalised_system(a).outliers;
-    const bool of_tool = a.session.reads_chains();
-    for (std::size_t u = 0; u < outliers.size(); ++u) {
-      if (!outliers[u] && a.system.units[u].reads_chains == of_tool) units_.push_back(u);
+std::optional<double> part_of_cause(const Analysis& a,
+                                    const std::vector<Corner>& corners,
+                                    const Regressor& own,
+                                    double size) {
+  return over_a_part(corners, [&](const Corner& there) {
+    auto g = signature(there.session, a.state, there.system, own);
+    if (g) *g *= size;
+    return g;
+  });
+}
+
+std::optional<double> part_of_settings(const Analysis& a, const std::vector<Corner>& corners) {
+  const Eigen::Index shared = a.system.setting.size() - a.system.nuisances;
+  const Eigen::VectorXd change =
+      (a.system.setting + a.estimate.setting_change - a.session.stated_value).head(shared);
+  return over_a_part(corners, [&](const Corner& there) {
+    return std::optional<Eigen::VectorXd>(there.system.by_setting.leftCols(shared) * change);
+  });
+}
+
+std::optional<double> part_of_pattern(const Analysis& a, const std::vector<Corner>& corners) {
+  return over_a_part(corners, [&](const Corner& there) {
+    Eigen::VectorXd whitened = Eigen::VectorXd::Zero(there.system.e.size());
+    for (const SystemUnit& unit : there.system.units) {
+      const SystemPlace& place = there.system.places[unit.places.front().place];
+      whitened.segment<2>(unit.first_row) =
+          unit.whitening * discrepancy_at(a.system, marginalised_system(a), a.estimate, place);
     }
-  }
+    return std::optional<Eigen::VectorXd>(std::move(whitened));
+  });
+}
 
-  [[nodiscard]] ErrorBudget measure() {
-    const auto stated = linearise(a_.session, stated_state(a_.session));
-    if (!stated || units_.empty()) return {};
-    as_delivered_ = errors_of_units(*stated, stated->e, units_);
-    ErrorBudget budget;
-    budget.uncalibrated_mm = rms_length(as_delivered_);
-    // Each part is the reduction of the error without it; together they are the error.
-    Shifts settings = as_delivered_;
-    add_causes(budget, settings);
-    const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_given_discrepancy);
-    const Shifts noise =
-        shifts_of(left_of_machine(a_.system, a_.estimate, a_.estimate.left_given_discrepancy));
-    take_away(pattern, settings);
-    take_away(noise, settings);
-    add({.what = BudgetLine::What::settings, .part_mm = settings_over_a_part()}, settings, budget);
-    if (a_.decision.discrepancy_left) {
-      add({.what = BudgetLine::What::unexplained, .part_mm = pattern_over_a_part()},
-          pattern,
-          budget);
-    }
-    add({.what = BudgetLine::What::noise, .changes_with = BudgetLine::ChangesWith::nothing},
-        noise,
-        budget);
-    finish(budget);
-    return budget;
-  }
+/// Units that count, of those whose error is the tool's where chains were read.
+Indices units_of_budget(const Analysis& a) {
+  const Flags& outliers = marginalised_system(a).outliers;
+  const bool of_tool = a.session.reads_chains();
+  Indices units = numbers_below(outliers.size());
+  std::erase_if(units, [&](std::size_t u) {
+    return outliers[u] || a.system.units[u].reads_chains != of_tool;
+  });
+  return units;
+}
 
- private:
-  [[nodiscard]] Shifts shifts_of(const Eigen::VectorXd& whitened) const {
-    return errors_of_units(a_.system, whitened, units_);
-  }
+Shifts without(Shifts all, const Shifts& part) {
+  for (std::size_t i = 0; i < part.size(); ++i) all[i] -= part[i];
+  return all;
+}
 
-  static void take_away(const Shifts& part, Shifts& from) {
-    for (std::size_t i = 0; i < part.size(); ++i) from[i] -= part[i];
-  }
-
-  void add(BudgetLine line, const Shifts& shifts, ErrorBudget& budget) const {
-    line.mean_square_mm2 = std::pow(rms_length(shifts), 2);
-    Shifts rest = as_delivered_;
-    take_away(shifts, rest);
-    line.without_mm = rms_length(rest);
-    budget.lines.push_back(line);
-  }
-
-  void add_causes(ErrorBudget& budget, Shifts& rest) const {
-    for (std::size_t k = 0; k < a_.decision.regressors.size(); ++k) {
-      const int column = a_.decision.regressors[k];
-      const Regressor& own = regressor(a_, column);
-      const double size = a_.estimate.coefficient(as_index(k));
-      const Shifts shifts = shifts_of(a_.system.g.col(column) * size);
-      take_away(shifts, rest);
-      BudgetLine line{.what = BudgetLine::What::cause, .cause = own.cause};
-      line.changes_with = changes_with(*own.cause.effect);
-      if (line.changes_with == BudgetLine::ChangesWith::place) {
-        line.part_mm = over_a_part(corners_, [&](const Corner& there) {
-          auto g = signature(there.session, a_.state, there.system, own.cause, own.values);
-          if (g) *g *= size;
-          return g;
-        });
-      }
-      add(line, shifts, budget);
-    }
-  }
-
-  [[nodiscard]] std::optional<double> settings_over_a_part() const {
-    const Eigen::VectorXd change =
-        a_.system.setting + a_.estimate.setting_change - a_.session.stated_value;
-    return over_a_part(corners_, [&](const Corner& there) {
-      const Eigen::Index shared = a_.system.setting.size() - a_.system.nuisances;
-      return std::optional<Eigen::VectorXd>(there.system.by_setting.leftCols(shared) *
-                                            change.head(shared));
-    });
-  }
-
-  [[nodiscard]] std::optional<double> pattern_over_a_part() const {
-    return over_a_part(corners_, [&](const Corner& there) {
-      Eigen::VectorXd whitened(there.system.e.size());
-      whitened.setZero();
-      for (const SystemUnit& unit : there.system.units) {
-        const SystemPlace& place = there.system.places[unit.places.front().place];
-        whitened.segment<2>(unit.first_row) =
-            unit.whitening * discrepancy_at(a_.system, marginalised_system(a_), a_.estimate, place);
-      }
-      return std::optional<Eigen::VectorXd>(std::move(whitened));
-    });
-  }
-
-  /// Shares, the common part, and the order.
-  static void finish(ErrorBudget& budget) {
-    const double whole = budget.uncalibrated_mm * budget.uncalibrated_mm;
-    double sum = 0.0;
-    for (const BudgetLine& line : budget.lines) sum += line.mean_square_mm2;
-    stable_sort(budget.lines, descending(&BudgetLine::mean_square_mm2));
-    budget.lines.push_back({.what = BudgetLine::What::inseparable,
-                            .mean_square_mm2 = whole - sum,
-                            .changes_with = BudgetLine::ChangesWith::nothing});
-    for (BudgetLine& line : budget.lines) {
-      line.share = whole > 0.0 ? line.mean_square_mm2 / whole : 0.0;
-    }
-  }
-
-  const Analysis& a_;
-  std::vector<Corner> corners_;
-  Indices units_;
-  Shifts as_delivered_;
-};
+/// Shares, the common part, and the order.
+void finish(ErrorBudget& budget) {
+  const double whole = budget.uncalibrated_mm * budget.uncalibrated_mm;
+  double sum = 0.0;
+  for (const BudgetLine& line : budget.lines) sum += line.mean_square_mm2;
+  stable_sort(budget.lines, descending(&BudgetLine::mean_square_mm2));
+  budget.lines.push_back({.what = BudgetLine::What::inseparable,
+                          .mean_square_mm2 = whole - sum,
+                          .changes_with = BudgetLine::ChangesWith::nothing});
+  for (BudgetLine& line : budget.lines)
+    line.share = whole > 0.0 ? line.mean_square_mm2 / whole : 0.0;
+}
 
 }  // namespace
 
-ErrorBudget error_budget(const Analysis& analysis) { return Budget(analysis).measure(); }
+ErrorBudget error_budget(const Analysis& a) {
+  const Indices units = units_of_budget(a);
+  const auto stated = linearise(a.session, stated_state(a.session));
+  if (!stated || units.empty()) return {};
+  const Shifts as_delivered = errors_of_units(*stated, stated->e, units);
+  ErrorBudget budget{rms_length(as_delivered), {}};
+  // Each part is the reduction of the error without it; together they are the error.
+  Shifts rest = as_delivered;
+  const auto add = [&](BudgetLine line, const Shifts& part) {
+    line.mean_square_mm2 = std::pow(rms_length(part), 2);
+    line.without_mm = rms_length(without(as_delivered, part));
+    budget.lines.push_back(line);
+  };
+  const auto take = [&](const BudgetLine& line, const Eigen::VectorXd& whitened) {
+    const Shifts part = errors_of_units(a.system, whitened, units);
+    rest = without(rest, part);
+    add(line, part);
+  };
+  const std::vector<Corner> corners = corners_of(a);
+  for (std::size_t k = 0; k < a.decision.regressors.size(); ++k) {
+    const Regressor& own = regressor(a, a.decision.regressors[k]);
+    const double size = a.estimate.coefficient(as_index(k));
+    BudgetLine line{.what = BudgetLine::What::cause, .cause = own.cause};
+    line.changes_with = changes_with(*own.cause.effect);
+    if (line.changes_with == BudgetLine::ChangesWith::place)
+      line.part_mm = part_of_cause(a, corners, own, size);
+    take(line, a.system.g.col(a.decision.regressors[k]) * size);
+  }
+  const Eigen::VectorXd& left = a.estimate.left_given_discrepancy;
+  if (a.decision.discrepancy_left) {
+    take({.what = BudgetLine::What::unexplained, .part_mm = part_of_pattern(a, corners)},
+         a.estimate.left - left);
+  }
+  take({.what = BudgetLine::What::noise, .changes_with = BudgetLine::ChangesWith::nothing},
+       left_of_machine(a.system, a.estimate, left));
+  add({.what = BudgetLine::What::settings, .part_mm = part_of_settings(a, corners)}, rest);
+  finish(budget);
+  return budget;
+}
 
 }  // namespace chaintrue::grid::diagnosis

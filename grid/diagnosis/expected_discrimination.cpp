@@ -190,9 +190,8 @@ std::vector<Alternative> alternatives_of_best(const Analysis& a) {
 std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const ObservationSet& next) {
   const auto system = linearise(next, a.state);
   if (!system) return std::nullopt;
-  return alternatives_about(a, *system, [&](const Regressor& d) {
-    return signature(next, a.state, *system, d.cause, d.values);
-  });
+  return alternatives_about(
+      a, *system, [&](const SizedCause& own) { return signature(next, a.state, *system, own); });
 }
 
 std::vector<Alternative> alternatives_about(const Analysis& a,

@@ -55,7 +55,6 @@ struct Alternative {
 
 /// As above for the rows of a system; `column` gives a regressor's column there. Empty if such a
 /// machine is invalid.
-using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>;
 [[nodiscard]] std::vector<Alternative> alternatives_about(const Analysis& analysis,
                                                           const RegressorSystem& next,
                                                           const ColumnOf& column);

@@ -17,146 +17,147 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-double circular(double difference, const EffectParameter& p) {
-  const bool turns = p.upper - p.lower >= 2.0 * std::numbers::pi;
-  return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
-}
+/// Where a cause sets in: parameter `which` of regressor `column`.
+///
+/// Its sigma is the larger of two: the scatter of the place over the models, and the curvature of the
+/// likelihood about the best, settings and all other coefficients free. For a step between two marks it is
+/// that of a uniform distribution over the gap. The models contain only a few values of a continuous place:
+/// if one has all the weight, their scatter does not show the uncertainty.
+class PlaceOfCause {
+ public:
+  PlaceOfCause(const Analysis& a, int column, std::size_t which)
+      : a_(a),
+        own_(regressor(a, column)),
+        which_(which),
+        place_(own_.cause.effect->parameters[which]) {}
 
-/// Derivative of a cause's whitened signature by its place; empty if the machine cannot have such
-/// an effect.
-std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
-                                              const Regressor& own,
-                                              std::size_t which) {
-  // Step in radians: central differences of a wave are accurate to h^2 / 6, rounding to 1e-16 / h.
-  constexpr double kStep = 1e-3;
-  std::vector<double> values = own.values;
-  values[which] = own.values[which] + kStep;
-  const auto above = signature(a.session, a.state, a.system, own.cause, values);
-  values[which] = own.values[which] - kStep;
-  const auto below = signature(a.session, a.state, a.system, own.cause, values);
-  if (!above || !below) return std::nullopt;
-  return (*above - *below) / (2.0 * kStep);
-}
+  /// \pre `fitted` has the regressor, with this coefficient.
+  [[nodiscard]] ParameterEstimate estimated(const Estimate& fitted, double coefficient) const {
+    ParameterEstimate result{std::string(place_.name), own_.values[which_], 0.0};
+    double width = 0.0;
+    if (!place_.integer) {
+      const auto slope = slope_by_place();
+      const bool is_step = slope && slope->isZero();
+      if (slope && !is_step) width = fitted_sigma(fitted, coefficient, *slope);
+      // No reading shows where between two of them a step is.
+      if (const auto gap = is_step ? gap_about(a_.system, own_.cause, result.value) : std::nullopt) {
+        result.value = 0.5 * (gap->below + gap->above);
+        width = (gap->above - gap->below) / std::sqrt(12.0);
+      }
+    }
+    result.sigma = std::max(scatter(result.value), width);
+    return result;
+  }
 
-/// The same with each setting, n x q. A wave along a chain moves along it with the chain's length:
-/// a motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. Empty if
-/// such a machine is invalid.
-Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
-  // Step in sigmas: central differences of a wave of 60 mm are accurate to 1e-7 for a motor known
-  // to 3 mm.
-  constexpr double kStep = 1e-3;
-  Eigen::MatrixXd slope =
-      Eigen::MatrixXd::Zero(a.system.by_setting.rows(), a.system.setting.size());
-  for (Eigen::Index column = 0; column < a.session.setting_columns(); ++column) {
-    const double step = kStep * a.system.sigma(column);
-    const auto at = [&](double change) -> std::optional<Eigen::VectorXd> {
-      Eigen::VectorXd settings = a.system.setting;
-      settings(column) += change;
-      const auto state = moved_to(a.session, a.state, settings);
-      if (!state) return std::nullopt;
-      const auto there = linearise(a.session, *state);
-      if (!there) return std::nullopt;
-      return signature(a.session, *state, *there, own.cause, own.values);
+ private:
+  /// Derivative of the whitened signature by the place; empty if the machine cannot have such an effect.
+  [[nodiscard]] std::optional<Eigen::VectorXd> slope_by_place() const {
+    // Step in radians: central differences of a wave are accurate to h^2 / 6, rounding to 1e-16 / h.
+    constexpr double kStep = 1e-3;
+    const auto at = [&](double step) {
+      SizedCause there = own_;
+      there.values[which_] += step;
+      return signature(a_.session, a_.state, a_.system, there);
     };
-    const auto above = at(step);
-    const auto below = at(-step);
-    if (above && below) slope.col(column) = (*above - *below) / (2.0 * step);
+    const auto above = at(kStep);
+    const auto below = at(-kStep);
+    if (!above || !below) return std::nullopt;
+    return (*above - *below) / (2.0 * kStep);
   }
-  return slope;
-}
 
-/// Distance from a continuous place to the nearest other one tried.
-double step_of_places(const Analysis& a, const Regressor& own, std::size_t which) {
-  double least = kInfinity;
-  for (const Regressor& other : a.system.regressors) {
-    if (other.cause != own.cause) continue;
-    const double step = std::abs(other.values[which] - own.values[which]);
-    if (step > 0.0) least = std::min(least, step);
-  }
-  return std::isfinite(least) ? least : 0.0;
-}
-
-/// Sigma of a continuous place from the curvature of the likelihood, with settings and all
-/// coefficients free.
-double fitted_place_sigma(const Analysis& a,
-                          int column,
-                          std::size_t which,
-                          const Estimate& fitted,
-                          double coefficient,
-                          const Eigen::VectorXd& slope) {
-  const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters[which];
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const RegressorSystem& system = a.system;
-  Unknowns unknowns = unknowns_of(system, marginalised, fitted.free_regressors());
-  auto& [design, sigma] = unknowns;
-  const Eigen::Index last = sigma.size();
-  design.leftCols(system.setting.size()) +=
-      coefficient * marginalised.kept.of(slope_by_settings(a, own));
-  design.conservativeResize(Eigen::NoChange, last + 1);
-  design.col(last) = coefficient * marginalised.kept(slope);
-  sigma.conservativeResize(last + 1);
-  // The prior is uniform between the bounds; a phase is cyclic.
-  const double range = place.name.ends_with("_rad")
-                           ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
-                           : place.upper - place.lower;
-  sigma(last) = range / std::sqrt(12.0);
-  if (a.noise) design = a.noise->covariance.half_solve(design);
-  const Eigen::MatrixXd scaled =
-      linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
-  const linear::Cholesky normal(linear::one_plus_gram(scaled));
-  const Eigen::VectorXd column_of_inverse = normal.solve(Eigen::VectorXd::Unit(last + 1, last));
-  // With a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
-  // step either way.
-  const double step = a.noise ? step_of_places(a, own, which) : 0.0;
-  return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
-}
-
-/// Uncertainty of where a cause sets in: the scatter of that parameter over the models, about a
-/// value.
-double place_scatter(const Analysis& a, int column, std::size_t which, double about) {
-  const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters[which];
-  double weight = 0.0;
-  double square = 0.0;
-  for (const CandidateModel& model : a.comparison.models) {
-    for (const int k : model.regressors) {
-      const Regressor& other = regressor(a, k);
-      if (other.cause != own.cause) continue;
-      const double p = a.comparison.probability(model);
-      const double off = circular(other.values[which] - about, place);
-      weight += p;
-      square += p * off * off;
+  /// The same with each setting, n x q. A wave along a chain moves along it with the chain's length:
+  /// a motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. 0 if such a
+  /// machine is invalid.
+  [[nodiscard]] Eigen::MatrixXd slope_by_settings() const {
+    // Step in sigmas: central differences of a wave of 60 mm are accurate to 1e-7 for a motor known
+    // to 3 mm.
+    constexpr double kStep = 1e-3;
+    const RegressorSystem& system = a_.system;
+    Eigen::MatrixXd slope =
+        Eigen::MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
+    for (Eigen::Index column = 0; column < a_.session.setting_columns(); ++column) {
+      const double step = kStep * system.sigma(column);
+      const auto at = [&](double change) -> std::optional<Eigen::VectorXd> {
+        Eigen::VectorXd settings = system.setting;
+        settings(column) += change;
+        const auto state = moved_to(a_.session, a_.state, settings);
+        if (!state) return std::nullopt;
+        const auto there = linearise(a_.session, *state);
+        if (!there) return std::nullopt;
+        return signature(a_.session, *state, *there, own_);
+      };
+      const auto above = at(step);
+      const auto below = at(-step);
+      if (above && below) slope.col(column) = (*above - *below) / (2.0 * step);
     }
+    return slope;
   }
-  return weight > 0.0 ? std::sqrt(square / weight) : 0.0;
-}
 
-/// A place's sigma is the larger of two: the scatter of the place over the models, and the curvature
-/// of the likelihood about the best, settings and all other coefficients free. For a step between
-/// two marks it is that of a uniform distribution over the gap.
-/// The models contain only a few values of a continuous place: if one has all the weight, their
-/// scatter does not show the uncertainty.
-ParameterEstimate estimated_place(
-    const Analysis& a, int column, std::size_t which, const Estimate& fitted, double coefficient) {
-  const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters[which];
-  ParameterEstimate result{std::string(place.name), own.values[which], 0.0};
-  double width = 0.0;
-  if (!place.integer) {
-    const auto slope = slope_by_place(a, own, which);
-    const bool is_step = slope && slope->isZero();
-    if (slope && !is_step)
-      width = fitted_place_sigma(a, column, which, fitted, coefficient, *slope);
-    // No reading shows where between two of them a step is.
-    if (const auto gap = is_step ? gap_about(a.system, own.cause, result.value) : std::nullopt) {
-      result.value = 0.5 * (gap->below + gap->above);
-      width = (gap->above - gap->below) / std::sqrt(12.0);
+  /// From a continuous place to the nearest other one tried.
+  [[nodiscard]] double step_of_places() const {
+    double least = kInfinity;
+    for (const Regressor& other : a_.system.regressors) {
+      if (other.cause != own_.cause) continue;
+      const double step = std::abs(other.values[which_] - own_.values[which_]);
+      if (step > 0.0) least = std::min(least, step);
     }
+    return std::isfinite(least) ? least : 0.0;
   }
-  result.sigma = std::max(place_scatter(a, column, which, result.value), width);
-  return result;
-}
+
+  /// Of a continuous place, from the curvature of the likelihood, with settings and all coefficients
+  /// free.
+  [[nodiscard]] double fitted_sigma(const Estimate& fitted,
+                                    double coefficient,
+                                    const Eigen::VectorXd& slope) const {
+    const MarginalisedSystem& marginalised = marginalised_system(a_);
+    Unknowns unknowns = unknowns_of(a_.system, marginalised, fitted.free_regressors());
+    auto& [design, sigma] = unknowns;
+    const Eigen::Index last = sigma.size();
+    design.leftCols(a_.system.setting.size()) +=
+        coefficient * marginalised.kept.of(slope_by_settings());
+    design.conservativeResize(Eigen::NoChange, last + 1);
+    design.col(last) = coefficient * marginalised.kept(slope);
+    sigma.conservativeResize(last + 1);
+    // The prior is uniform between the bounds; a phase is cyclic.
+    const double range = place_.upper - place_.lower;
+    sigma(last) =
+        (place_.name.ends_with("_rad") ? std::min(range, kTurn) : range) / std::sqrt(12.0);
+    if (a_.noise) design = a_.noise->covariance.half_solve(design);
+    const Eigen::MatrixXd scaled =
+        linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
+    const linear::Cholesky normal(linear::one_plus_gram(scaled));
+    const Eigen::VectorXd column_of_inverse = normal.solve(Eigen::VectorXd::Unit(last + 1, last));
+    // With a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
+    // step either way.
+    const double step = a_.noise ? step_of_places() : 0.0;
+    return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
+  }
+
+  /// Of the place over the models, about a value.
+  [[nodiscard]] double scatter(double about) const {
+    const bool turns = place_.upper - place_.lower >= kTurn;
+    double weight = 0.0;
+    double square = 0.0;
+    for (const CandidateModel& model : a_.comparison.models) {
+      for (const int k : model.regressors) {
+        const Regressor& other = regressor(a_, k);
+        if (other.cause != own_.cause) continue;
+        const double p = a_.comparison.probability(model);
+        const double off = other.values[which_] - about;
+        weight += p;
+        square += p * std::pow(turns ? std::remainder(off, kTurn) : off, 2);
+      }
+    }
+    return weight > 0.0 ? std::sqrt(square / weight) : 0.0;
+  }
+
+  static constexpr double kTurn = 2.0 * std::numbers::pi;
+
+  const Analysis& a_;
+  const Regressor& own_;
+  std::size_t which_;
+  const EffectParameter& place_;
+};
 
 /// The cause of regressor `column`, in the effect's order. \pre `fitted` has the regressor.
 std::vector<ParameterEstimate> parameters_of(const Analysis& a,
@@ -172,7 +173,7 @@ std::vector<ParameterEstimate> parameters_of(const Analysis& a,
                     size_at(d, coefficient),
                     std::abs(size_slope(d, coefficient)) * sigma});
   for (std::size_t k = 1; k < described.size(); ++k)
-    result.push_back(estimated_place(a, column, k, fitted, coefficient));
+    result.push_back(PlaceOfCause(a, column, k).estimated(fitted, coefficient));
   return result;
 }
 

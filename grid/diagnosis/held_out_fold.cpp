@@ -205,7 +205,7 @@ ExpectedImprovement expected_improvement(const Analysis& a) {
       linear::product(there->by_setting, plain.setting_change - named.setting_change);
   for (std::size_t k = 0; k < causes.size(); ++k) {
     const Regressor& d = regressor(a, causes[k]);
-    const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d.cause, d.values);
+    const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d);
     const Eigen::VectorXd column = g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(moved.size()));
     moved -= column * named.coefficient(as_index(k));
     const auto free = std::find(named.free.begin(), named.free.end(), k);

@@ -10,11 +10,8 @@
 namespace chaintrue::grid::diagnosis {
 
 std::optional<model::Belt> belt_of(Enters enters) {
-  for (const model::Belt belt : model::kBelts) {
-    if (enters == static_cast<Enters>(static_cast<int>(Enters::tl) + static_cast<int>(belt)))
-      return belt;
-  }
-  return std::nullopt;
+  if (enters < Enters::tl) return std::nullopt;
+  return static_cast<model::Belt>(static_cast<int>(enters) - static_cast<int>(Enters::tl));
 }
 
 std::string_view name(LawShape shape) {
@@ -27,16 +24,8 @@ bool is_periodic(LawShape shape) {
 }
 
 std::size_t parameter_count(LawShape shape) {
-  switch (shape) {
-    case LawShape::linear:
-      return 1;
-    case LawShape::wave:
-      return 3;
-    case LawShape::harmonics:
-      return 5;
-    default:
-      return 2;
-  }
+  constexpr std::size_t kCounts[] = {1, 2, 2, 2, 2, 3, 5};  // by LawShape
+  return kCounts[static_cast<std::size_t>(shape)];
 }
 
 double value_of(const Law& law, double v) {

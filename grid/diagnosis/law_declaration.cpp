@@ -72,26 +72,24 @@ DeclaredParameter size_of(const Law& law) {
 }
 
 DeclaredParameter place_of(const Law& law) {
-  DeclaredParameter place;
-  place.role = ParameterRole::place;
   if (is_periodic(law.shape)) {
-    place.name = "phase_rad";
-    place.symbol = "p";
-    place.meaning = "phase of the wave in the middle of its range";
-    place.nominal = law.parameters[2].value;
-    place.prior_sigma = std::numbers::pi;
-    place.lower = -6.3;
-    place.upper = 6.3;
-    return place;
+    return {.name = "phase_rad",
+            .symbol = "p",
+            .meaning = "phase of the wave in the middle of its range",
+            .role = ParameterRole::place,
+            .nominal = law.parameters[2].value,
+            .lower = -6.3,
+            .upper = 6.3,
+            .prior_sigma = std::numbers::pi};
   }
-  place.name = fmt::format("place_{}", unit_of(law.of));
-  place.symbol = "p";
-  place.meaning = "where it sets in";
-  place.nominal = std::clamp(law.parameters[1].value, law.from, law.to);
-  place.prior_sigma = std::max(law.parameters[1].sigma, 0.01 * (law.to - law.from));
-  place.lower = law.from;
-  place.upper = law.to;
-  return place;
+  return {.name = fmt::format("place_{}", unit_of(law.of)),
+          .symbol = "p",
+          .meaning = "where it sets in",
+          .role = ParameterRole::place,
+          .nominal = std::clamp(law.parameters[1].value, law.from, law.to),
+          .lower = law.from,
+          .upper = law.to,
+          .prior_sigma = std::max(law.parameters[1].sigma, 0.01 * (law.to - law.from))};
 }
 
 /// The parameters size_mm and, if there is one, the place.

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -22,15 +23,30 @@ std::string number_words(double value, double sigma) {
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
 }
 
+/// How a number with a variable's unit is written, and a slope over it.
+struct VariableUnit {
+  std::string_view unit;  ///< unit_of()
+  double factor;
+  std::string_view words;
+  double slope_factor;
+  std::string_view slope_words;
+};
+constexpr VariableUnit kVariableUnits[] = {
+    {"mm", 1.0, "mm", 1000.0, "mm a metre"},
+    {"rad", kDegreesOfRadian, "degrees", 1.0 / kDegreesOfRadian, "mm a degree"},
+    {"n", 1.0, "N", 1.0, "mm a newton"},
+    {"visit", 1.0, "visits", 1.0, "mm a visit"}};
+
+const VariableUnit& unit_of_variable(const Law& law) {
+  return *find_where(kVariableUnits,
+                     [&](const VariableUnit& one) { return one.unit == unit_of(law.of); });
+}
+
 /// A place, scale or period with its unit.
 std::string quantity_words(const Law& law, const ParameterEstimate& estimate) {
-  const std::string_view unit = unit_of(law.of);
-  if (unit == "rad") {
-    return number_words(kDegreesOfRadian * estimate.value, kDegreesOfRadian * estimate.sigma) +
-           " degrees";
-  }
-  const std::string number = number_words(estimate.value, estimate.sigma);
-  return unit == "visit" ? number + " visits" : number + (unit == "n" ? " N" : " mm");
+  const VariableUnit& unit = unit_of_variable(law);
+  return fmt::format(
+      "{} {}", number_words(unit.factor * estimate.value, unit.factor * estimate.sigma), unit.words);
 }
 
 std::string entrance_words(Enters enters) {
@@ -49,15 +65,15 @@ std::string entrance_words(Enters enters) {
 
 /// A slope over the whole range, converted to its natural unit.
 std::string slope_words(const Law& law, const ParameterEstimate& size) {
-  const double span = law.to - law.from;
-  const std::string_view unit = unit_of(law.of);
-  const double per = unit == "mm" ? 1000.0 : unit == "rad" ? 1.0 / kDegreesOfRadian : 1.0;
-  const std::string_view words = unit == "mm"    ? "mm a metre"
-                                 : unit == "rad" ? "mm a degree"
-                                 : unit == "n"   ? "mm a newton"
-                                                 : "mm a visit";
-  return fmt::format(
-      "{} {}", number_words(size.value * per / span, size.sigma * per / span), words);
+  const VariableUnit& unit = unit_of_variable(law);
+  const double per = unit.slope_factor / (law.to - law.from);
+  return fmt::format("{} {}", number_words(size.value * per, size.sigma * per), unit.slope_words);
+}
+
+/// Whether the law's place or period is this value, within two sigmas or `least`.
+bool is_near(const Law& law, double value, double least) {
+  const ParameterEstimate& own = law.parameters[1];
+  return std::abs(own.value - value) < std::max(2.0 * own.sigma, least);
 }
 
 }  // namespace
@@ -164,10 +180,8 @@ std::string given_law_words(const Diagnosis& d) {
 std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine) {
   const double turn = machine.belt_turn_mm;
   const bool of_length = belt_of(law.of) && unit_of(law.of) == "mm";
-  if (!of_length || !is_periodic(law.shape)) return {};
-  const ParameterEstimate& period = law.parameters[1];
   // Tolerance of a belt's pitch: one per cent.
-  if (std::abs(period.value - turn) >= std::max(2.0 * period.sigma, 0.01 * turn)) return {};
+  if (!of_length || !is_periodic(law.shape) || !is_near(law, turn, 0.01 * turn)) return {};
   return {fmt::format(
       "Its period is near one turn of the motor ({:.3f} mm of belt): is its pulley or its magnet "
       "eccentric?",
@@ -177,23 +191,19 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
 std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
   std::vector<std::string> hints;
   const bool of_length = chain_of(law.of) && unit_of(law.of) == "mm";
-  const auto near = [&](double value, double least) {
-    const ParameterEstimate& own = law.parameters[1];
-    return std::abs(own.value - value) < std::max(2.0 * own.sigma, least);
-  };
   if (is_periodic(law.shape) && of_length) {
     const double pitch = machine.sprocket.pitch_mm;
     const double turn = machine.sprocket.teeth * pitch;
     // Tolerance of a period: one per cent.
-    if (near(turn, 0.01 * turn)) {
+    if (is_near(law, turn, 0.01 * turn)) {
       hints.push_back(fmt::format(
           "Its period is near one turn of the sprocket ({:.1f} mm): is it eccentric?",
           turn));
-    } else if (near(0.5 * turn, 0.005 * turn)) {
+    } else if (is_near(law, 0.5 * turn, 0.005 * turn)) {
       hints.push_back(fmt::format(
           "Its period is near half a turn of the sprocket ({:.1f} mm): is it out of round?",
           0.5 * turn));
-    } else if (near(pitch, 0.01 * pitch)) {
+    } else if (is_near(law, pitch, 0.01 * pitch)) {
       hints.push_back(
           fmt::format("Its period is near one link and one tooth ({:.2f} mm): does the chain ride "
                       "on the teeth?",
@@ -201,13 +211,14 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
     }
   }
   constexpr double kNearMm = 30.0;  // a hand's breadth to either side is the same place
-  const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink;
-  if (law.of == Coordinate::x && has_place && near(0.0, kNearMm))
-    hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
-  for (const auto& [name, motor] :
-       {std::pair{"left", machine.motors.left}, std::pair{"right", machine.motors.right}}) {
-    if (law.of == Coordinate::x && has_place && near(motor.x_mm, kNearMm))
-      hints.push_back(fmt::format("Its place is near the {} motor.", name));
+  if (law.of == Coordinate::x && (law.shape == LawShape::step || law.shape == LawShape::kink)) {
+    if (is_near(law, 0.0, kNearMm))
+      hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
+    for (const model::Side side : model::kSides) {
+      if (is_near(law, machine.motors[side].x_mm, kNearMm))
+        hints.push_back(fmt::format("Its place is near the {} motor.",
+                                    side == model::Side::left ? "left" : "right"));
+    }
   }
   if (unit_of(law.of) == "n")
     hints.emplace_back("It follows a chain's tension: something yields under load.");

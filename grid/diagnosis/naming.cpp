@@ -10,6 +10,7 @@
 #include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/stability.hpp"
+#include "grid/failed.hpp"
 #include "grid/input_checks/point_checks.hpp"
 #include "grid/parallel.hpp"
 
@@ -17,34 +18,32 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 /// Distances that are all too long, or all too short, by the same amount.
-std::optional<DiagnosisFailure> suspected_tape_zero(const MeasuredHoles& set) {
+std::optional<std::string> suspected_tape_zero(const MeasuredHoles& set) {
   const auto tape_zero_mm = suspected_tape_zero_offset_mm(set);
   if (!tape_zero_mm) return std::nullopt;
-  return DiagnosisFailure{
-      DiagnosisFailure::Reason::contradictory_settings,
-      fmt::format(
-          "all distances are about {:.0f} mm {} than commanded, whatever their length: the tape's "
-          "hook offset, entered as {:g} mm, is probably {:.0f} mm. Correct it (\"tape\": "
-          "{{\"hook_offset_mm\": {:.0f}}}), then diagnose again",
-          std::abs(*tape_zero_mm),
-          *tape_zero_mm > 0.0 ? "longer" : "shorter",
-          set.tape.tape_zero_offset_mm,
-          set.tape.tape_zero_offset_mm + *tape_zero_mm,
-          set.tape.tape_zero_offset_mm + *tape_zero_mm)};
+  const double entered_mm = set.tape.tape_zero_offset_mm;
+  return fmt::format(
+      "all distances are about {:.0f} mm {} than commanded, whatever their length: the tape's "
+      "hook offset, entered as {:g} mm, is probably {:.0f} mm. Correct it (\"tape\": "
+      "{{\"hook_offset_mm\": {:.0f}}}), then diagnose again",
+      std::abs(*tape_zero_mm),
+      *tape_zero_mm > 0.0 ? "longer" : "shorter",
+      entered_mm,
+      entered_mm + *tape_zero_mm,
+      entered_mm + *tape_zero_mm);
 }
 
 /// Slips of a whole file, which resemble no effect, in data that no file reader has checked.
-std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
+std::optional<std::string> suspected_slip(const Measured& measured) {
   for (std::size_t k = 1; k < measured.files().size(); ++k) {
     for (std::size_t before = 0; before < k; ++before) {
       const MeasuredFile& first = measured.files()[before];
       const MeasuredFile& other = measured.files()[k];
       if (!same_readings(first, other)) continue;
-      return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
-                              fmt::format("{} has the same readings as {}, to the last digit, and "
-                                          "a copy adds nothing. Leave it out",
-                                          other.name,
-                                          first.name)};
+      return fmt::format(
+          "{} has the same readings as {}, to the last digit, and a copy adds nothing. Leave it out",
+          other.name,
+          first.name);
     }
   }
   for (const MeasuredHoles* set : measured.holes()) {
@@ -53,8 +52,7 @@ std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
   for (const MeasuredGrid* grid : measured.grids()) {
     const auto whole = input_checks::check_points(*grid).whole;
     // A rotated sheet looks like axes that are not square, plus a law.
-    if (!whole || (whole->is_doubtful && whole->kind != ProblemKind::axes)) continue;
-    return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings, whole->sentence()};
+    if (whole && (!whole->is_doubtful || whole->kind == ProblemKind::axes)) return whole->sentence();
   }
   return std::nullopt;
 }
@@ -104,7 +102,8 @@ tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
                                                    NamingFor use) {
   auto session = observations_of(measured);
   if (!session) return tl::unexpected(session.error());
-  if (const auto slip = suspected_slip(measured)) return tl::unexpected(*slip);
+  if (const auto slip = suspected_slip(measured))
+    return failed(DiagnosisFailure::Reason::contradictory_settings, *slip);
   tell(options.progress, kComparing);
   auto analysed = analysed_in_order(measured, *std::move(session), options);
   if (!analysed) return tl::unexpected(analysed.error());

@@ -115,7 +115,7 @@ Eigen::MatrixXd columns_of(const Analysis& a,
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(next.system.e.size(), causes + law.cols());
   for (Eigen::Index k = 0; k < causes; ++k) {
     const Regressor& own = a.system.regressor(regressors[as_size(k)]);
-    if (const auto g = signature(next.session, a.state, next.system, own.cause, own.values))
+    if (const auto g = signature(next.session, a.state, next.system, own))
       columns.col(k) = *g;
   }
   columns.rightCols(law.cols()) = law;

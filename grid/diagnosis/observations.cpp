@@ -9,6 +9,7 @@
 #include <string>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "grid/observation/length_points.hpp"
 
@@ -18,10 +19,6 @@ namespace {
 using Reason = DiagnosisFailure::Reason;
 using model::Machine;
 using model::Setting;
-
-tl::unexpected<DiagnosisFailure> failure(Reason reason, std::string sentence) {
-  return tl::unexpected(DiagnosisFailure{reason, std::move(sentence)});
-}
 
 /// The readings that the machine predicts; the sled's mass is taken as it was read.
 std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings, Machine& machine) {
@@ -154,7 +151,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
     MeasuredGrid grid, const Machine& stated, std::size_t first_index, PointsSoFar& so_far) {
   grid.machine = stated;
   const auto lengths = length_points(grid);
-  if (!lengths) return failure(Reason::no_lengths, lengths.error());
+  if (!lengths) return failed(Reason::no_lengths, lengths.error().sentence());
   std::optional<StatedNoise> noise;
   if (grid.noise) {
     noise = not_below_rounding(*grid.noise, grid);
@@ -163,7 +160,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
     so_far.noise_from_repeats = noise.has_value();
   }
   if (!noise) {
-    return failure(Reason::no_noise,
+    return failed(Reason::no_noise,
                    "the accuracy of the points is unknown, and too few were measured twice to "
                    "estimate it. Enter it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
@@ -224,7 +221,7 @@ std::optional<std::string> too_few(const Measured& measured) {
 
 tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& measured) {
   if (!measured.machine()) {
-    return failure(Reason::no_machine,
+    return failed(Reason::no_machine,
                    measured.grids().empty()
                        ? "the holes have no machine, so the chain lengths for their commands are "
                          "unknown: add --machine M.json"
@@ -238,9 +235,9 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   };
   for (const MeasuredGrid* grid : measured.grids()) take(grid->readings);
   for (const MeasuredHoles* set : measured.holes()) take(set->readings);
-  if (auto said = too_few(measured)) return failure(Reason::too_few_points, *std::move(said));
+  if (auto said = too_few(measured)) return failed(Reason::too_few_points, *std::move(said));
   if (auto said = contradiction(stated, readings)) {
-    return failure(Reason::contradictory_settings, *std::move(said));
+    return failed(Reason::contradictory_settings, *std::move(said));
   }
   observation::Observations observations;
   const auto add = [&](std::shared_ptr<const observation::Observation> one) {
@@ -263,7 +260,7 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
       if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
     }
     auto distances = observation::TapeDistances::of(set, first);
-    if (!distances) return failure(Reason::point_unreachable, distances.error());
+    if (!distances) return failed(Reason::point_unreachable, distances.error().sentence());
     add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
     first.hole += set.holes.size();
     first.distance += set.distances.size();

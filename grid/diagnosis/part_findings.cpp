@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
@@ -54,8 +55,7 @@ std::string_view quarter(double towards_rad) {
 
 /// Name of a hypothesis in sentences.
 std::string cause_words(const Hypothesis& one) {
-  if (one.causes.empty()) return one.effect;
-  return fmt::format("\"{}{}\"", one.causes.front().effect->cause, side_words(one.causes.front()));
+  return one.causes.empty() ? one.effect : fmt::format("\"{}\"", sized(one.causes.front(), {}));
 }
 
 bool is_named(const PartFinding& part, const Hypothesis& one) {
@@ -78,37 +78,32 @@ bool denies(const Diagnosis& d, const PartFinding& part) {
 /// One answer shared by several quarters.
 struct OtherAnswer {
   std::string words;
-  std::vector<std::string_view> quarters;
   double least = 1.0;
   double most = 0.0;
+  std::vector<std::string_view> quarters{};
 };
 
-/// The change without a quarter: another cause is the likeliest, or a named one is no longer
-/// likely.
-OtherAnswer answer_without(const PartFinding& part) {
-  const Hypothesis* lost = nullptr;
-  for (const Hypothesis& own : part.named) {
-    if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
-      lost = &own;
-  }
+/// The change without a quarter, and its probability: another cause is the likeliest, or a named one is
+/// no longer likely. \pre the part denies what is named.
+std::pair<std::string, double> answer_without(const PartFinding& part) {
+  const auto lost = min_element(part.named, ascending(&Hypothesis::probability));
   const Hypothesis& best = part.likeliest;
-  if (best.effect == "nothing") return {"no cause is more likely than "
-                                        "not", {}, best.probability, best.probability};
-  if (!is_named(part, best) || lost == nullptr)
-    return {fmt::format("it is {}", cause_words(best)), {}, best.probability, best.probability};
-  return {fmt::format("{} is not likely", cause_words(*lost)), {}, lost->probability, lost->probability};
+  if (best.effect == "nothing") return {"no cause is more likely than not", best.probability};
+  if (!is_named(part, best) || lost->probability >= kHolds)
+    return {fmt::format("it is {}", cause_words(best)), best.probability};
+  return {fmt::format("{} is not likely", cause_words(*lost)), lost->probability};
 }
 
 std::string words_of_quarters(const Diagnosis& d) {
   std::vector<OtherAnswer> answers;
   for (const PartFinding& part : d.bed_parts) {
     if (!denies(d, part)) continue;
-    const OtherAnswer own = answer_without(part);
+    const auto own = answer_without(part);
     auto* same =
-        find_where(answers, [&](const OtherAnswer& other) { return other.words == own.words; });
-    OtherAnswer& answer = same != nullptr ? *same : answers.emplace_back(own);
-    answer.least = std::min(answer.least, own.least);
-    answer.most = std::max(answer.most, own.most);
+        find_where(answers, [&](const OtherAnswer& other) { return other.words == own.first; });
+    OtherAnswer& answer = same != nullptr ? *same : answers.emplace_back(OtherAnswer{own.first});
+    answer.least = std::min(answer.least, own.second);
+    answer.most = std::max(answer.most, own.second);
     const std::string_view where = quarter(part.towards_rad);
     if (!contains(answer.quarters, where)) answer.quarters.push_back(where);
   }

@@ -30,17 +30,15 @@ namespace chaintrue::grid::diagnosis {
 using estimation::SystemPlace;
 using estimation::SystemUnit;
 
-/// A cause with its values, in the effect's order.
+/// A cause with its values: sizes and places, in the effect's order.
 struct SizedCause {
   CauseId cause;
   std::vector<double> values;
 };
 
-/// An effect at one side, one place and one size.
-struct Regressor {
-  CauseId cause;
-  std::vector<double> values;  ///< sizes and places, in the effect's order
-  double power = 1.0;          ///< for a refined one: about its size
+/// A cause at one place and one size.
+struct Regressor : SizedCause {
+  double power = 1.0;  ///< for a refined one: about its size
   /// The size is a whole number: the coefficient is 1 and `values` hold it.
   bool fixed = false;
   /// It acts at a single visit.

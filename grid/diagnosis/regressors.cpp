@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "grid/chain_rows.hpp"
 #include "grid/diagnosis/law_curves.hpp"
@@ -100,7 +101,8 @@ struct Signatures {
   std::optional<Eigen::VectorXd> without{};
 
   /// As signature().
-  [[nodiscard]] std::optional<Eigen::VectorXd> of(CauseId cause, const std::vector<double>& values) {
+  [[nodiscard]] std::optional<Eigen::VectorXd> operator()(const SizedCause& sized) {
+    const auto& [cause, values] = sized;
     if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
       return added(system, state.machine.sprocket, cause, values);
     if (!problems_with_effect(state, cause, values).empty()) return std::nullopt;
@@ -155,21 +157,10 @@ class Builder {
   }
 
   void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
-    const auto g = signatures_.of(cause, values);
-    if (!g || !(g->norm() > 0.0)) return;
-    std::vector<double> smaller = values;
-    smaller.front() *= refined_ ? kNearby : 0.5;
-    const auto half = signatures_.of(cause, smaller);
-    if (!half) return;
-    Regressor regressor;
-    regressor.cause = cause;
-    regressor.values = values;
-    regressor.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
+    Regressor regressor{{cause, values}};
     regressor.log_prior = log_prior;
     regressor.refined = refined_;
-    limit(regressor);
-    system_.regressors.push_back(std::move(regressor));
-    system_.g.add(*g);
+    add_regressor(std::move(regressor), std::ref(signatures_), system_);
   }
 
   /// A step lies in a gap between two places of the tool, with probability proportional to its
@@ -196,14 +187,12 @@ class Builder {
     for (const double place : where) {
       values.back() = place;
       values.front() = 1.0;
-      const auto one = signatures_.of(cause, values);
+      const auto one = signatures_({cause, values});
       if (!one || !(one->norm() > 0.0)) continue;
       for (int links = -kMostLinks; links <= kMostLinks; ++links) {
         if (links == 0) continue;
         values.front() = links;
-        Regressor regressor;
-        regressor.cause = cause;
-        regressor.values = values;
+        Regressor regressor{{cause, values}};
         regressor.fixed = true;
         regressor.slip = cause.effect->at_one_visit;
         regressor.lowest = regressor.highest = 1.0;
@@ -261,9 +250,8 @@ Candidates candidates(const ObservationSet& session) {
 std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                          const State& state,
                                          const RegressorSystem& system,
-                                         CauseId cause,
-                                         const std::vector<double>& values) {
-  return Signatures{session, state, system}.of(cause, values);
+                                         const SizedCause& cause) {
+  return Signatures{session, state, system}(cause);
 }
 
 void add_regressors(const ObservationSet& session,
@@ -281,23 +269,13 @@ bool renew_regressors(const ObservationSet& session,
                       const State& state,
                       const std::vector<Regressor>& regressors,
                       RegressorSystem& system) {
-  system.regressors = regressors;
+  system.regressors.clear();
   system.g = RegressorColumns(session.rows);
-  Signatures signatures{session, state, system};
-  for (Regressor& d : system.regressors) {
-    const auto g = signatures.of(d.cause, d.values);
-    if (!g || !(g->norm() > 0.0)) return false;
-    system.g.add(*g);
-    if (d.fixed) continue;
-    std::vector<double> nearby = d.values;
-    nearby.front() *= kNearby;
-    const auto there = signatures.of(d.cause, nearby);
-    if (!there) return false;
-    d.power = power_about(*g, *there);
-    d.refined = true;
-    limit(d);
-  }
-  return true;
+  const ColumnOf column = Signatures{session, state, system};
+  return all_of(regressors, [&](Regressor own) {
+    own.refined = !own.fixed;
+    return add_regressor(std::move(own), column, system);
+  });
 }
 
 double size_at(const Regressor& regressor, double coefficient) {
@@ -315,16 +293,25 @@ double size_slope(const Regressor& regressor, double coefficient) {
   return at / regressor.power * std::pow(c, 1.0 / regressor.power - 1.0);
 }
 
+namespace {
+
+/// Share of a size, for difference quotients.
+constexpr double kNearby = 0.95;
+
+/// The coefficient's power: the growth of the signature from half the size to the whole.
 double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
   const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
   return std::max(1.0, std::round(std::log2(ratio)));
 }
 
+/// As above about a fitted size, with `nearby` at kNearby of it. A signature that hardly grows does
+/// not determine its size; one that shrinks has no power.
 double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
   const double ratio = whole.dot(nearby) / whole.squaredNorm();
   return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
 }
 
+/// Sets the coefficient's range from that of the size.
 void limit(Regressor& regressor) {
   const EffectParameter& size = regressor.cause.effect->parameters.front();
   const double at = regressor.values.front();
@@ -336,6 +323,27 @@ void limit(Regressor& regressor) {
   const double b = coefficient(size.upper);
   regressor.lowest = std::min(a, b);
   regressor.highest = std::max(a, b);
+}
+
+}  // namespace
+
+bool add_regressor(Regressor regressor, const ColumnOf& column, RegressorSystem& system) {
+  const auto g = column(regressor);
+  if (!g || !(g->norm() > 0.0)) return false;
+  if (size_parameter(*regressor.cause.effect).integer) {
+    regressor.fixed = true;
+    regressor.lowest = regressor.highest = 1.0;
+  } else {
+    SizedCause smaller = regressor;
+    smaller.values.front() *= regressor.refined ? kNearby : 0.5;
+    const auto there = column(smaller);
+    if (!there) return false;
+    regressor.power = regressor.refined ? power_about(*g, *there) : power_of(*g, *there);
+    limit(regressor);
+  }
+  system.regressors.push_back(std::move(regressor));
+  system.g.add(*g);
+  return true;
 }
 
 }  // namespace chaintrue::grid::diagnosis

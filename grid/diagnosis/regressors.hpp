@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -36,29 +37,20 @@ void add_regressors(const ObservationSet& session,
                                     const std::vector<Regressor>& regressors,
                                     RegressorSystem& system);
 
-/// The whitened column of an effect with these values; empty if such a machine is invalid.
+/// The whitened column of a cause; empty if such a machine is invalid.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                                        const State& state,
                                                        const RegressorSystem& system,
-                                                       CauseId cause,
-                                                       const std::vector<double>& values);
+                                                       const SizedCause& cause);
+using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const SizedCause&)>;
+
+/// Appends a regressor with its power and range, from its column and that at a smaller size: nearby if
+/// it is refined, else half. False if it has none.
+bool add_regressor(Regressor regressor, const ColumnOf& column, RegressorSystem& system);
 
 /// Size of a cause at a coefficient of its regressor.
 [[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
 /// d(size)/d(coefficient) there.
 [[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
-
-/// Share of a size, for difference quotients.
-inline constexpr double kNearby = 0.95;
-
-/// The coefficient's power: the growth of the signature from half the size to the whole.
-[[nodiscard]] double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half);
-
-/// As above about a fitted size, with `nearby` at kNearby of it. A signature that hardly grows does
-/// not determine its size; one that shrinks has no power.
-[[nodiscard]] double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby);
-
-/// Sets the coefficient's range from that of the size.
-void limit(Regressor& regressor);
 
 }  // namespace chaintrue::grid::diagnosis

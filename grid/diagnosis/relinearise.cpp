@@ -125,7 +125,8 @@ class Round {
   /// R^-1 of a regressor's signature at other values.
   [[nodiscard]] std::optional<Eigen::VectorXd> column(std::size_t which,
                                                       const std::vector<double>& values) const {
-    const auto g = signature(session_, state_, system_, system_.regressors[which].cause, values);
+    const auto g =
+        signature(session_, state_, system_, {system_.regressors[which].cause, values});
     if (!g) return std::nullopt;
     return reduced(marginalised_, *g);
   }

@@ -43,11 +43,10 @@ std::string refusal_words(const ObservationSet& session,
   const std::string what = point ? fmt::format("Point {}", reading.removal->index + 1)
                                  : "The" + name_of(session, reading.unit).substr(3);
   return fmt::format(
-      "{} alone suggests a cause ({}{}, {:.0f} %); without it there is none. A lasting cause shows "
+      "{} alone suggests a cause ({}, {:.0f} %); without it there is none. A lasting cause shows "
       "in more than one {}, so the {} was rejected: measure it again{}.",
       what,
-      cause.effect->cause,
-      side_words(cause),
+      sized(cause, {}),
       100.0 * probability,
       point ? "point" : "distance",
       point ? "point" : "distance",

@@ -4,6 +4,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
+#include "grid/failed.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -38,7 +39,7 @@ Eigen::VectorXd left_of(const Analysis& a,
     // only where the order of the visits is known.
     if (d.cause.effect->station == Station::reading) continue;
     if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
-    const auto g = signature(to, state, system, d.cause, d.values);
+    const auto g = signature(to, state, system, d);
     if (g) left -= *g * model.coefficient(as_index(k));
   }
   if (model.discrepancy_weights.size() > 0) {
@@ -98,8 +99,8 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   const auto system = linearise(*second, state);
   const auto stated = linearise(*second, stated_state(*second));
   if (!system || !stated) {
-    return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
-                                           "a point of the other grid cannot be reached"});
+    return failed(DiagnosisFailure::Reason::point_unreachable,
+                  "a point of the other grid cannot be reached");
   }
   const auto predicted_by = [&](const RegressorSet& regressors, int discrepancy) {
     const Estimate model = estimate(a.system, marginalised_system(a), regressors, discrepancy);

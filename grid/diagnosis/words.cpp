@@ -153,66 +153,63 @@ void advise_rereading(Diagnosis& d) {
       fmt::format("Measure point {} again first: the answer depends on it.", points.front() + 1));
 }
 
-void advise_settings(Diagnosis& d) {
-  if (settings_off(d).empty() || d.what_to_do.size() >= 3) return;
-  d.what_to_do.emplace_back(
-      d.causes.empty()
-          ? "Type the numbers in: chaintrue fit finds them, and export plotter prints the lines."
-          : "Then draw the page again: chaintrue fit finds the settings that are off, and export "
-            "plotter prints the lines to type in.");
+std::string what_next(const NextMeasurement& next) {
+  if (next.kind == MeasurementKind::reading) return reading_words(*next.reading, next.side);
+  if (next.kind != MeasurementKind::point) return next.words;
+  return fmt::format("a new point at ({:.0f}, {:.0f}) mm", next.mark->x_mm, next.mark->y_mm);
 }
 
 void advise(Diagnosis& d) {
+  std::vector<std::string>& steps = d.what_to_do;
+  const auto add_if_room = [&steps](std::string step) {
+    if (steps.size() < 3) steps.push_back(std::move(step));
+  };
   advise_rereading(d);
   say_remedies(d);
-  if (!d.next_measurements.empty()) {
-    const NextMeasurement& first = d.next_measurements.front();
-    const std::string what =
-        first.kind == MeasurementKind::reading ? reading_words(*first.reading, first.side)
-        : first.kind != MeasurementKind::point
-            ? first.words
-            : fmt::format("a new point at ({:.0f}, {:.0f}) mm", first.mark->x_mm, first.mark->y_mm);
-    d.what_to_do.push_back(next_in_words(d, what, d.next_measurements));
-  }
-  if (!d.outliers.empty() && d.what_to_do.size() < 3) {
-    d.what_to_do.push_back(fmt::format("Measure {}{} again.",
-                                       d.observations == Observations::points      ? "point "
-                                       : d.observations == Observations::distances ? "the distance "
-                                                                                   : "",
-                                       joined(outliers_in_words(d), "and")));
+  const auto& next = d.next_measurements;
+  if (!next.empty()) steps.push_back(next_in_words(d, what_next(next.front()), next));
+  if (!d.outliers.empty()) {
+    add_if_room(fmt::format("Measure {}{} again.",
+                            d.observations == Observations::points      ? "point "
+                            : d.observations == Observations::distances ? "the distance "
+                                                                        : "",
+                            joined(outliers_in_words(d), "and")));
   }
   for (const CalibratedSetting& s : d.settings) {
-    if (!s.off || d.what_to_do.size() >= 3) continue;
-    d.what_to_do.push_back(
-        fmt::format("Check {}: the machine file has {:.2f}, but {:.2f} fits the {}.",
-                    model::name(s.setting),
-                    s.stated,
-                    s.calibrated,
-                    name(d.observations)));
+    if (!s.off) continue;
+    add_if_room(fmt::format("Check {}: the machine file has {:.2f}, but {:.2f} fits the {}.",
+                            model::name(s.setting),
+                            s.stated,
+                            s.calibrated,
+                            name(d.observations)));
   }
-  if (claimed_law(d) != nullptr && d.what_to_do.size() < 3) {
-    d.what_to_do.emplace_back(
-        d.unexplained->causes_given_law.empty()
-            ? "Write the law to a file (chaintrue diagnose --law), measure other points, and "
-              "diagnose these with it (--effects) to confirm it or rule it out."
-            : "Write the law to a file (chaintrue diagnose --law) and diagnose these readings "
-              "again with it "
-              "(--effects): the machine file then has the causes found together with it.");
-  } else if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
-    d.what_to_do.emplace_back(
+  if (claimed_law(d) != nullptr) {
+    add_if_room(d.unexplained->causes_given_law.empty()
+                    ? "Write the law to a file (chaintrue diagnose --law), measure other points, and "
+                      "diagnose these with it (--effects) to confirm it or rule it out."
+                    : "Write the law to a file (chaintrue diagnose --law) and diagnose these "
+                      "readings again with it (--effects): the machine file then has the causes "
+                      "found together with it.");
+  } else if (d.verdict == Verdict::model_discrepancy && steps.size() < 3) {
+    steps.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a repeating pattern, whatever its "
         "cause.");
     // More marks on the same sheet cannot show which of the two is wrong.
-    d.what_to_do.emplace_back(
+    steps.emplace_back(
         "Rotate the sheet by half a turn, or place the marks with a different tape, and measure "
         "again. An error that rotates with the sheet belongs to the sheet or the tape; one that "
         "stays belongs to the machine; one that disappears belonged to that session.");
   }
-  advise_settings(d);
-  if (d.what_to_do.empty()) {
-    d.what_to_do.push_back(fmt::format("Type in the calibrated settings; these {} show nothing "
-                                       "else.",
-                                       name(d.observations)));
+  if (!settings_off(d).empty()) {
+    add_if_room(
+        d.causes.empty()
+            ? "Type the numbers in: chaintrue fit finds them, and export plotter prints the lines."
+            : "Then draw the page again: chaintrue fit finds the settings that are off, and export "
+              "plotter prints the lines to type in.");
+  }
+  if (steps.empty()) {
+    steps.push_back(fmt::format("Type in the calibrated settings; these {} show nothing else.",
+                                name(d.observations)));
   }
 }
 

@@ -18,9 +18,8 @@ struct NameAndUnit {
 };
 [[nodiscard]] NameAndUnit parameter_words(std::string_view parameter);
 
-/// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and its unit.
-[[nodiscard]] std::string in_workshop_units(const ParameterEstimate& estimate);
-/// As above for an effect: an elongation of links, or of a belt.
+/// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and the effect, which
+/// may elongate links or a belt.
 [[nodiscard]] std::string in_workshop_units(const CauseId& cause,
                                             const ParameterEstimate& estimate);
 

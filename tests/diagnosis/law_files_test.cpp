@@ -124,7 +124,7 @@ TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
   const model::effects::Effect& effect = declared_effect(own);
   const CauseId cause{&effect, own.sides.front()};
   std::vector<double> values = model::effects::nominal_values(effect);
-  const auto as_effect = signature(a.session, a.state, a.system, cause, values);
+  const auto as_effect = signature(a.session, a.state, a.system, {cause, values});
   ASSERT_TRUE(as_effect);
   Eigen::VectorXd amplitude;
   double at = 0.0;

@@ -46,14 +46,14 @@ class Profile {
   }
   [[nodiscard]] double square_at(double place) const {
     const std::vector<double> values = {size_, place};
-    const Eigen::VectorXd g = signature(a_.session, a_.state, a_.system, cause_, values).value();
+    const Eigen::VectorXd g = signature(a_.session, a_.state, a_.system, {cause_, values}).value();
     const Eigen::Index n = g.size();
     const Eigen::Index q = a_.system.setting.size();
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(n + q, q + 1);
     Eigen::VectorXd right(n + q);
     for (Eigen::Index j = 0; j < q; ++j) {
       const auto k = static_cast<std::size_t>(j);
-      const Eigen::VectorXd there = signature(a_.session, moved_[k], systems_[k], cause_, values).value();
+      const Eigen::VectorXd there = signature(a_.session, moved_[k], systems_[k], {cause_, values}).value();
       rows.col(j).head(n) = a_.system.by_setting.col(j) + (there - g) / steps_[k];
       rows(n + j, j) = 1.0 / a_.system.sigma[j];
       right[n + j] = a_.system.expected_change[j] / a_.system.sigma[j];

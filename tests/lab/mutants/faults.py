@@ -132,7 +132,7 @@ FAULTS = [
           "result_.caused > kCaused",
           "/Decision"),
     Fault("budget_keeps_noise", "grid/diagnosis/error_budget.cpp",
-          "take_away(noise, settings);",
+          "rest = without(rest, part);",
           "",
           "budget"),
     # grid/files
