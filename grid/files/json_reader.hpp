@@ -54,10 +54,10 @@
 ///
 /// Values: a Range, or its braces, for a number, a Record for an object or a list of objects,
 /// integer, choice and by_name (an enum by its names), one_of (a text from a list), list,
-/// dictionary; a std::string, a bool, an index and a list of them need none. `Record::computed` sets
-/// and gets what is not a member; `Record::custom` takes a pair of functions for whatever does not
-/// fit (a variant, a list that notes which of its elements were wrong). Keys are written in the
-/// order they are declared.
+/// dictionary, a pair of functions for a variant; a std::string, a bool, an index and a list of them
+/// need none. `Record::computed` sets and gets what is not a member; `Record::custom` takes a pair of
+/// functions for whatever does not fit (a list that notes which of its elements were wrong). Keys are
+/// written in the order they are declared.
 /// "comment" is allowed in every object and not kept.
 #pragma once
 
