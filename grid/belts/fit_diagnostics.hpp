@@ -23,8 +23,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,11 +30,7 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
-#include "grid/estimation/reading_shifts.hpp"
 #include "grid/observation/belt_lengths.hpp"
-#include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
-#include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -45,24 +39,7 @@ struct ReadingLines {
   Eigen::VectorXd residual_mm;  ///< read less predicted
   Eigen::MatrixX2d by_place;    ///< d(predicted)/d(place)
 };
-[[nodiscard]] inline ReadingLines reading_lines(const MeasuredBelts& belts,
-                                                const FrameState& state) {
-  const auto rows = 4 * std::ssize(belts.points);
-  ReadingLines lines;
-  lines.residual_mm.setZero(rows);
-  lines.by_place.setZero(rows, 2);
-  const model::BeltMachine machine = with_anchors(belts.machine, state.anchors);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    for (const model::Belt belt : model::kBelts) {
-      const auto reading = model::reading_at(machine, belt, state.places[k]);
-      if (!reading) continue;
-      const Eigen::Index row = row_of(k, belt);
-      lines.residual_mm[row] = belts.points[k].lengths_mm[belt] - reading->length_mm;
-      lines.by_place.row(row) = reading->by_place;
-    }
-  }
-  return lines;
-}
+[[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
 /// Includes the residuals of the distances.
 struct FitResiduals : ReadingLines {
@@ -71,48 +48,7 @@ struct FitResiduals : ReadingLines {
 
 class FitDiagnostics {
  public:
-  FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame)
-      : frame_(frame), mechanism_(mechanism_at(belts, frame.state)), slots_(belts.points.size()) {
-    const auto readings = readings_of(belts, frame_.counting, frame_.residual_sigma_mm);
-    const observation::View view(mechanism_);
-    const Eigen::Index unknowns = mechanism_->values().size();
-    equations_ = {reading_lines(belts, frame_.state), {}};
-    precision_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
-    for (const auto& own : readings.blocks()) {
-      auto line = readings.block_line(view, own, true);
-      if (!line) {
-        precision_.setConstant(std::numeric_limits<double>::quiet_NaN());
-        continue;
-      }
-      line->weight /= frame_.residual_sigma_mm * frame_.residual_sigma_mm;
-      Block block{*std::move(line), {}, {}, {}, !own.distances.empty()};
-      const Eigen::MatrixXd weighed =
-          block.line.by_position.transpose() * block.line.weight.asDiagonal();
-      block.inverse = linear::Cholesky(linear::product(weighed, block.line.by_position)).inverse();
-      block.by_unknown =
-          linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
-      block.left = block.line.by_parameter - block.line.by_position * block.by_unknown;
-      precision_ += block.precision();
-      for (std::size_t p = 0; p < own.places.size(); ++p) {
-        const std::size_t point = readings.readings()[own.places[p]].index;
-        const auto slot = as_index(p);
-        slots_[point] = Slot{blocks_.size(), slot};
-        equations_.residual_mm.segment<4>(row_of(point, model::Belt::tl)) =
-            block.line.residual_mm.segment<4>(4 * slot);
-        equations_.by_place.middleRows<4>(row_of(point, model::Belt::tl)) =
-            block.line.by_position.block<4, 2>(4 * slot, 2 * slot);
-      }
-      blocks_.push_back(std::move(block));
-    }
-    covariance_ = linear::PivotedCholesky(precision_).inverse();
-    equations_.distance_residual.resize(std::ssize(belts.distances));
-    for (std::size_t i = 0; i < belts.distances.size(); ++i) {
-      const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
-      equations_.distance_residual[as_index(i)] =
-          at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
-             : kInfinity;
-    }
-  }
+  FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
 
   /// Residuals at places with too few readings, about the fitted place.
   [[nodiscard]] const FitResiduals& equations() const { return equations_; }
@@ -134,45 +70,12 @@ class FitDiagnostics {
     return slots_[point] && blocks_[slots_[point]->block].is_taped;
   }
 
-  [[nodiscard]] Eigen::Matrix2d place_covariance_mm2(std::size_t point) const {
-    if (!slots_[point]) return Eigen::Matrix2d::Zero();
-    const Block& block = blocks_[slots_[point]->block];
-    const Eigen::Index at = 2 * slots_[point]->place;
-    const Eigen::Matrix2Xd gain = block.by_unknown.middleRows<2>(at);
-    return block.inverse.block<2, 2>(at, at) + gain * covariance_ * gain.transpose();
-  }
+  [[nodiscard]] Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
 
   /// w cov(a) x': the response of a to a reading.
-  [[nodiscard]] Eigen::VectorXd influence(std::size_t point, model::Belt belt) const {
-    const double weight = 1.0 / (frame_.residual_sigma_mm * frame_.residual_sigma_mm);
-    const Slot& slot = slots_[point].value();
-    return weight * (covariance_ * blocks_[slot.block].left.row(slot.row(belt)).transpose());
-  }
+  [[nodiscard]] Eigen::VectorXd influence(std::size_t point, model::Belt belt) const;
 
-  [[nodiscard]] BeltResidual residual(std::size_t point, model::Belt belt) const {
-    BeltResidual result;
-    const double r = equations_.residual_mm[row_of(point, belt)];
-    result.residual_mm = r;
-    result.counts = counts(point, belt);
-    result.deleted_residual_mm = r;
-    if (!slots_[point]) return result;
-    const double s2 = frame_.residual_sigma_mm * frame_.residual_sigma_mm;
-    const Block& block = blocks_[slots_[point]->block];
-    const Eigen::Index row = slots_[point]->row(belt);
-    const Eigen::VectorXd j = block.line.by_position.row(row), x = block.left.row(row);
-    const double h = (j.dot(block.inverse * j) + x.dot(covariance_ * x)) / s2;
-    const auto n = as_double(frame_.checks);
-    if (!result.counts) {
-      if (n >= 1.0)
-        result.sigmas =
-            estimation::normal_deviate(r / (frame_.residual_sigma_mm * std::sqrt(1.0 + h)), n);
-      return result;
-    }
-    if (1.0 - h < estimation::kOwnWord || n < 2.0) return result;
-    result.deleted_residual_mm = r / (1.0 - h);
-    result.sigmas = estimation::deleted_deviate(r, 1.0 - h, s2, n);
-    return result;
-  }
+  [[nodiscard]] BeltResidual residual(std::size_t point, model::Belt belt) const;
 
   /// A distance as predicted by the fit, and its sigma.
   struct Expected {
@@ -182,42 +85,10 @@ class FitDiagnostics {
   };
   /// Empty if too few readings determine one of its ends.
   [[nodiscard]] std::optional<Expected> expected(const MeasuredBelts& belts,
-                                                 const BeltDistance& distance) const {
-    const auto line = distance_at(belts, *mechanism_, frame_.state, distance);
-    if (!line) return std::nullopt;
-    Eigen::VectorXd by_unknown = line->by_parameter.transpose();
-    std::vector<std::pair<Slot, Eigen::RowVector2d>> ends;
-    for (std::size_t e = 0; e < 2; ++e) {
-      const auto* point = std::get_if<std::size_t>(e == 0 ? &distance.from : &distance.to);
-      if (point == nullptr) continue;
-      if (!slots_[*point]) return std::nullopt;
-      ends.emplace_back(*slots_[*point], line->by_end[e]);
-      by_unknown -= blocks_[ends.back().first.block]
-                        .by_unknown.middleRows<2>(2 * ends.back().first.place)
-                        .transpose() *
-                    line->by_end[e].transpose();
-    }
-    const Eigen::VectorXd with_all = covariance_ * by_unknown;
-    Expected result{line->predicted_mm, by_unknown.dot(with_all), 0.0};
-    for (const auto& [slot, by_end] : ends) {
-      for (const auto& [other, by_other] : ends) {
-        if (slot.block != other.block) continue;
-        result.variance_mm2 +=
-            by_end * blocks_[slot.block].inverse.block<2, 2>(2 * slot.place, 2 * other.place) *
-            by_other.transpose();
-      }
-    }
-    if (has_scale()) result.with_scale = with_all[kAnchorUnknowns];
-    return result;
-  }
+                                                 const BeltDistance& distance) const;
 
   /// The anchors without the readings of a point that no tape ends at, to first order.
-  [[nodiscard]] AnchorVector anchors_without(std::size_t point) const {
-    const Block& block = blocks_[slots_[point].value().block];
-    const Eigen::VectorXd change =
-        linear::PivotedCholesky(precision_ - block.precision()).solve(-block.gradient());
-    return frame_.state.anchors + change.head<kAnchorUnknowns>();
-  }
+  [[nodiscard]] AnchorVector anchors_without(std::size_t point) const;
 
  private:
   struct Block {

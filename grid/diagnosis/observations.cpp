@@ -151,7 +151,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
     MeasuredGrid grid, const Machine& stated, std::size_t first_index, PointsSoFar& so_far) {
   grid.machine = stated;
   const auto lengths = length_points(grid);
-  if (!lengths) return failed(Reason::no_lengths, lengths.error().sentence());
+  if (!lengths) return failed(Reason::no_lengths, lengths.error());
   std::optional<StatedNoise> noise;
   if (grid.noise) {
     noise = not_below_rounding(*grid.noise, grid);
@@ -260,7 +260,7 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
       if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
     }
     auto distances = observation::TapeDistances::of(set, first);
-    if (!distances) return failed(Reason::point_unreachable, distances.error().sentence());
+    if (!distances) return failed(Reason::point_unreachable, distances.error());
     add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
     first.hole += set.holes.size();
     first.distance += set.distances.size();

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/mechanism_map.hpp"
 
+#include <cmath>
+
 #include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 
 model::BedPoint SheetInFrame::on_sheet(model::ToolPosition position) const {
-  model::MarkPoint raw{factor * (position.x_mm - origin.x_mm), factor * (position.y_mm - origin.y_mm)};
+  model::MarkPoint raw{factor * (position.x_mm - origin.x_mm),
+                       factor * (position.y_mm - origin.y_mm)};
   if (displacement) {
     const Eigen::Vector2d moved = displacement->at(raw);
     raw.x_mm += moved.x();
@@ -43,8 +46,7 @@ model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
   Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i)
     moment += (vector_of(from[i]) - a) * (vector_of(to[i]) - b).transpose();
-  model::SheetPlacement sheet{
-      0.0, 0.0, std::atan2(moment(0, 1) - moment(1, 0), moment.trace())};
+  model::SheetPlacement sheet{0.0, 0.0, std::atan2(moment(0, 1) - moment(1, 0), moment.trace())};
   const Eigen::Vector2d shift = b - sheet.rotation() * a;
   sheet.x_mm = shift.x();
   sheet.y_mm = shift.y();
@@ -63,6 +65,80 @@ MechanismSpread spread_about(const Eigen::VectorXd& values,
     spread.others.push_back(placed(values + std::sqrt(variance) * parts.eigenvectors().col(i)));
   }
   return spread;
+}
+
+MechanismMap MechanismMap::of(const FittedMechanism& fitted,
+                              const std::vector<model::BedPoint>& measured) {
+  const PlacedMechanism best{fitted.mechanism, {}};
+  const model::MechanismExtent e = fitted.mechanism->extent();
+  std::vector<model::MarkPoint> points;
+  for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
+  return {best,
+          spread_about(fitted.mechanism->values(),
+                       fitted.covariance,
+                       [&](const Eigen::VectorXd& values) {
+                         return PlacedMechanism{fitted.mechanism->with_values(values), best.sheet};
+                       }),
+          MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
+}
+
+tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint point) const {
+  if (!area_.domain().contains(point.x_mm, point.y_mm))
+    return tl::unexpected(MapReason::outside_map);
+  const auto found = fitted_.mechanism->predict(
+      fitted_.sheet.in_frame(point), {}, model::Derivatives::by_position);
+  if (!found) return tl::unexpected(unreachable(found.error()));
+  return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
+}
+
+tl::expected<model::ChainLengths, MapFailure> MechanismMap::lengths(model::BedPoint point) const {
+  if (!area_.domain().contains(point.x_mm, point.y_mm))
+    return tl::unexpected(MapReason::outside_map);
+  const auto found = lengths_of(fitted_, point);
+  if (!found) return tl::unexpected(unreachable(found.error()));
+  return *found;
+}
+
+tl::expected<model::BedPoint, MapFailure> MechanismMap::tool(model::ChainLengths lengths) const {
+  const auto found = fitted_.mechanism->locate_by_first(lengths);
+  if (!found) return tl::unexpected(unreachable(found.error()));
+  return fitted_.sheet.on_sheet(*found);
+}
+
+model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
+  const auto centre = lengths_of(spread_.centre, point);
+  model::ChainLengths variance;
+  for (const PlacedMechanism& other : spread_.others) {
+    const auto there = lengths_of(other, point);
+    if (!centre || !there) continue;
+    variance.left_mm += std::pow(there->left_mm - centre->left_mm, 2);
+    variance.right_mm += std::pow(there->right_mm - centre->right_mm, 2);
+  }
+  const double own = fitted_.sheet.own_variance_mm2(point);
+  return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
+}
+
+Eigen::Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
+  const auto others = std::ssize(spread_.others);
+  Eigen::Matrix2Xd spread = Eigen::Matrix2Xd::Zero(2, others + 2);
+  if (const auto paid_out = lengths_of(spread_.centre, point)) {
+    for (Eigen::Index i = 0; i < others; ++i) {
+      const PlacedMechanism& other = spread_.others[as_size(i)];
+      const auto there = other.mechanism->locate_by_first(*paid_out);
+      if (!there) continue;
+      const model::BedPoint tool = other.sheet.on_sheet(*there);
+      spread.col(i) = difference(tool, point);
+    }
+  }
+  spread.rightCols<2>() =
+      std::sqrt(fitted_.sheet.own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
+  return spread;
+}
+
+std::vector<model::BedPoint> MechanismMap::hull() const {
+  std::vector<model::BedPoint> corners;
+  for (const model::MarkPoint corner : area_.hull()) corners.push_back({corner.x_mm, corner.y_mm});
+  return corners;
 }
 
 }  // namespace chaintrue::grid

@@ -14,7 +14,6 @@
 /// \endcode
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -78,50 +77,19 @@ class MechanismMap : public LengthMap {
   /// In the mechanism's own frame, over its extent. \throws std::invalid_argument for fewer than
   /// three points.
   [[nodiscard]] static MechanismMap of(const FittedMechanism& fitted,
-                                       const std::vector<model::BedPoint>& measured) {
-    const PlacedMechanism best{fitted.mechanism, {}};
-    const model::MechanismExtent e = fitted.mechanism->extent();
-    std::vector<model::MarkPoint> points;
-    for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
-    return {
-        best,
-        spread_about(fitted.mechanism->values(),
-                     fitted.covariance,
-                     [&](const Eigen::VectorXd& values) {
-                       return PlacedMechanism{fitted.mechanism->with_values(values), best.sheet};
-                     }),
-        MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
-  }
+                                       const std::vector<model::BedPoint>& measured);
 
   [[nodiscard]] std::span<const std::string_view> length_names() const override {
     return fitted_.mechanism->lengths();
   }
 
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(
-      model::BedPoint point) const override {
-    if (!area_.domain().contains(point.x_mm, point.y_mm))
-      return tl::unexpected(MapReason::outside_map);
-    const auto found = fitted_.mechanism->predict(
-        fitted_.sheet.in_frame(point), {}, model::Derivatives::by_position);
-    if (!found) return tl::unexpected(unreachable(found.error()));
-    return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
-  }
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
 
   [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
-      model::BedPoint point) const override {
-    if (!area_.domain().contains(point.x_mm, point.y_mm))
-      return tl::unexpected(MapReason::outside_map);
-    const auto found = lengths_of(fitted_, point);
-    if (!found) return tl::unexpected(unreachable(found.error()));
-    return *found;
-  }
+      model::BedPoint point) const override;
 
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
-      model::ChainLengths lengths) const override {
-    const auto found = fitted_.mechanism->locate_by_first(lengths);
-    if (!found) return tl::unexpected(unreachable(found.error()));
-    return fitted_.sheet.on_sheet(*found);
-  }
+      model::ChainLengths lengths) const override;
 
   [[nodiscard]] MapStatus status(model::BedPoint point) const override {
     return area_.status(model::identity_placement(point));
@@ -129,43 +97,12 @@ class MechanismMap : public LengthMap {
 
   [[nodiscard]] const interp::Rectangle& domain() const override { return area_.domain(); }
   /// One sigma of the first two lengths; a point that lengths() answers.
-  [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const {
-    const auto centre = lengths_of(spread_.centre, point);
-    model::ChainLengths variance;
-    for (const PlacedMechanism& other : spread_.others) {
-      const auto there = lengths_of(other, point);
-      if (!centre || !there) continue;
-      variance.left_mm += std::pow(there->left_mm - centre->left_mm, 2);
-      variance.right_mm += std::pow(there->right_mm - centre->right_mm, 2);
-    }
-    const double own = fitted_.sheet.own_variance_mm2(point);
-    return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
-  }
+  [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const;
 
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override {
-    const auto others = std::ssize(spread_.others);
-    Eigen::Matrix2Xd spread = Eigen::Matrix2Xd::Zero(2, others + 2);
-    if (const auto paid_out = lengths_of(spread_.centre, point)) {
-      for (Eigen::Index i = 0; i < others; ++i) {
-        const PlacedMechanism& other = spread_.others[as_size(i)];
-        const auto there = other.mechanism->locate_by_first(*paid_out);
-        if (!there) continue;
-        const model::BedPoint tool = other.sheet.on_sheet(*there);
-        spread.col(i) = difference(tool, point);
-      }
-    }
-    spread.rightCols<2>() =
-        std::sqrt(fitted_.sheet.own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
-    return spread;
-  }
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
 
   /// Corners of what was measured.
-  [[nodiscard]] std::vector<model::BedPoint> hull() const {
-    std::vector<model::BedPoint> corners;
-    for (const model::MarkPoint corner : area_.hull())
-      corners.push_back({corner.x_mm, corner.y_mm});
-    return corners;
-  }
+  [[nodiscard]] std::vector<model::BedPoint> hull() const;
 
  private:
   static tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -129,6 +132,98 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
   if (!line || block.distances.empty() || block.places.empty()) return line;
   if (auto found = find_positions(view, block, *line); !found) return tl::unexpected(found.error());
   return line;
+}
+
+tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
+    const View& view, const Columns& columns) const {
+  const Eigen::Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
+  Linearisation result = blank(parameters + (columns.sheet ? 3 : 0));
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t end = b + 1 < blocks_.size() ? first_unit_[b + 1] : units_.size();
+    if (first_unit_[b] == end) continue;
+    auto own = rows_of(view, blocks_[b], columns.parameters);
+    if (!own) return tl::unexpected(own.error());
+    const Eigen::Index first = units_[first_unit_[b]].first_row;
+    result.predicted.segment(first, own->predicted.size()) = own->predicted;
+    result.by_setting.block(first, 0, own->predicted.size(), parameters) = own->by_parameter;
+    for (std::size_t u = first_unit_[b]; u < end; ++u) {
+      const Eigen::Index at = units_[u].first_row - first;
+      result.units.push_back(
+          {own->covariance.block(at, at, units_[u].rows, units_[u].rows), {}, own->by_reading});
+    }
+  }
+  return result;
+}
+
+std::string BeltLengthReadings::name_of(std::size_t unit) const {
+  const std::size_t place = place_of_unit_.at(unit);
+  if (place < places_.size()) return "point " + places_[place].name;
+  return fmt::format("distance {}", units_.at(unit).index + 1);
+}
+
+std::shared_ptr<const Observation> BeltLengthReadings::about_others(
+    const std::vector<UnitReading>& rejected) const {
+  auto other = std::make_shared<BeltLengthReadings>(*this);
+  for (LengthsAtPlace& place : other->readings_) place.rejected.clear();
+  for (const UnitReading& one : rejected) {
+    LengthsAtPlace& place = other->readings_.at(place_of_unit_.at(one.unit));
+    if (place.rejected.empty()) place.rejected.assign(as_size(place.lengths_mm.size()), false);
+    place.rejected.at(as_size(one.reading)) = true;
+  }
+  return other;
+}
+
+tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::rows_of(
+    const View& view, const Block& block, bool with_parameters) const {
+  const auto line = block_line(view, block, with_parameters);
+  if (!line) return tl::unexpected(line.error());
+  const LengthsAtPlace* first = block.places.empty() ? nullptr : &readings_[block.places.front()];
+  const bool is_known = first != nullptr && first->known;
+  const bool is_alone = block.places.size() == 1 && block.distances.empty();
+  if (is_alone && !is_known && line->weight.size() == 4 && line->weight.minCoeff() == 1.0)
+    return rows_of_four(*line);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < line->weight.size(); ++i) {
+    if (line->weight[i] > 0.0) rows.push_back(i);
+  }
+  const auto count = std::ssize(rows);
+  const double variance = noise_.length_mm * noise_.length_mm;
+  const Eigen::VectorXd root = line->weight(rows).cwiseSqrt();
+  const Eigen::MatrixXd by_position = root.asDiagonal() * line->by_position(rows, Eigen::all);
+  const Eigen::MatrixXd by_parameter = root.asDiagonal() * line->by_parameter(rows, Eigen::all);
+  if (is_known) {
+    return BlockRows{first->lengths_mm(rows) - line->residual_mm(rows),
+                     by_parameter,
+                     variance * Eigen::MatrixXd::Identity(count, count) +
+                         noise_.position_mm * noise_.position_mm * linear::outer(by_position),
+                     {}};
+  }
+  const Eigen::Index left = count - by_position.cols();
+  const Eigen::MatrixXd checks =  // Q
+      first == nullptr ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count))
+                       : Eigen::MatrixXd(linear::qr(by_position).q.rightCols(left));
+  BlockRows result{-linear::product(linear::transposed(checks),
+                                    Eigen::VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
+                   linear::product(linear::transposed(checks), by_parameter),
+                   variance * Eigen::MatrixXd::Identity(left, left),
+                   {}};
+  if (is_alone) {
+    result.by_reading = Eigen::MatrixXd::Zero(left, line->weight.size());
+    result.by_reading(Eigen::all, rows) = checks.transpose();
+  }
+  return result;
+}
+
+BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
+  const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
+  const Eigen::Matrix4d q =
+      Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
+  const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
+  const double variance = noise_.length_mm * noise_.length_mm;
+  return {-checks * line.residual_mm,
+          checks * line.by_parameter,
+          variance * Eigen::Matrix2d::Identity(),
+          checks};
 }
 
 }  // namespace chaintrue::grid::observation
