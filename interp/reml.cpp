@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -90,10 +91,20 @@ tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem
     throw std::invalid_argument(
         fmt::format("a fit with lambda {} and sigma2 {}; both are positive", lambda, sigma2));
   }
-  const reml::Likelihood likelihood(problem, SmoothingPrior::none);
-  const auto state = likelihood.at({std::log(lambda), std::log(sigma2)});
-  if (!state) return rank_deficient();
-  return fit_at(likelihood, *state);
+  // At one lambda the ridge is a prior like any other, which spares the eigendecomposition where that
+  // is accurate enough.
+  const Ridge& ridge = problem.ridge;
+  PenalisedProblem with_prior = problem;
+  with_prior.ridge = {};
+  with_prior.prior_precision.diagonal().segment(ridge.first, ridge.count).array() += lambda;
+  for (const PenalisedProblem* one : {&std::as_const(with_prior), &problem}) {
+    const reml::Likelihood likelihood(*one, SmoothingPrior::none);
+    auto state = likelihood.at({std::log(lambda), std::log(sigma2)});
+    if (!state) continue;
+    state->value -= static_cast<double>(ridge.count - one->ridge.count) * state->theta[0];
+    return fit_at(likelihood, *state);
+  }
+  return rank_deficient();
 }
 
 tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(

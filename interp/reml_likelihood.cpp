@@ -198,9 +198,10 @@ Eigen::MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const Sta
     const State state = at(node.theta).value();
     const double root = std::sqrt(node.weight);
     of_ridge.array() += node.weight / (g.array() / state.sigma2() + state.lambda());
-    const Eigen::MatrixXd of_rows =
-        (-root / state.lambda() * state.weights).asDiagonal() * linear::product(rows_, state.root);
-    wide.block(first, k * p, m, p) = linear::product(to_ridge_, of_rows);
+    const Eigen::MatrixXd weighted =
+        (-root / state.lambda() * state.weights).asDiagonal() * rows_;
+    wide.block(first, k * p, m, p) =
+        linear::product(linear::product(to_ridge_, weighted), state.root);
     wide(shared_, Eigen::seqN(k * p, p)) = root * state.root;
     wide.col(count * p + k) = root * (coefficients(state) - middle);
   }
