@@ -220,9 +220,7 @@ std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& er
   if (const std::string why = not_to_paste(fit, error); !why.empty()) return why;
   if (!error)
     return fmt::format("These anchors are accurate to about {} mm.", about_mm(least_known_mm(fit)));
-  return misses_sentence(error->today ? std::optional(error->today->rms_mm) : std::nullopt,
-                         error->expected.rms_mm,
-                         {"these anchors", "new anchors"}) +
+  return misses_sentence(error->today, error->expected.rms_mm, {"these anchors", "new anchors"}) +
          (fit.scale ? "" : " The error of the scale, which only a tape shows, is additional.");
 }
 

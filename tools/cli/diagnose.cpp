@@ -56,20 +56,16 @@ struct DiagnoseCommand {
 
 void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
   if (command.assume_order.empty()) return;
-  OptionProblems problems;
+  const auto refuse_order = [&command](const std::string& expected, ProblemKind kind) {
+    refuse("command line", "--assume-order", command.assume_order, expected, kind);
+  };
   if (grid::any_of(measured.points, [](const auto& point) { return point.order.has_value(); })) {
-    problems.add("--assume-order",
-                 command.assume_order,
-                 "to be left out, because these points have the order of their visits",
+    refuse_order("to be left out, because these points have the order of their visits",
                  ProblemKind::contradiction);
-    problems.throw_if_any();
   }
   const auto numbers = grid::visit_numbers(
       measured.points, *files::named(files::kVisitingOrders, command.assume_order));
-  if (!numbers) {
-    problems.add("--assume-order", command.assume_order, numbers.error(), ProblemKind::bad_syntax);
-    problems.throw_if_any();
-  }
+  if (!numbers) refuse_order(numbers.error(), ProblemKind::bad_syntax);
   for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
 }
 
@@ -233,7 +229,7 @@ tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
 /// The page if there is none; what to measure next if that helps; else a map.
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
-    return say_next({"report", command.output, "-o", page_alongside(command.output)});
+    return say_next(report_words(command.output));
   Words words;
   const bool parts_causes = grid::any_of(found.next_measurements, [&](const auto& next) {
     return !found.belts || next.kind != diagnosis::MeasurementKind::distance;

@@ -17,10 +17,6 @@
 namespace chaintrue::cli {
 namespace {
 
-Words settings_page(const std::string& path) {
-  return {"report", path, "-o", page_alongside(path)};
-}
-
 /// The controller in force or, if it has no settings, one with the machine's dimensions.
 model::Controller controller_of(const Machine& machine) {
   if (machine.controller.settings.motor_spacing_mm) return machine.controller;
@@ -32,7 +28,7 @@ model::Controller controller_of(const Machine& machine) {
 /// Next steps: type in, check with the map after, cut with it.
 Words next_of(const ExportCommand& command, bool is_worth_typing) {
   const std::string& map = command.input;
-  if (!is_worth_typing) return settings_page(map);
+  if (!is_worth_typing) return report_words(map);
   if (!command.map_after.empty()) return {"plan", "--check", command.map_after, "-o", "check.csv"};
   return {"export", "groundcontrol", map, "-o", "settings.ini", "--map-after", after_name(map)};
 }
@@ -160,7 +156,7 @@ Exported exported_from(const CompensationMap& map,
   } else {
     // If none can be found, the machine's own dimensions are the settings.
     if (holds_numbers) fail(typed.error());
-    result = {files::write_groundcontrol(*map.machine()), "", settings_page(command.input)};
+    result = {files::write_groundcontrol(*map.machine()), "", report_words(command.input)};
   }
   model::Controller now = machine.controller;
   if (typed) now.settings = typed->settings;
@@ -237,7 +233,7 @@ Exported exported_from(const Diagnosis& found,
                        const std::string& file,
                        const ExportCommand& command) {
   Exported exported =
-      of_machine(found.extended_machine, file, area_of(found), settings_page(command.input));
+      of_machine(found.extended_machine, file, area_of(found), report_words(command.input));
   exported.words += left_out_in_words(found);
   return exported;
 }

@@ -36,27 +36,21 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string_view name_of(grid::PlanReason reason);
 [[nodiscard]] std::string_view name_of(diagnosis::DiagnosisReason reason);
 
-class Failed : public std::runtime_error {
- public:
-  /// \param about the file, or the command, that the message begins with; empty: it was printed
-  Failed(std::string about,
-         std::string_view reason,
+struct Failed : std::runtime_error {
+  Failed(std::string file,
+         std::string_view why,
          const std::string& sentence,
-         int code = kBadInput)
-      : std::runtime_error(sentence), about_(std::move(about)), reason_(reason), code_(code) {}
+         int exit_code = kBadInput)
+      : std::runtime_error(sentence), about(std::move(file)), reason(why), code(exit_code) {}
   /// \param failure a Failure of one of the reasons above
   template <class Failure>
-  Failed(std::string about, const Failure& failure, int code = kBadInput)
-      : Failed(std::move(about), name_of(failure.reason), failure.sentence(), code) {}
+  Failed(std::string file, const Failure& failure, int exit_code = kBadInput)
+      : Failed(std::move(file), name_of(failure.reason), failure.sentence(), exit_code) {}
 
-  [[nodiscard]] const std::string& about() const { return about_; }
-  [[nodiscard]] const std::string& reason() const { return reason_; }
-  [[nodiscard]] int code() const { return code_; }
-
- private:
-  std::string about_;
-  std::string reason_;
-  int code_;
+  /// The file, or the command, that the message begins with; empty: it was printed.
+  std::string about;
+  std::string reason;
+  int code;
 };
 
 /// \throws Failed as above without a result

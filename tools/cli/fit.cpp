@@ -86,7 +86,7 @@ int finish(Verb verb,
   if (typed) {
     say_next({"export", "groundcontrol", command.output});
   } else {
-    say_next({"report", command.output, "-o", page_alongside(command.output)});
+    say_next(report_words(command.output));
   }
   return kDone;
 }

@@ -26,16 +26,16 @@ using report::text_column;
 
 struct PlotterSettingWords {
   std::string_view noun;
-  std::string_view unit;
+  std::string_view unit = "mm";
 };
 
 /// An owner's words for a parameter of the mechanism.
 PlotterSettingWords plotter_setting_words(std::size_t parameter) {
   constexpr PlotterSettingWords kWords[] = {
-      {"distance between the pins", "mm"},
-      {"height of the right pin over the left", "mm"},
-      {"zero of the left cord", "mm"},
-      {"zero of the right cord", "mm"},
+      {"distance between the pins"},
+      {"height of the right pin over the left"},
+      {"zero of the left cord"},
+      {"zero of the right cord"},
       {"excess of the left cord", "mm per metre"},
       {"excess of the right cord", "mm per metre"},
   };

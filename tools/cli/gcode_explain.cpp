@@ -94,11 +94,7 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
   for (const gcode::Move& move : events.moves) explain_move(move, machine);
   print_state("after:");
-  if (options.map.empty()) {
-    say_next({"gcode", "check", file});
-  } else {
-    say_next(with_map_words(options, {"gcode", "check", file}));
-  }
+  say_next(with_map_words(options, {"gcode", "check", file}));
   return kDone;
 }
 

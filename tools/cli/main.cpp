@@ -61,8 +61,8 @@ int with_exit_code(const std::function<int()>& work) {
   } catch (const grid::files::InputError& error) {
     return report_bad_input(error);
   } catch (const Failed& failed) {
-    if (!failed.about().empty()) say("{}: {}", failed.about(), failed.what());
-    return failed.code();
+    if (!failed.about.empty()) say("{}: {}", failed.about, failed.what());
+    return failed.code;
   } catch (const grid::files::ReaderGone&) {
     return kDone;
   } catch (const std::system_error& error) {

@@ -98,23 +98,23 @@ std::string about_mm(double mm) {
   return fmt::format("{:.{}f}", mm, mm < 9.95 ? 1 : 0);
 }
 
-std::string misses_sentence(std::optional<double> today_mm,
+std::string misses_sentence(const std::optional<grid::ErrorSummary>& today,
                             double expected_mm,
                             const Remedy& remedy) {
   // Both include the map's uncertainty, which limits what it shows about the machine.
   constexpr double kNoMoreThanUncertain = 1.4142;
-  if (today_mm && *today_mm <= kNoMoreThanUncertain * expected_mm) {
+  if (today && today->rms_mm <= kNoMoreThanUncertain * expected_mm) {
     return fmt::format(
         "Your machine needs no {}: its error is below what these readings can show, about {} mm.",
         remedy.needed,
         about_mm(expected_mm));
   }
-  if (!today_mm) {
+  if (!today) {
     return fmt::format(
         "With {} your machine misses by about {} mm.", remedy.with, about_mm(expected_mm));
   }
   return fmt::format("Your machine misses by about {} mm. With {} it misses by about {} mm.",
-                     about_mm(*today_mm),
+                     about_mm(today->rms_mm),
                      remedy.with,
                      about_mm(expected_mm));
 }
@@ -132,10 +132,8 @@ std::string fit_sentence(const CompensationMap& map) {
   if (map.machine() == nullptr) return points_sentence(map);
   if (!not_to_cut_with(map).empty())
     return "These readings disagree with each other, so the map is not fit for cutting.";
-  const auto before = grid::error_in_use(map);
-  return misses_sentence(before ? std::optional(before->rms_mm) : std::nullopt,
-                         map.contents().accuracy.expected_tool.rms_mm,
-                         {"this map", "map"});
+  return misses_sentence(
+      grid::error_in_use(map), map.contents().accuracy.expected_tool.rms_mm, {"this map", "map"});
 }
 
 std::string points_sentence(const CompensationMap& map) {

@@ -52,9 +52,9 @@ struct Remedy {
   std::string_view with;    ///< "this map"
   std::string_view needed;  ///< "map": "Your machine needs no map"
 };
-/// "Your machine misses by about 4.9 mm. With this map it misses by about 0.2 mm." `today_mm` is
-/// unknown if the settings in force are.
-[[nodiscard]] std::string misses_sentence(std::optional<double> today_mm,
+/// "Your machine misses by about 4.9 mm. With this map it misses by about 0.2 mm." `today` is
+/// empty if the settings in force are unknown.
+[[nodiscard]] std::string misses_sentence(const std::optional<grid::ErrorSummary>& today,
                                           double expected_mm,
                                           const Remedy& remedy);
 /// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. The error is largest near (1118, 508)."

@@ -266,8 +266,8 @@ void check_places() {
   check.throw_if_any();
 }
 
-std::string page_alongside(const std::string& path) {
-  return fs::path(path).replace_extension(".html").string();
+Words report_words(const std::string& path) {
+  return {"report", path, "-o", fs::path(path).replace_extension(".html").string()};
 }
 
 void write_output(const std::string& path, const std::string& text) {

@@ -59,8 +59,8 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
 /// For the chosen verb, before its work. \throws InputError with all problems.
 void check_places();
 
-/// The page next to a file: map.json, map.html.
-[[nodiscard]] std::string page_alongside(const std::string& path);
+/// The command that writes the page next to a file: map.json, map.html.
+[[nodiscard]] Words report_words(const std::string& path);
 
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);

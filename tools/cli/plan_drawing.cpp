@@ -27,7 +27,7 @@ std::string colour(double share) {
   return fmt::format("#{:02x}{:02x}{:02x}", mixed(255, 179), mixed(247, 88), mixed(236, 6));
 }
 
-BedView view_of(const Bed& bed) { return {bed.width_mm, bed.height_mm, {kLeft, kTop}, kBedWide}; }
+BedView view_of(const Bed& bed) { return {bed, {kLeft, kTop}, kBedWide}; }
 
 Svg begin(const BedView& view, std::string_view title, std::string_view description) {
   Svg svg(kBedWide + 2.0 * kLeft,
@@ -259,7 +259,7 @@ BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed) {
 
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const Bed& bed = plan.set.machine->bed;
-  const BedView view(bed.width_mm, bed.height_mm, {kLeft, kSheetTop}, kBedWide);
+  const BedView view{bed, {kLeft, kSheetTop}, kBedWide};
   const bool has_edges = grid::any_of(
       plan.set.distances, [](const auto& distance) { return distance.edge.has_value(); });
   const double high = kSheetTop + view.high() + kSheetBelow;

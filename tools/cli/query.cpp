@@ -144,8 +144,7 @@ int run_query(Verb verb, const QueryCommand& command) {
   const int code =
       command.inverse.empty() ? answer_points(target, command) : answer_inverse(target, command);
   const bool has_report = file.kind != FileKind::plotter;
-  if (code == kDone && has_report)
-    say_next({"report", command.map, "-o", page_alongside(command.map)});
+  if (code == kDone && has_report) say_next(report_words(command.map));
   return code;
 }
 

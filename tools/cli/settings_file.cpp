@@ -27,16 +27,9 @@ namespace {
 enum class SettingsOf { maslow, wall_plotter, none };
 
 SettingsOf settings_of(ControllerKind kind) {
-  switch (kind) {
-    case ControllerKind::maslow_classic:
-    case ControllerKind::holey:
-      return SettingsOf::maslow;
-    case ControllerKind::fluidnc_wallplotter:
-      return SettingsOf::wall_plotter;
-    case ControllerKind::ideal:
-      break;
-  }
-  return SettingsOf::none;
+  if (kind == ControllerKind::ideal) return SettingsOf::none;
+  return kind == ControllerKind::fluidnc_wallplotter ? SettingsOf::wall_plotter
+                                                     : SettingsOf::maslow;
 }
 
 /// The kind of controller that has `now`. \throws InputError if none does.

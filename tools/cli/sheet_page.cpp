@@ -105,7 +105,7 @@ std::string page_of(const std::string& title,
 std::string drawing_of(const Sheet& sheet, const Bed& bed) {
   constexpr double kDrawingWide = 900.0;
   constexpr double kEdge = 20.0;
-  const BedView view(bed.width_mm, bed.height_mm, {kEdge, kEdge}, kDrawingWide);
+  const BedView view{bed, {kEdge, kEdge}, kDrawingWide};
   const auto x = [&](MarkPoint at) { return view.x(at.x_mm); };
   const auto y = [&](MarkPoint at) { return view.y(at.y_mm); };
   Svg svg(kDrawingWide + 2.0 * kEdge,

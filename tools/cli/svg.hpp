@@ -3,7 +3,7 @@
 /// Pictures made without Vega: an SVG builder, and the placement of the bed in it.
 ///
 /// \code
-///   const BedView view(2438.4, 1219.2, {30, 80}, 900);
+///   const BedView view{machine.bed, {30, 80}, 900};
 ///   Svg svg(960, view.high() + 170, "font-size=\"13\"", "28 points to measure");
 ///   svg.circle(view.x(100), view.y(200), 4, "fill=\"#000\"");
 ///   write_file("plan.svg", svg.finished());
@@ -16,28 +16,26 @@
 #include <string_view>
 #include <utility>
 
+#include "model/machine.hpp"
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/typeset.hpp"
 
 namespace chaintrue::cli {
 
 /// From millimetres on a bed, zero in its middle and y up, to a picture's units.
-class BedView {
- public:
-  /// \param corner the upper left one in the picture
-  BedView(double bed_width_mm, double bed_height_mm, const report::ToolVector& corner, double wide)
-      : half_width_mm_(0.5 * bed_width_mm),
-        half_height_mm_(0.5 * bed_height_mm),
-        left_(corner.x_mm),
-        top_(corner.y_mm),
-        wide_(wide) {}
-  [[nodiscard]] double scale() const { return 0.5 * wide_ / half_width_mm_; }
-  [[nodiscard]] double x(double x_mm) const { return left_ + scale() * (x_mm + half_width_mm_); }
-  [[nodiscard]] double y(double y_mm) const { return top_ + scale() * (half_height_mm_ - y_mm); }
-  [[nodiscard]] double high() const { return scale() * 2.0 * half_height_mm_; }
+struct BedView {
+  model::Bed bed;
+  report::ToolVector corner;  ///< the upper left one in the picture
+  double wide;
 
- private:
-  double half_width_mm_, half_height_mm_, left_, top_, wide_;
+  [[nodiscard]] double scale() const { return wide / bed.width_mm; }
+  [[nodiscard]] double x(double x_mm) const {
+    return corner.x_mm + scale() * (x_mm + 0.5 * bed.width_mm);
+  }
+  [[nodiscard]] double y(double y_mm) const {
+    return corner.y_mm + scale() * (0.5 * bed.height_mm - y_mm);
+  }
+  [[nodiscard]] double high() const { return scale() * bed.height_mm; }
 };
 
 /// Texts are escaped; a `look` is a list of attributes as written in an element.

@@ -40,7 +40,7 @@ void translate_failures() {
     } catch (const cli::GcodeRefused& failure) {
       raise("GcodeError", failure.what(), list_of(failure.problems));
     } catch (const cli::Failed& failed) {
-      raise("Failure", failed.what(), failed.reason());
+      raise("Failure", failed.what(), failed.reason);
     }
   });
 }
