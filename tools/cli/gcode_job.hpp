@@ -14,6 +14,7 @@
 #include "grid/progress.hpp"
 #include "grid/provenance.hpp"
 #include "tools/cli/failed.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/target.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/expected_error.hpp"
