@@ -123,7 +123,7 @@ std::optional<State> Likelihood::at(const Theta& theta) const {
   state.theta = theta;
   state.weights = (state.sigma2() + eigenvalues_.array() / state.lambda()).inverse();
   Eigen::MatrixXd h = shared_prior_;
-  linear::add_product(h, 1.0, linear::transposed(rows_), state.weights.asDiagonal() * rows_);
+  linear::add_gram(h, 1.0, state.weights.cwiseSqrt().asDiagonal() * rows_);
   auto inverse = inverse_root(h);
   if (!inverse) return std::nullopt;
   state.root = std::move(inverse->root);
