@@ -37,8 +37,8 @@ struct InverseRoot {
   double log_determinant;
 };
 
-// Of a matrix scaled to unit diagonal: the units of a column must not affect its rank. Empty where
-// the matrix is not positive definite to rounding.
+// The matrix is scaled to unit diagonal, because the units of a column must not affect its rank.
+// Empty where it is not positive definite to rounding.
 std::optional<InverseRoot> inverse_root(const Eigen::MatrixXd& matrix) {
   // A pivot of the unit-diagonal matrix below this value means that a combination of columns is
   // undetermined.

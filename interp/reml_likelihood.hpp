@@ -49,7 +49,7 @@ struct State {
   [[nodiscard]] double sigma2() const;
 };
 
-/// Of V at a state.
+/// The derivatives of V at a state.
 struct Derivatives {
   Theta gradient;
   Eigen::Matrix2d hessian;

@@ -60,7 +60,7 @@ class SplineAxis {
   /// Beyond the ends the polynomials of the end cells continue.
   [[nodiscard]] SplineSupport support(double x) const;
 
-  /// Of the splines through each column of `conditions`: the values at the nodes, then the slopes at
+  /// Coefficients of the splines through each column of `conditions`: the values at the nodes, then the slopes at
   /// the low and the high end, which count where these are clamped.
   [[nodiscard]] Eigen::MatrixXd coefficients(
       const Eigen::Ref<const Eigen::MatrixXd>& conditions) const;

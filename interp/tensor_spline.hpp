@@ -70,7 +70,7 @@ class TensorSpline final : public Surface {
   [[nodiscard]] Rectangle domain() const override;
 
   [[nodiscard]] const TensorAxes& axes() const { return *axes_; }
-  /// Of the products of the two axes' B-splines, (x, y).
+  /// Coefficients of the products of the two axes' B-splines, (x, y).
   [[nodiscard]] const Eigen::MatrixXd& coefficients() const { return coefficients_; }
 
   /// The surface at (x, y) as weights on the node values, w(ix, iy), which propagate the covariance

@@ -30,7 +30,7 @@ enum Unknown { kH, kV, kSLeft, kSRight, kNLeft, kNRight, kTurn, kUnknowns };
 template <class T>
 using Unknowns = std::array<T, kUnknowns>;
 
-/// Of the body: its weight, and H_left - H_right.
+/// The body's weight, and H_left - H_right.
 struct BodyForces {
   double weight_n = 0.0;
   double side_n = 0.0;

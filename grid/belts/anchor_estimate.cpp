@@ -39,7 +39,7 @@ bool is_upright_frame(const AnchorVector& a) {
   return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
-/// A tape's end for any mechanism.
+/// The end of a taped distance, for any mechanism.
 observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
   if (const auto* belt = std::get_if<Belt>(&end))

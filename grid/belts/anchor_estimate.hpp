@@ -46,8 +46,8 @@ namespace chaintrue::grid::belts {
 [[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
                                                                    const FrameState& state);
 
-/// A hole that was commanded with these anchors in force, by what the controller paid out. A command
-/// that cannot be reached has no lengths, and no mechanism a position for it.
+/// A hole that was commanded with these anchors in force, from what the controller paid out. A command
+/// that cannot be reached has no lengths, and no mechanism has a position for it.
 [[nodiscard]] observation::AtHole hole_at(const model::BeltMachine& in_force,
                                           model::BedPoint command);
 /// A distance as these belts predict it, with the points of the state; empty if a hole cannot be

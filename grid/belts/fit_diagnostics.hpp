@@ -12,7 +12,7 @@
 ///
 ///   cov a = (sum_b A' w A - A' w J G)^-1,   cov p_b = V^-1 + G cov(a) G'                     (1)
 ///
-/// Of a reading with rows j of J and x of X = A - J G,  h = w (j V^-1 j' + x cov(a) x'):
+/// For a reading with rows j of J and x of X = A - J G,  h = w (j V^-1 j' + x cov(a) x'):
 ///
 ///   deleted = r / (1 - h)                read less what all others make of it               (2)
 ///   t       = r / (s_out sqrt(1 - h)),   s_out^2 = (s^2 n - r^2 / (1 - h)) / (n - 1)        (3)

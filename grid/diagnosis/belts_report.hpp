@@ -8,7 +8,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// fit_with_causes() by an analysis of the same belts that is not judged yet.
+/// fit_with_causes() with an analysis of the same belts that is not judged yet.
 [[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis);
 
 /// Prediction of the lower belts of each half of the places by a fit to the other, including the

@@ -26,7 +26,7 @@ struct RowsAtPlace {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 4> by;
 };
 
-/// Of each place, so that two places are compared once, however many units see them.
+/// One entry for each place, so that two places are compared once, however many units see them.
 std::vector<std::vector<RowsAtPlace>> rows_by_place(const RegressorSystem& system,
                                                     const KeptRows& kept,
                                                     const DiscrepancyKernel& kernel) {

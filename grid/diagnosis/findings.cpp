@@ -93,7 +93,7 @@ class PlaceOfCause {
     return slope;
   }
 
-  /// From a continuous place to the nearest other one tried.
+  /// The distance from a continuous place to the nearest other one tried.
   [[nodiscard]] double step_of_places() const {
     double least = kInfinity;
     for (const Regressor& other : a_.system.regressors) {
@@ -104,8 +104,8 @@ class PlaceOfCause {
     return std::isfinite(least) ? least : 0.0;
   }
 
-  /// Of a continuous place, from the curvature of the likelihood, with settings and all coefficients
-  /// free.
+  /// The sigma of a continuous place, from the curvature of the likelihood with settings and all
+  /// coefficients free.
   [[nodiscard]] double fitted_sigma(const Estimate& fitted,
                                     double coefficient,
                                     const Eigen::VectorXd& slope) const {
@@ -133,7 +133,7 @@ class PlaceOfCause {
     return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
   }
 
-  /// Of the place over the models, about a value.
+  /// The scatter of the place over the models, about a value.
   [[nodiscard]] double scatter(double about) const {
     const bool turns = place_.upper - place_.lower >= kTurn;
     double weight = 0.0;

@@ -152,7 +152,7 @@ class Predictor {
   }
 
  private:
-  /// Of the models with the law, the prediction of the one that is likeliest by the other rows.
+  /// The prediction of the model with the law that is likeliest by the other rows.
   LawModel::Downdated::Without likeliest(const Rows& out) const {
     std::vector<LawModel::Downdated::Without> all;
     for (const LawModel::Downdated& model : with_) all.push_back(model.without(out));

@@ -44,7 +44,7 @@ void add_regressors(const ObservationSet& session,
                                                        const SizedCause& cause);
 using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const SizedCause&)>;
 
-/// Appends a regressor with its power and range, from its column and that at a smaller size: nearby if
+/// Appends a regressor with its power and range, from its column and one at a smaller size: nearby if
 /// it is refined, else half. False if it has none.
 bool add_regressor(Regressor regressor, const ColumnOf& column, RegressorSystem& system);
 

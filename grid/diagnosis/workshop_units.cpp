@@ -54,7 +54,7 @@ constexpr UnitOfEffect kUnitsOfEffects[] = {
     {"spool_layers", {"growth_mm_per_m2", 1.0, "growth {} mm per square metre"}},
 };
 
-/// Those of every other effect.
+/// The words of every other effect for its parameter.
 constexpr Unit kUnits[] = {
     {"scale", 100.0, "{} %"},
     {"elongation", 100.0, "links {} % longer", "links {} % shorter"},

@@ -9,7 +9,7 @@
 ///   N     orthonormal complement of the effects of the unit's other rejected readings
 ///   d~ = N' d,   r~ = N' r,   S = N' X C X' N,   M = I - S / s^2
 ///
-/// Of a reading that counts
+/// For a reading that counts
 ///
 ///   off = d~' r~ / (d~' M d~)                                                               (1)
 ///   t   = d~' r~ / (s_out sqrt(d~' M d~)),   s_out^2 = (s^2 n - off d~' r~) / (n - 1)          (2)

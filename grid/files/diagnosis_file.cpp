@@ -51,7 +51,7 @@ auto stated_tape_record() {
   REQUIRED(dof, "Degrees of freedom with which these are known.", kNotNegative);
 }
 
-/// x or y, of a point alone.
+/// x or y, for points only.
 void shift_key(Record<Outlier>& shift, const char* key, const char* meaning, Eigen::Index axis) {
   shift.computed(
       key,

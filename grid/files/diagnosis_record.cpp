@@ -31,8 +31,8 @@ using diagnosis::ParameterEstimate;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
-/// An effect that the extended machine declares, or one of chains, or of belts or cords if chains have
-/// none of that name.
+/// The effect that the extended machine declares, or else that of chains, of belts or of cords, in this
+/// order.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);

@@ -58,7 +58,7 @@ std::vector<CsvRow> filled_rows(std::vector<CsvRow> rows) {
   return rows;
 }
 
-/// The hole at these coordinates, whose first cell this is; one that is there already has its name.
+/// The hole at these coordinates, given its first cell. If there is one already, its name is used.
 std::string hole_at(std::optional<double> x_mm,
                     std::optional<double> y_mm,
                     const CsvCell& cell,

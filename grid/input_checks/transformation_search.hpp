@@ -6,7 +6,7 @@
 ///
 ///   r_i = B_i beta + e_i                                            (1) of robust_trend.hpp
 ///
-/// Of each transformation T and set of rows S the account is (1) of the rows with T applied to S, less the
+/// The account of each transformation T and set of rows S is (1) of the rows with T applied to S, less the
 /// logarithm of how many such S there are. S is where T makes rows likelier: the sum over the tail, the
 /// head, or the rows themselves, about the trends of no rows and of all rows, then about S's own.
 ///

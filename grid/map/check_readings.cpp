@@ -117,7 +117,7 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
                   most));
 }
 
-/// Of the mean of a mark's readings.
+/// The covariance of the mean of a mark's readings.
 Eigen::Matrix2d noise_at(const CheckedPart& part,
                          const Repeated& one,
                          const Eigen::Matrix2d& by_mark) {

@@ -80,7 +80,7 @@ class DesignSpread {
   Eigen::MatrixXd factor_;  // F'
 };
 
-/// Of surfaces through the nodes of a lattice, two columns a node: each has the readings' noise,
+/// The spread of surfaces through the nodes of a lattice, two columns a node: each has the readings' noise,
 /// with the place's error carried into the chains by the slope, its doubt and the interpolation's
 /// estimated error, which grows with the weights beyond the lattice. The bicubic's weights
 /// approximate the quintic's.

@@ -35,7 +35,7 @@ namespace chaintrue::grid {
 ///
 /// The inverse is found by fixed-point iteration: d changes by less than 0.01 mm per mm.
 struct SheetInFrame {
-  /// Of what the mechanism cuts, on the sheet.
+  /// The placement of what the mechanism cuts, on the sheet.
   model::SheetPlacement laid;
   /// The sheet's millimetres over those of the frame.
   double factor = 1.0;

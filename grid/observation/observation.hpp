@@ -79,7 +79,7 @@ struct SheetPrior {
   bool knows_x = true;
   bool knows_y = true;
   bool knows_rotation = true;
-  /// Of x, y and the rotation.
+  /// For x, y and the rotation.
   [[nodiscard]] Eigen::Vector3d sigma() const {
     return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad};
   }

@@ -65,7 +65,7 @@ struct DistanceNoise {
 /// Sigma of exactly stated values, mm: no workshop reading is more accurate.
 inline constexpr double kKnownNuisanceMm = 1e-6;
 
-/// Of a sheet's placement if its edges were measured.
+/// The prior of a sheet's placement if its edges were measured.
 inline constexpr SheetPrior kSheetByEdges{50.0, 0.03};
 
 /// Directions in which the measured edges determine the sheet's placement.

@@ -12,7 +12,7 @@
 ///             the length of the counted links               `elongation`
 ///   reading   what is written down                          `add`
 ///
-/// Of these functions an effect sets exactly one. The effects of a mechanism are a table:
+/// An effect sets exactly one of these functions. The effects of a mechanism are a table:
 /// chains/chain_effects.cpp, belts/belt_effects.cpp, plotter/plotter_effects.cpp; the contract suite
 /// runs over each. A user declares an effect in a file: declared_effect.hpp.
 ///
@@ -127,7 +127,7 @@ struct LengthState {
   double direction = 1.0;       ///< 1 if it was paid out to its length, -1 if it was taken in
   int order = 0;                ///< n
 };
-/// Of a chain in equilibrium, without a visit.
+/// The state of a chain in equilibrium, without a visit.
 [[nodiscard]] LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket);
 
 /// A part that a machine may lack.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks of the bed: compact, of like size, each point in one.
+// The blocks are compact and equally large, and each point is in one of them.
 #include "grid/estimation/spatial_blocks.hpp"
 
 #include <gtest/gtest.h>

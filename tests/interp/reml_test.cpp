@@ -47,7 +47,7 @@ Sample sample_of(Eigen::Index rows, double sigma) {
   return sample;
 }
 
-// More rows than columns, which are reduced; fewer than ridge columns.
+// There are more rows than columns, which are then reduced, or fewer rows than ridge columns.
 class RemlForm : public testing::TestWithParam<Eigen::Index> {
  protected:
   void SetUp() override { RecordProperty("seed", static_cast<int>(kRemlSeed)); }

@@ -199,7 +199,7 @@ struct OptionRule {
   std::string otherwise;
   std::string harmless;
 };
-/// Of all verbs, in the order in which they were made.
+/// The rules of all verbs, in the order in which the verbs were made.
 [[nodiscard]] std::vector<OptionRule> option_rules();
 
 /// An option of the command line, by its longest name, with the words given for it: none for a
@@ -288,7 +288,7 @@ struct VerbParts {
 [[nodiscard]] std::vector<std::string> long_names(const std::vector<CLI::Option*>& options);
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs);
 
-/// Of the verb that was chosen.
+/// The run of the verb that was chosen.
 [[nodiscard]] Run& chosen_run();
 
 /// For the check of runs(): ends the command with a usage error, exit code 2.

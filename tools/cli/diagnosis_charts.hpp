@@ -21,11 +21,11 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Outline bed_of(const Diagnosis& found);
 /// A point's error of the tool, with one sigma of its noise.
 [[nodiscard]] Arrow arrow_of(const diagnosis::PointPicture& point, const Eigen::Vector2d& shift_mm);
-/// Of the causes named, and of the first one's rival, which it must have. Precondition: a cause is named.
+/// Titles for the causes named, and for the first one's rival, which it must have. Precondition: a cause is named.
 [[nodiscard]] std::string title_of_causes(const Diagnosis& found);
 [[nodiscard]] std::string title_of_rival(const Diagnosis& found);
 
-/// The visits of all points are numbered.
+/// True if the visits of all points are numbered.
 [[nodiscard]] bool has_order(const Diagnosis& found);
 /// The follow-up's places on the bed.
 [[nodiscard]] Chart next_points_chart(const Diagnosis& found);

@@ -74,7 +74,7 @@ Verb add(Verb parent,
   return verb;
 }
 
-/// \param map of the options, as it is taken
+/// \param map the options' map, as it is read
 void add_map_options(Verb verb, GcodeOptions& options, Value map) {
   verb.has({{"--map", std::move(map), "The compensation map, or the anchors of four belts"},
             frame_row(options.frame, "Zero of the program: the marks' or the bed's")});

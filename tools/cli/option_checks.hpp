@@ -49,7 +49,7 @@ struct Place {
   std::vector<files::Origin> kinds;  ///< of an output; none for an input
 };
 
-/// Of all verbs of the current command line.
+/// Those of all verbs of the current command line.
 struct Declared {
   std::vector<OptionRule> rules;
   std::vector<DeclaredCheck> checks;

@@ -169,7 +169,7 @@ Outputs looked_at(const Outputs& outputs) {
   return result;
 }
 
-/// Of a name: the word after an option without a value is none, as in --svg= --force.
+/// The word after an option without a value is not its name, as in --svg= --force.
 std::string fault_of(const std::string& name) {
   if (name.empty()) return "an empty name, expected the name of a file";
   if (name.size() > 1 && name.front() == '-')

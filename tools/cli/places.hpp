@@ -35,10 +35,10 @@ using Outputs = std::vector<files::OutputFile>;
 /// The variable of an option or argument that names a file to read.
 [[nodiscard]] Value reads(std::string& path);
 [[nodiscard]] Value reads(Words& paths);
-/// Of an option that names a file to write; adds --force to the verb. \param kinds of content:
+/// The variable of an option that names a file to write; adds --force to the verb. \param kinds of content:
 /// existing files of these kinds made by this program are replaced without --force
 [[nodiscard]] Value writes(std::string& path, std::vector<Origin> kinds);
-/// Of an option that names a folder to write into, created if missing; adds --force to the verb.
+/// The variable of an option that names a folder to write into, created if missing; adds --force to the verb.
 [[nodiscard]] Value writes_into(std::string& folder);
 
 /// The files that an option of the chosen verb names; null if it names none.

@@ -45,7 +45,7 @@ struct SimulateOptions {
   std::string output = "-";
   std::string answer;
 
-  /// Of what is simulated.
+  /// The options of what is simulated.
   [[nodiscard]] std::string title() const;
 };
 

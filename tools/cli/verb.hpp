@@ -21,7 +21,7 @@ namespace chaintrue::cli {
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
 
-/// Below export.
+/// The verbs below export.
 void add_export_map(Verb export_verb);
 
 }  // namespace chaintrue::cli

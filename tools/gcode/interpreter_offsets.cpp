@@ -14,7 +14,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// Of coordinate system 1 .. 9.
+/// The parameters of coordinate system 1 .. 9.
 int first_parameter(int system) { return parameter::kFirstSystem + 20 * (system - 1); }
 int rotation_parameter(int system) { return first_parameter(system) + 9; }
 

@@ -20,7 +20,7 @@ bool uses(const KnownCode& code, char letter) {
   return code.uses(letter) || code.uses(upper(letter));
 }
 
-/// Of all codes that are supported.
+/// The supported codes that use a letter.
 std::string users_of(char letter) {
   std::vector<std::string> names;
   for (const KnownCode& code : known_codes()) {
