@@ -9,8 +9,6 @@
 
 namespace chaintrue::grid {
 
-[[nodiscard]] constexpr Eigen::Index row_of(model::Side side) {
-  return side == model::Side::left ? 0 : 1;
-}
+constexpr Eigen::Index row_of(model::Side side) { return side == model::Side::left ? 0 : 1; }
 
 }  // namespace chaintrue::grid

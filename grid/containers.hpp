@@ -24,31 +24,29 @@
 
 namespace chaintrue::grid {
 
-[[nodiscard]] constexpr std::size_t as_size(std::integral auto position) {
+constexpr std::size_t as_size(std::integral auto position) {
   return static_cast<std::size_t>(position);
 }
-[[nodiscard]] constexpr Eigen::Index as_index(std::integral auto position) {
+constexpr Eigen::Index as_index(std::integral auto position) {
   return static_cast<Eigen::Index>(position);
 }
 
-[[nodiscard]] constexpr double as_double(std::integral auto count) {
-  return static_cast<double>(count);
-}
+constexpr double as_double(std::integral auto count) { return static_cast<double>(count); }
 
 template <class Container, class Value>
-[[nodiscard]] bool contains(const Container& all, const Value& one) {
+bool contains(const Container& all, const Value& one) {
   return std::find(std::begin(all), std::end(all), one) != std::end(all);
 }
 template <class Container, class Predicate>
-[[nodiscard]] bool any_of(const Container& all, Predicate holds) {
+bool any_of(const Container& all, Predicate holds) {
   return std::any_of(std::begin(all), std::end(all), holds);
 }
 template <class Container, class Predicate>
-[[nodiscard]] bool all_of(const Container& all, Predicate holds) {
+bool all_of(const Container& all, Predicate holds) {
   return std::all_of(std::begin(all), std::end(all), holds);
 }
 template <class Container, class Predicate>
-[[nodiscard]] bool none_of(const Container& all, Predicate holds) {
+bool none_of(const Container& all, Predicate holds) {
   return !any_of(all, holds);
 }
 
@@ -63,7 +61,7 @@ void stable_sort(Container& all, Less... less) {
 
 /// The first element that satisfies the predicate; null if none does.
 template <class Container, class Predicate>
-[[nodiscard]] auto* find_where(Container& all, Predicate holds) {
+auto* find_where(Container& all, Predicate holds) {
   const auto found = std::find_if(std::begin(all), std::end(all), holds);
   return found != std::end(all) ? &*found : nullptr;
 }
@@ -71,17 +69,17 @@ template <class Container, class Predicate>
 /// Orders by a member or by a function of each element: stable_sort(models,
 /// descending(&CandidateModel::log_weight)).
 template <class Key>
-[[nodiscard]] auto ascending(Key key) {
+auto ascending(Key key) {
   return [key](const auto& a, const auto& b) { return std::invoke(key, a) < std::invoke(key, b); };
 }
 template <class Key>
-[[nodiscard]] auto descending(Key key) {
+auto descending(Key key) {
   return [key](const auto& a, const auto& b) { return std::invoke(key, a) > std::invoke(key, b); };
 }
 
 /// 0, 1, ... below `count`.
 template <class Integer = std::size_t>
-[[nodiscard]] std::vector<Integer> numbers_below(std::integral auto count) {
+std::vector<Integer> numbers_below(std::integral auto count) {
   std::vector<Integer> all(as_size(count));
   std::iota(all.begin(), all.end(), Integer{0});
   return all;
@@ -104,17 +102,17 @@ void require_some(const Container& all) {
   if (std::size(all) == 0) throw precondition("the largest or the smallest of {} values", 0);
 }
 template <class Container, class... Less>
-[[nodiscard]] auto max_element(const Container& all, Less... less) {
+auto max_element(const Container& all, Less... less) {
   require_some(all);
   return std::max_element(std::begin(all), std::end(all), less...);
 }
 template <class Container, class... Less>
-[[nodiscard]] auto min_element(const Container& all, Less... less) {
+auto min_element(const Container& all, Less... less) {
   require_some(all);
   return std::min_element(std::begin(all), std::end(all), less...);
 }
 template <class Container, class... Less>
-[[nodiscard]] auto minmax_element(const Container& all, Less... less) {
+auto minmax_element(const Container& all, Less... less) {
   require_some(all);
   return std::minmax_element(std::begin(all), std::end(all), less...);
 }

@@ -17,20 +17,20 @@
 namespace chaintrue::grid {
 
 template <class Position>
-[[nodiscard]] Eigen::Vector2d vector_of(const Position& at) {
+Eigen::Vector2d vector_of(const Position& at) {
   return {at.x_mm, at.y_mm};
 }
-[[nodiscard]] inline Eigen::Vector2d vector_of(const model::ChainLengths& lengths) {
+inline Eigen::Vector2d vector_of(const model::ChainLengths& lengths) {
   return {lengths.left_mm, lengths.right_mm};
 }
 
 /// `a` less `b`.
 template <class A, class B>
-[[nodiscard]] Eigen::Vector2d difference(const A& a, const B& b) {
+Eigen::Vector2d difference(const A& a, const B& b) {
   return vector_of(a) - vector_of(b);
 }
 template <class A, class B>
-[[nodiscard]] double distance_mm(const A& a, const B& b) {
+double distance_mm(const A& a, const B& b) {
   return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
 }
 

@@ -17,8 +17,7 @@ namespace chaintrue::grid {
 
 /// The exception to throw: the sentence with its values, NaN and infinity as "nan" and "inf".
 template <class... Args>
-[[nodiscard]] std::invalid_argument precondition(::fmt::format_string<Args...> sentence,
-                                                 Args&&... args) {
+std::invalid_argument precondition(::fmt::format_string<Args...> sentence, Args&&... args) {
   return std::invalid_argument(::fmt::format(sentence, std::forward<Args>(args)...));
 }
 

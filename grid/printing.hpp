@@ -46,7 +46,7 @@ void pass(const ::fmt::join_view<Iterator, Sentinel, char>& values) {
 }  // namespace gate
 
 template <class... Args>
-[[nodiscard]] std::string format(::fmt::format_string<Args...> text, Args&&... args) {
+std::string format(::fmt::format_string<Args...> text, Args&&... args) {
   (gate::pass(args), ...);
   return ::fmt::format(text, std::forward<Args>(args)...);
 }

@@ -13,7 +13,7 @@ enum class ProblemKind {
 #undef CHAINTRUE_PROBLEM_KIND
 };
 
-[[nodiscard]] constexpr std::string_view name_of(ProblemKind kind) {
+constexpr std::string_view name_of(ProblemKind kind) {
   constexpr std::string_view kNames[] = {
 #define CHAINTRUE_PROBLEM_KIND(name) #name,
 #include "grid/problem_kinds.def"

@@ -25,15 +25,15 @@ namespace chaintrue::grid {
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
-  [[nodiscard]] std::uint64_t bits();
+  std::uint64_t bits();
   /// In (0, 1), a multiple of 2^-53 plus 2^-54: never 0, never 1.
-  [[nodiscard]] double uniform();
-  [[nodiscard]] double uniform(double from, double to);
+  double uniform();
+  double uniform(double from, double to);
   /// 0 .. count-1, equally likely. \throws std::invalid_argument for count 0.
-  [[nodiscard]] std::size_t below(std::size_t count);
-  [[nodiscard]] double normal();
+  std::size_t below(std::size_t count);
+  double normal();
   /// Student's t with 4 degrees of freedom, scaled to a standard deviation of 1: heavy tails.
-  [[nodiscard]] double heavy_tailed();
+  double heavy_tailed();
   /// Fisher-Yates.
   template <class T>
   void shuffle(std::vector<T>& items) {
@@ -45,9 +45,9 @@ class Random {
 };
 
 /// The inverse of the normal distribution. \throws std::invalid_argument outside (0, 1).
-[[nodiscard]] double normal_quantile(double probability);
+double normal_quantile(double probability);
 /// Natural logarithm of a positive normal number, within 2 ulp, from exactly rounded operations
 /// alone.
-[[nodiscard]] double portable_log(double x);
+double portable_log(double x);
 
 }  // namespace chaintrue::grid

@@ -19,14 +19,14 @@
 namespace chaintrue::grid {
 
 /// The bed, with `beyond_mm` more on each side.
-[[nodiscard]] inline interp::Rectangle area_of(const model::Bed& bed, double beyond_mm = 0.0) {
+inline interp::Rectangle area_of(const model::Bed& bed, double beyond_mm = 0.0) {
   const double x = 0.5 * bed.width_mm + beyond_mm, y = 0.5 * bed.height_mm + beyond_mm;
   return {-x, x, -y, y};
 }
 
 /// The hull of marks, or of places on the bed.
 template <class Points>
-[[nodiscard]] interp::ConvexHull hull_of(const Points& points) {
+interp::ConvexHull hull_of(const Points& points) {
   std::vector<interp::PlanePoint> in_plane;
   for (const auto& point : points) in_plane.push_back({point.x_mm, point.y_mm});
   return interp::ConvexHull(in_plane);
@@ -45,10 +45,10 @@ enum class RasterOf { nodes, cells };
 
 /// Row by row from y_min, each from x_min. A single row or column of nodes lies in the middle.
 /// Symmetric about the middle to the last bit, and exactly there where a row or column is.
-[[nodiscard]] inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over,
-                                                          int columns,
-                                                          int rows,
-                                                          RasterOf of) {
+inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over,
+                                            int columns,
+                                            int rows,
+                                            RasterOf of) {
   const auto share = [of](int i, int count) {
     if (of == RasterOf::cells) return (i + 0.5) / count - 0.5;
     return count > 1 ? as_double(i) / (count - 1) - 0.5 : 0.0;
@@ -65,7 +65,7 @@ enum class RasterOf { nodes, cells };
 }
 
 /// In whole millimetres, as places are typed and marked, none farther out than before.
-[[nodiscard]] inline std::vector<model::MarkPoint> whole_mm(std::vector<model::MarkPoint> points) {
+inline std::vector<model::MarkPoint> whole_mm(std::vector<model::MarkPoint> points) {
   for (model::MarkPoint& point : points) point = {std::trunc(point.x_mm), std::trunc(point.y_mm)};
   return points;
 }

@@ -38,31 +38,31 @@ class BsplineBasis {
   /// Throws std::invalid_argument unless the rectangle has a finite positive area and nx, ny >= 1.
   BsplineBasis(const Rectangle& rectangle, int nx, int ny);
 
-  [[nodiscard]] Eigen::Index size() const { return columns_x_ * columns_y_; }
-  [[nodiscard]] Eigen::Index columns_x() const { return columns_x_; }
-  [[nodiscard]] Eigen::Index columns_y() const { return columns_y_; }
-  [[nodiscard]] const Rectangle& rectangle() const { return rectangle_; }
+  Eigen::Index size() const { return columns_x_ * columns_y_; }
+  Eigen::Index columns_x() const { return columns_x_; }
+  Eigen::Index columns_y() const { return columns_y_; }
+  const Rectangle& rectangle() const { return rectangle_; }
 
-  [[nodiscard]] BasisSupport at(double x, double y) const;
+  BasisSupport at(double x, double y) const;
 
   /// The functions' values as a dense row of size(): f(x, y) = row . c.
-  [[nodiscard]] Eigen::VectorXd row(double x, double y) const;
+  Eigen::VectorXd row(double x, double y) const;
 
   /// Value and gradient of the surface with these coefficients.
-  [[nodiscard]] ValueGradient evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
-                                       double x,
-                                       double y) const;
+  ValueGradient evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
+                         double x,
+                         double y) const;
 
   /// P with c' P c = integral over the rectangle of the squared derivatives of that order (exact):
   /// 2 is the thin plate's f_xx^2 + 2 f_xy^2 + f_yy^2, 3 is f_xxx^2 + 3 f_xxy^2 + 3 f_xyy^2 +
   /// f_yyy^2. Symmetric, positive semidefinite; its null space is the polynomials of lower degree.
   /// Unit: length^(2 - 2 order). Throws std::invalid_argument for other orders.
-  [[nodiscard]] Eigen::MatrixXd bending_penalty(int order) const;
+  Eigen::MatrixXd bending_penalty(int order) const;
 
   /// The coefficients of the polynomials up to a degree of 1 or 2, the null space of the penalties:
   /// columns 1, u, v and, for degree 2, u^2, u v, v^2, with u = (x - x_centre) / half width and v
   /// likewise. Throws std::invalid_argument for other degrees.
-  [[nodiscard]] Eigen::MatrixXd polynomial_coefficients(int degree) const;
+  Eigen::MatrixXd polynomial_coefficients(int degree) const;
 
  private:
   Rectangle rectangle_;

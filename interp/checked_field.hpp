@@ -45,10 +45,10 @@ class CheckedField {
   CheckedField(Function function, const Options& options);
 
   /// The interpolated value; empty if the caller computes it.
-  [[nodiscard]] std::optional<Value> value(double x, double y);
+  std::optional<Value> value(double x, double y);
   /// Largest second derivative along any direction by second differences of the cell's nodes;
   /// infinite where `value` is empty.
-  [[nodiscard]] double curvature(double x, double y);
+  double curvature(double x, double y);
 
  private:
   enum class State { fresh, interpolates, given_up };
@@ -72,7 +72,7 @@ class CheckedField {
   };
 
   Found find(double x, double y);
-  [[nodiscard]] bool may_fill() const;
+  bool may_fill() const;
   void fill(Level& level, Cell& cell, std::int64_t column, std::int64_t row);
   /// Each component at the sixteen nodes around a cell, (x, y).
   std::optional<std::array<Eigen::Matrix4d, 2>> nodes_around(Level& level,

@@ -26,15 +26,11 @@ class Operand {
   template <class Derived>
   Operand(const Eigen::DenseBase<Derived>& m) : stored_(m.derived()) {}
 
-  [[nodiscard]] const Eigen::Ref<const Eigen::MatrixXd>& stored() const { return stored_; }
-  [[nodiscard]] bool is_transposed() const { return is_transposed_; }
-  [[nodiscard]] Eigen::Index rows() const {
-    return is_transposed_ ? stored_.cols() : stored_.rows();
-  }
-  [[nodiscard]] Eigen::Index columns() const {
-    return is_transposed_ ? stored_.rows() : stored_.cols();
-  }
-  [[nodiscard]] friend Operand transposed(const Operand& a) {
+  const Eigen::Ref<const Eigen::MatrixXd>& stored() const { return stored_; }
+  bool is_transposed() const { return is_transposed_; }
+  Eigen::Index rows() const { return is_transposed_ ? stored_.cols() : stored_.rows(); }
+  Eigen::Index columns() const { return is_transposed_ ? stored_.rows() : stored_.cols(); }
+  friend Operand transposed(const Operand& a) {
     Operand result = a;
     result.is_transposed_ = !a.is_transposed_;
     return result;
@@ -56,7 +52,7 @@ using Like = Eigen::Matrix<double, Eigen::Dynamic, VectorLike<B> ? 1 : Eigen::Dy
 void add_product(Eigen::Ref<Eigen::MatrixXd> c, double scale, const Operand& a, const Operand& b);
 /// a b
 template <class B>
-[[nodiscard]] Like<B> product(const Operand& a, const B& b) {
+Like<B> product(const Operand& a, const B& b) {
   const Operand right(b);
   Like<B> c = Like<B>::Zero(a.rows(), right.columns());
   add_product(c, 1.0, a, right);
@@ -69,20 +65,18 @@ inline void add_gram(Eigen::MatrixXd& c, double scale, const Operand& a) {
   add_outer(c, scale, transposed(a));
 }
 /// diagonal + A A'
-[[nodiscard]] Eigen::MatrixXd outer(const Operand& a, double diagonal = 0.0);
+Eigen::MatrixXd outer(const Operand& a, double diagonal = 0.0);
 /// 1 + A A'
-[[nodiscard]] inline Eigen::MatrixXd one_plus_outer(const Operand& a) { return outer(a, 1.0); }
+inline Eigen::MatrixXd one_plus_outer(const Operand& a) { return outer(a, 1.0); }
 /// A'A
-[[nodiscard]] inline Eigen::MatrixXd gram(const Operand& a) { return outer(transposed(a)); }
+inline Eigen::MatrixXd gram(const Operand& a) { return outer(transposed(a)); }
 /// 1 + A'A
-[[nodiscard]] inline Eigen::MatrixXd one_plus_gram(const Operand& a) {
-  return outer(transposed(a), 1.0);
-}
+inline Eigen::MatrixXd one_plus_gram(const Operand& a) { return outer(transposed(a), 1.0); }
 /// A C A'
-[[nodiscard]] Eigen::MatrixXd carried(const Operand& a, const Operand& c);
+Eigen::MatrixXd carried(const Operand& a, const Operand& c);
 /// A diag(s)
-[[nodiscard]] Eigen::MatrixXd scaled_columns(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                             const Eigen::Ref<const Eigen::VectorXd>& s);
+Eigen::MatrixXd scaled_columns(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                               const Eigen::Ref<const Eigen::VectorXd>& s);
 
 /// M = L L' of a symmetric positive definite matrix; only the lower triangle is read.
 class Cholesky {
@@ -90,32 +84,32 @@ class Cholesky {
   Cholesky() = default;
   explicit Cholesky(Eigen::MatrixXd matrix);
   /// False if a pivot was not positive or not a number; then no other member may be called.
-  [[nodiscard]] bool is_positive_definite() const { return is_positive_definite_; }
-  [[nodiscard]] Eigen::Index size() const { return lower_.rows(); }
+  bool is_positive_definite() const { return is_positive_definite_; }
+  Eigen::Index size() const { return lower_.rows(); }
 
   /// M^-1 b
   template <class B>
-  [[nodiscard]] Like<B> solve(const B& b) const {
+  Like<B> solve(const B& b) const {
     Like<B> x = half_solve(b);
     other_half_solve_in_place(x);
     return x;
   }
   /// L^-1 b
   template <class B>
-  [[nodiscard]] Like<B> half_solve(const B& b) const {
+  Like<B> half_solve(const B& b) const {
     Like<B> x = b;
     half_solve_in_place(x);
     return x;
   }
   void half_solve_in_place(Eigen::Ref<Eigen::MatrixXd> b) const;
   /// M^-1
-  [[nodiscard]] Eigen::MatrixXd inverse() const;
+  Eigen::MatrixXd inverse() const;
   /// L^-T: a square root of M^-1.
-  [[nodiscard]] Eigen::MatrixXd root_of_inverse() const;
+  Eigen::MatrixXd root_of_inverse() const;
   /// L
-  [[nodiscard]] const Eigen::MatrixXd& lower() const { return lower_; }
+  const Eigen::MatrixXd& lower() const { return lower_; }
   /// log |M|
-  [[nodiscard]] double log_det() const;
+  double log_det() const;
 
  private:
   /// L^-T b
@@ -132,15 +126,15 @@ class PivotedCholesky {
   explicit PivotedCholesky(const Eigen::MatrixXd& matrix);
   /// M^-1 b; 0 along the null directions of M.
   template <class B>
-  [[nodiscard]] Like<B> solve(const B& b) const {
+  Like<B> solve(const B& b) const {
     return solved(b);
   }
-  [[nodiscard]] Eigen::MatrixXd inverse() const;
+  Eigen::MatrixXd inverse() const;
   /// F with F F' = M, without the columns whose D is at most `least`.
-  [[nodiscard]] Eigen::MatrixXd root(double least) const;
+  Eigen::MatrixXd root(double least) const;
 
  private:
-  [[nodiscard]] Eigen::MatrixXd solved(const Eigen::MatrixXd& b) const;
+  Eigen::MatrixXd solved(const Eigen::MatrixXd& b) const;
 
   std::shared_ptr<const Eigen::LDLT<Eigen::MatrixXd>> factor_;
 };
@@ -150,8 +144,8 @@ class PivotedCholesky {
 class SymmetricEigen {
  public:
   explicit SymmetricEigen(const Eigen::MatrixXd& matrix);
-  [[nodiscard]] const Eigen::VectorXd& eigenvalues() const { return values_; }
-  [[nodiscard]] const Eigen::MatrixXd& eigenvectors() const { return vectors_; }
+  const Eigen::VectorXd& eigenvalues() const { return values_; }
+  const Eigen::MatrixXd& eigenvectors() const { return vectors_; }
 
  private:
   Eigen::VectorXd values_;
@@ -159,15 +153,15 @@ class SymmetricEigen {
 };
 /// F with F F' = C of a covariance, which may be semidefinite up to rounding; a column for each
 /// direction, the widest last.
-[[nodiscard]] Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& covariance);
+Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& covariance);
 
 /// M = Q J Q' of a symmetric matrix, J with one entry beside each on the diagonal.
 class Tridiagonal {
  public:
   Tridiagonal() = default;
   explicit Tridiagonal(Eigen::MatrixXd matrix);
-  [[nodiscard]] const Eigen::VectorXd& diagonal() const { return diagonal_; }
-  [[nodiscard]] const Eigen::VectorXd& subdiagonal() const { return subdiagonal_; }
+  const Eigen::VectorXd& diagonal() const { return diagonal_; }
+  const Eigen::VectorXd& subdiagonal() const { return subdiagonal_; }
   /// x = Q' x
   void rotate_in_place(Eigen::MatrixXd& x) const;
 
@@ -181,11 +175,11 @@ struct Qr {
   Eigen::MatrixXd q;  ///< rows x rows
   Eigen::MatrixXd r;  ///< columns x columns, an upper triangle
 };
-[[nodiscard]] Qr qr(const Eigen::MatrixXd& a);
+Qr qr(const Eigen::MatrixXd& a);
 /// Q's first columns: orthonormal, they span what those of A span.
-[[nodiscard]] Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& a);
+Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& a);
 /// R alone: R'R = A'A.
-[[nodiscard]] Eigen::MatrixXd upper_triangle(const Eigen::MatrixXd& a);
+Eigen::MatrixXd upper_triangle(const Eigen::MatrixXd& a);
 
 /// Orthonormal columns: those of `range` span the columns of A up to rounding, `rest` their
 /// orthogonal complement.
@@ -195,19 +189,19 @@ struct Range {
 };
 /// \param least share of the largest pivot below which a pivot counts as zero; 0: as many roundings
 /// as A has columns.
-[[nodiscard]] Range range_of(const Eigen::MatrixXd& a, double least = 0.0);
+Range range_of(const Eigen::MatrixXd& a, double least = 0.0);
 
 /// The x of least length for which A x - b is shortest.
-[[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// A = U diag(values) W' with as few columns in U as A has rows or columns.
 struct ThinSvd {
   Eigen::MatrixXd u;
   Eigen::VectorXd values;  ///< descending
 };
-[[nodiscard]] ThinSvd thin_svd(const Eigen::MatrixXd& a);
+ThinSvd thin_svd(const Eigen::MatrixXd& a);
 
 /// A^-1 of any square matrix that has one.
-[[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 
 }  // namespace chaintrue::linear

@@ -46,8 +46,8 @@ extern const Table baseline;
 extern const Table avx2;  ///< with FMA; in builds for x86-64 only
 
 /// Null if this processor lacks AVX2 or FMA, or the build has no code for them.
-[[nodiscard]] const Table* avx2_here();
+const Table* avx2_here();
 /// The best for this processor; the baseline if CHAINTRUE_BASELINE=1 is set in the environment.
-[[nodiscard]] const Table& chosen();
+const Table& chosen();
 
 }  // namespace chaintrue::linear::kernels

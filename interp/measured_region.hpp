@@ -28,10 +28,10 @@ class ConvexHull {
   /// Throws std::invalid_argument if the points are not finite or lie on one line.
   explicit ConvexHull(const std::vector<PlanePoint>& points);
 
-  [[nodiscard]] const std::vector<PlanePoint>& corners() const { return corners_; }
-  [[nodiscard]] bool contains(double x, double y) const;
-  [[nodiscard]] NearestPoint nearest(double x, double y) const;
-  [[nodiscard]] double area() const;
+  const std::vector<PlanePoint>& corners() const { return corners_; }
+  bool contains(double x, double y) const;
+  NearestPoint nearest(double x, double y) const;
+  double area() const;
 
  private:
   std::vector<PlanePoint> corners_;
@@ -53,9 +53,9 @@ struct RegionPolicy {
 /// Continuous across the hull and through every policy's zones; `fade` and `linear` are C1 across the
 /// hull's edges. The gradient next to an edge uses a difference of the surface's gradient along the
 /// edge (error about 1e-6 of a second derivative). Zero if the place is not finite.
-[[nodiscard]] ValueGradient evaluate(const Surface& surface,
-                                     const ConvexHull& hull,
-                                     const RegionPolicy& policy,
-                                     const PlanePoint& at);
+ValueGradient evaluate(const Surface& surface,
+                       const ConvexHull& hull,
+                       const RegionPolicy& policy,
+                       const PlanePoint& at);
 
 }  // namespace chaintrue::interp

@@ -38,9 +38,8 @@ struct FilledGrid {
 /// `values(ix, iy)`, NaN where missing. Empty if a hole has fewer than three present nodes in its
 /// row and in its column. Throws std::invalid_argument if the shape does not fit the axes.
 /// Deterministic: holes are filled from present nodes only, so their order does not matter.
-[[nodiscard]] std::optional<FilledGrid> fill_missing(
-    const std::vector<double>& x_nodes,
-    const std::vector<double>& y_nodes,
-    const Eigen::Ref<const Eigen::MatrixXd>& values);
+std::optional<FilledGrid> fill_missing(const std::vector<double>& x_nodes,
+                                       const std::vector<double>& y_nodes,
+                                       const Eigen::Ref<const Eigen::MatrixXd>& values);
 
 }  // namespace chaintrue::interp

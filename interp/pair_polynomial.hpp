@@ -19,7 +19,7 @@ struct PairGradient {
 };
 
 /// The matrix that takes values at four places to the powers of the cubic through them.
-[[nodiscard]] Eigen::Matrix4d powers_through(const Eigen::Vector4d& places);
+Eigen::Matrix4d powers_through(const Eigen::Vector4d& places);
 
 /// Immutable once both are set. The coefficients are interleaved: 256 bytes, of u^i v^j in surface k
 /// at 8 i + 2 j + k.

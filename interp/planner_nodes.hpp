@@ -12,7 +12,7 @@ namespace chaintrue::interp {
 /// evenly spaced points of a half circle (L. N. Trefethen, Approximation Theory and Approximation
 /// Practice, 2013, chapter 2). Symmetric to the last bit about the middle. Throws
 /// std::invalid_argument unless low < high and count >= 2.
-[[nodiscard]] std::vector<double> chebyshev_lobatto(double low, double high, int count);
+std::vector<double> chebyshev_lobatto(double low, double high, int count);
 
 /// Columns and rows for `points` over width by height: columns * rows <= points, both at least 2.
 /// The score is the share of the points used minus half the logarithm of the ratio of the two
@@ -21,6 +21,6 @@ struct GridShape {
   int columns = 0;
   int rows = 0;
 };
-[[nodiscard]] GridShape grid_shape(double width, double height, int points);
+GridShape grid_shape(double width, double height, int points);
 
 }  // namespace chaintrue::interp

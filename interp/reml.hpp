@@ -81,7 +81,7 @@ struct PenalisedProblem {
   /// loses half the digits where there is hardly any noise.
   void add_products(Eigen::Index count, const Eigen::MatrixXd& products);
 
-  [[nodiscard]] Eigen::Index columns() const { return design.cols(); }
+  Eigen::Index columns() const { return design.cols(); }
 
   Eigen::Index rows = 0;            ///< n; as many as were added
   Eigen::MatrixXd design;           ///< X
@@ -102,7 +102,7 @@ struct FitFailure {
   using Reason = FitReason;
   FitReason reason;
   std::string text;
-  [[nodiscard]] const std::string& sentence() const { return text; }
+  const std::string& sentence() const { return text; }
 };
 
 /// The fitted model. Covariances are those of the Bayesian posterior (2).

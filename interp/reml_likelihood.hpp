@@ -45,8 +45,8 @@ struct State {
   Eigen::VectorXd shared;    ///< s
   Eigen::VectorXd residual;  ///< r
   Eigen::MatrixXd root;      ///< W with W W' = H^-1
-  [[nodiscard]] double lambda() const;
-  [[nodiscard]] double sigma2() const;
+  double lambda() const;
+  double sigma2() const;
 };
 
 /// The derivatives of V at a state.
@@ -61,23 +61,23 @@ class Likelihood {
   /// finite.
   Likelihood(const PenalisedProblem& problem, SmoothingPrior prior);
 
-  [[nodiscard]] bool has_ridge() const { return problem_.ridge.count > 0; }
-  [[nodiscard]] NoiseKnowledge noise() const { return problem_.noise.knowledge; }
+  bool has_ridge() const { return problem_.ridge.count > 0; }
+  NoiseKnowledge noise() const { return problem_.noise.knowledge; }
   /// The lambda at which the ridge weighs as much as the data; 0 if the data do not determine it.
-  [[nodiscard]] double balance() const;
+  double balance() const;
   /// Mean square of the responses, an upper bound of the noise. At least 1e-20: rows are whitened,
   /// so ten digits below the assumed sigma is rounding.
-  [[nodiscard]] double response_variance() const;
+  double response_variance() const;
   /// Derivatives of the prior's terms that V lacks.
-  [[nodiscard]] Theta left_out_slope() const { return flat_slope() - prior_slope_; }
+  Theta left_out_slope() const { return flat_slope() - prior_slope_; }
 
   /// Empty where A is not positive definite to rounding.
-  [[nodiscard]] std::optional<State> at(const Theta& theta) const;
-  [[nodiscard]] Derivatives derivatives(const State& state) const;
+  std::optional<State> at(const Theta& theta) const;
+  Derivatives derivatives(const State& state) const;
   /// b, in the problem's columns.
-  [[nodiscard]] Eigen::VectorXd coefficients(const State& state) const;
+  Eigen::VectorXd coefficients(const State& state) const;
   /// Trace of the hat matrix.
-  [[nodiscard]] double edf(const State& state) const;
+  double edf(const State& state) const;
 
   /// A point of a distribution of theta.
   struct Node {
@@ -86,16 +86,15 @@ class Likelihood {
   };
   /// Sum of weight (A^-1 + (b - b_c)(b - b_c)') over the nodes, in the problem's columns, with b_c
   /// the coefficients of `centre`. A must be positive definite at every node.
-  [[nodiscard]] Eigen::MatrixXd covariance(const std::vector<Node>& nodes,
-                                           const State& centre) const;
+  Eigen::MatrixXd covariance(const std::vector<Node>& nodes, const State& centre) const;
 
  private:
   void turn_rows();
   /// Derivatives of the flat prior's terms.
-  [[nodiscard]] Theta flat_slope() const;
+  Theta flat_slope() const;
 
   const PenalisedProblem& problem_;
-  double degrees_ = 0.0;                // d
+  double degrees_ = 0.0;  // d
   Theta prior_slope_ = Theta::Zero();
   std::vector<Eigen::Index> shared_;  // the columns outside the ridge
   Eigen::MatrixXd shared_prior_;      // S0

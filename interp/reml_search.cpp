@@ -79,10 +79,10 @@ struct Place {
       }
     }
   }
-  [[nodiscard]] double slope() const { return derivatives.gradient.lpNorm<Eigen::Infinity>(); }
+  double slope() const { return derivatives.gradient.lpNorm<Eigen::Infinity>(); }
 
   State state;
-  Derivatives derivatives;    // the gradient of the free unknowns only
+  Derivatives derivatives;     // the gradient of the free unknowns only
   Theta free = Theta::Ones();  // 0 for one that is given or that V presses against a limit
 };
 
@@ -91,8 +91,7 @@ Theta newton_step(const Place& place) {
   constexpr double kLongestStep = 4.0;
   const linear::SymmetricEigen solver(restricted(place.derivatives.hessian, place.free));
   const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().lpNorm<Eigen::Infinity>());
-  const Eigen::VectorXd turned =
-      solver.eigenvectors().transpose() * place.derivatives.gradient;
+  const Eigen::VectorXd turned = solver.eigenvectors().transpose() * place.derivatives.gradient;
   const Theta step = -(solver.eigenvectors() *
                        turned.cwiseQuotient(solver.eigenvalues().cwiseAbs().cwiseMax(floor)));
   const double longest = step.lpNorm<Eigen::Infinity>();
@@ -114,8 +113,8 @@ Theta steps_of(const SearchResult& found) {
   const Eigen::Matrix2d& hessian = found.derivatives.hessian;
   const bool lambda_inside =
       low[0] < high[0] && ends_inside(found.state.theta[0], low[0], high[0], hessian(0, 0));
-  const linear::SymmetricEigen solver(restricted(
-      0.5 * hessian, {lambda_inside ? 1.0 : 0.0, low[1] < high[1] ? 1.0 : 0.0}));
+  const linear::SymmetricEigen solver(
+      restricted(0.5 * hessian, {lambda_inside ? 1.0 : 0.0, low[1] < high[1] ? 1.0 : 0.0}));
   // A flat direction would have an unbounded variance: ten decades of lambda are the limit.
   const Eigen::VectorXd variance =
       solver.eigenvalues().cwiseMax(1.0 / (kHalfRange * kHalfRange)).cwiseInverse();
@@ -178,7 +177,7 @@ class Walker {
     return best;
   }
 
-  [[nodiscard]] std::vector<Likelihood::Node> normalized() const {
+  std::vector<Likelihood::Node> normalized() const {
     std::vector<Likelihood::Node> kept;
     double sum = 0.0;
     for (const Likelihood::Node& node : nodes_) {

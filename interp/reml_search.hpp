@@ -31,7 +31,7 @@ struct SearchResult {
 /// Points of the posterior of theta with their weights, of sum 1: steps of one standard error
 /// outward from the optimum while the density is above e^-4 of its peak, of lambda anew at each
 /// sigma2.
-[[nodiscard]] std::vector<Likelihood::Node> posterior_nodes(const Likelihood& likelihood,
-                                                            const SearchResult& found);
+std::vector<Likelihood::Node> posterior_nodes(const Likelihood& likelihood,
+                                              const SearchResult& found);
 
 }  // namespace chaintrue::interp::reml

@@ -54,20 +54,19 @@ class SplineAxis {
   /// at least two finite, strictly increasing nodes.
   explicit SplineAxis(std::vector<double> nodes, const AxisEnds& ends = {}, int degree = 3);
 
-  [[nodiscard]] std::span<const double> nodes() const { return nodes_; }
-  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  std::span<const double> nodes() const { return nodes_; }
+  std::size_t size() const { return nodes_.size(); }
 
   /// Beyond the ends the polynomials of the end cells continue.
-  [[nodiscard]] SplineSupport support(double x) const;
+  SplineSupport support(double x) const;
 
   /// Coefficients of the splines through each column of `conditions`: the values at the nodes, then the slopes at
   /// the low and the high end, which count where these are clamped.
-  [[nodiscard]] Eigen::MatrixXd coefficients(
-      const Eigen::Ref<const Eigen::MatrixXd>& conditions) const;
+  Eigen::MatrixXd coefficients(const Eigen::Ref<const Eigen::MatrixXd>& conditions) const;
 
   /// The spline at x, or its slope there, as weights on the node values (clamped ends: slope zero).
-  [[nodiscard]] Eigen::VectorXd cardinal_weights(double x) const;
-  [[nodiscard]] Eigen::VectorXd slope_weights(double x) const;
+  Eigen::VectorXd cardinal_weights(double x) const;
+  Eigen::VectorXd slope_weights(double x) const;
 
  private:
   std::vector<double> nodes_;

@@ -25,7 +25,7 @@ class SplinePair {
   /// Throws std::invalid_argument unless both are bicubic and have the same nodes.
   SplinePair(const TensorSpline& first, const TensorSpline& second);
 
-  [[nodiscard]] PairGradient at(double x, double y) const;
+  PairGradient at(double x, double y) const;
 
  private:
   struct Interval {

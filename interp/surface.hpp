@@ -26,11 +26,11 @@ struct Rectangle {
   double y_min = 0.0;
   double y_max = 0.0;
 
-  [[nodiscard]] constexpr bool contains(double x, double y) const {
+  constexpr bool contains(double x, double y) const {
     return x >= x_min && x <= x_max && y >= y_min && y <= y_max;
   }
-  [[nodiscard]] constexpr double width() const { return x_max - x_min; }
-  [[nodiscard]] constexpr double height() const { return y_max - y_min; }
+  constexpr double width() const { return x_max - x_min; }
+  constexpr double height() const { return y_max - y_min; }
 };
 
 /// A smooth surface. Implementations are immutable after construction, allocate nothing in `at`,
@@ -40,9 +40,9 @@ struct Rectangle {
 class Surface {
  public:
   virtual ~Surface() = default;
-  [[nodiscard]] virtual ValueGradient at(double x, double y) const = 0;
+  virtual ValueGradient at(double x, double y) const = 0;
   /// The rectangle that the data cover.
-  [[nodiscard]] virtual Rectangle domain() const = 0;
+  virtual Rectangle domain() const = 0;
 };
 
 }  // namespace chaintrue::interp

@@ -65,17 +65,17 @@ class TensorSpline final : public Surface {
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const EdgeSlopes& slopes = {});
 
-  [[nodiscard]] ValueGradient at(double x, double y) const override;
-  [[nodiscard]] double value(double x, double y) const { return at(x, y).value; }
-  [[nodiscard]] Rectangle domain() const override;
+  ValueGradient at(double x, double y) const override;
+  double value(double x, double y) const { return at(x, y).value; }
+  Rectangle domain() const override;
 
-  [[nodiscard]] const TensorAxes& axes() const { return *axes_; }
+  const TensorAxes& axes() const { return *axes_; }
   /// Coefficients of the products of the two axes' B-splines, (x, y).
-  [[nodiscard]] const Eigen::MatrixXd& coefficients() const { return coefficients_; }
+  const Eigen::MatrixXd& coefficients() const { return coefficients_; }
 
   /// The surface at (x, y) as weights on the node values, w(ix, iy), which propagate the covariance
   /// of the measured values to any point. Clamped ends count as clamped to zero slope.
-  [[nodiscard]] Eigen::MatrixXd cardinal_weights(double x, double y) const;
+  Eigen::MatrixXd cardinal_weights(double x, double y) const;
 
  private:
   std::shared_ptr<const TensorAxes> axes_;

@@ -49,7 +49,7 @@ struct ChainInputs {
     return numbers[static_cast<std::size_t>(parameter)];
   }
   /// Outward and upward distances from the place to a motor's axis.
-  [[nodiscard]] std::array<T, 2> to_motor(Side side) const {
+  std::array<T, 2> to_motor(Side side) const {
     if (side == Side::left)
       return {x - (*this)[Parameter::motor_left_x_mm], (*this)[Parameter::motor_left_y_mm] - y};
     return {(*this)[Parameter::motor_right_x_mm] - x, (*this)[Parameter::motor_right_y_mm] - y};
@@ -173,9 +173,9 @@ inline Unknowns<double> unknowns_of(const Pose& pose) {
           pose.sled_rotation_rad};
 }
 
-[[nodiscard]] Pose pose_of(const EquilibriumConstants& m,
-                           const Unknowns<double>& q,
-                           BedPoint place,
-                           int iterations);
+Pose pose_of(const EquilibriumConstants& m,
+             const Unknowns<double>& q,
+             BedPoint place,
+             int iterations);
 
 }  // namespace chaintrue::model

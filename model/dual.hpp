@@ -31,7 +31,7 @@ struct Dual {
     return result;
   }
   /// f(this), given f and f' at the value.
-  [[nodiscard]] constexpr Dual chained(double f, double slope) const {
+  constexpr Dual chained(double f, double slope) const {
     Dual result(f);
     for (std::size_t i = 0; i < N; ++i) result.d[i] = slope * d[i];
     return result;

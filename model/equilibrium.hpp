@@ -44,12 +44,10 @@ struct EquilibriumConstants {
   double cos_tilt = 1.0, sin_tilt = 0.0;
   ChainMaterial chain;
 
-  [[nodiscard]] double wrap(double phi) const {
-    return sg > 0 ? r * phi : r * (std::numbers::pi - phi);
-  }
+  double wrap(double phi) const { return sg > 0 ? r * phi : r * (std::numbers::pi - phi); }
 };
 
-[[nodiscard]] EquilibriumConstants equilibrium_constants(const EquilibriumParameters& parameters);
+EquilibriumConstants equilibrium_constants(const EquilibriumParameters& parameters);
 
 /// Left side of (1) without U and Y, and its derivatives by the chain's own H, V and S.
 struct ChainTerms {

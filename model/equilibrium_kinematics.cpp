@@ -175,7 +175,7 @@ class EquilibriumKinematics final : public Kinematics {
     return forward_by_inverse(*this, limits, lengths);
   }
 
-  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
+  PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
     EquilibriumLoad by_x, by_y;
     by_x.u = {-1.0, 1.0};
     by_y.y = {1.0, 1.0};
@@ -183,8 +183,7 @@ class EquilibriumKinematics final : public Kinematics {
         m_, pose, inputs_by_place(m_, pose.position), std::array{by_x, by_y});
   }
 
-  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
-                                                      Parameter parameter) const override {
+  PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const override {
     const bool neglected =
         (parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
         (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||

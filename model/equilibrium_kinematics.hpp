@@ -18,7 +18,7 @@ struct NotModelled {
 
 /// Accuracy (inverse and forward, against 40-digit tables): 1e-11 mm over the default bed, 1e-9 mm
 /// down to 23 mm below the beam and 19 mm from a sprocket's vertical.
-[[nodiscard]] std::unique_ptr<const Kinematics> make_equilibrium_kinematics(
-    EquilibriumParameters parameters, const NotModelled& not_modelled = {});
+std::unique_ptr<const Kinematics> make_equilibrium_kinematics(EquilibriumParameters parameters,
+                                                              const NotModelled& not_modelled = {});
 
 }  // namespace chaintrue::model

@@ -30,7 +30,8 @@ struct Failure {
   using Reason = ReasonType;
 
   /// The sentence is sentence_of(reason).
-  constexpr Failure(Reason why) : reason(std::move(why)) {}  // NOLINT: an error is made of its reason
+  constexpr Failure(Reason why)
+      : reason(std::move(why)) {}  // NOLINT: an error is made of its reason
   /// With its own sentence, for a whole task.
   Failure(Reason why, std::string words) : reason(std::move(why)), text(std::move(words)) {}
 
@@ -51,7 +52,7 @@ struct Failure {
     return more;
   }
 
-  [[nodiscard]] std::string sentence() const {
+  std::string sentence() const {
     if constexpr (requires(const Reason& why) { sentence_of(why); }) {
       if (text.empty()) {
         std::string words(sentence_of(reason));
@@ -82,17 +83,15 @@ struct MechanismReason {
   std::string_view words;  ///< for a person
   friend bool operator==(const MechanismReason&, const MechanismReason&) = default;
 };
-[[nodiscard]] inline std::string_view sentence_of(const MechanismReason& reason) {
-  return reason.words;
-}
+inline std::string_view sentence_of(const MechanismReason& reason) { return reason.words; }
 
 /// An enum of reasons with a function named(reason).
 template <class Reason>
 concept NamedReason = requires(Reason reason) {
   { named(reason) } -> std::same_as<MechanismReason>;
 };
-[[nodiscard]] std::string_view name(NamedReason auto reason) { return named(reason).name; }
-[[nodiscard]] std::string_view sentence_of(NamedReason auto reason) { return named(reason).words; }
+std::string_view name(NamedReason auto reason) { return named(reason).name; }
+std::string_view sentence_of(NamedReason auto reason) { return named(reason).words; }
 
 }  // namespace model
 

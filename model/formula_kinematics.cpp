@@ -73,19 +73,18 @@ class FormulaKinematics final : public Kinematics {
     return forward_by_inverse(*this, limits_of(m_), lengths);
   }
 
-  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
+  PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
     return chains(inputs_by_place(m_, pose.position));
   }
 
-  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
-                                                      Parameter parameter) const override {
+  PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const override {
     const bool counts = parameter != Parameter::sprocket_radius_mm || formula_ != Formula::straight;
     return chains(inputs_by_parameter(m_, pose.position, parameter, counts));
   }
 
  private:
   template <class T>
-  [[nodiscard]] PerSide<StraightChain<T>> straight_chains(const ChainInputs<T>& in) const {
+  PerSide<StraightChain<T>> straight_chains(const ChainInputs<T>& in) const {
     PerSide<StraightChain<T>> chains;
     for (const Side side : kSides) {
       const auto [u, y] = in.to_motor(side);
@@ -95,7 +94,7 @@ class FormulaKinematics final : public Kinematics {
   }
 
   template <class T>
-  [[nodiscard]] PerSide<T> lengths(const ChainInputs<T>& in) const {
+  PerSide<T> lengths(const ChainInputs<T>& in) const {
     const PerSide<StraightChain<T>> chains = straight_chains(in);
     const auto free_length = [&](const StraightChain<T>& own, const StraightChain<T>& other) -> T {
       if (formula_ == Formula::firmware)
@@ -120,7 +119,7 @@ class FormulaKinematics final : public Kinematics {
   }
 
   template <int N>
-  [[nodiscard]] PerSide<ChainNumbers<N>> chains(const ChainInputs<Dual<N>>& in) const {
+  PerSide<ChainNumbers<N>> chains(const ChainInputs<Dual<N>>& in) const {
     const PerSide<StraightChain<Dual<N>>> straight = straight_chains(in);
     const PerSide<Dual<N>> total = lengths(in), tension = tensions(in, straight);
     PerSide<ChainNumbers<N>> result;

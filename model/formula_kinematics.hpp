@@ -15,7 +15,7 @@ enum class Formula { straight, wrap, firmware, one_shot };
 /// separate number, not a weight.
 /// \param tolerance_percent of the firmwares, which divide the straight part by 1 + tolerance / 100
 /// \throws std::invalid_argument for brackets: the closed formulas have no rotating sled.
-[[nodiscard]] std::unique_ptr<const Kinematics> make_formula_kinematics(
+std::unique_ptr<const Kinematics> make_formula_kinematics(
     const EquilibriumParameters& parameters,
     Formula formula,
     const PerSide<double>& tolerance_percent = {});

@@ -18,7 +18,7 @@ struct CircleGuess {
   bool circles_meet = false;
   bool hopeless = false;  ///< more than 20 % stretch would be needed, or these are no lengths
 };
-[[nodiscard]] CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths);
+CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths);
 
 /// \returns the pose of `kinematics.inverse` whose lengths are these to 1e-9 mm; `too_short` where
 /// the chains cannot meet, else `not_converged`.

@@ -49,7 +49,7 @@ struct EquilibriumParameters {
   double sag_correction = 0.0;
 };
 
-[[nodiscard]] EquilibriumParameters equilibrium_parameters(const Machine& machine);
+EquilibriumParameters equilibrium_parameters(const Machine& machine);
 
 /// Models of a chain, from crudest to finest.
 enum class Model { straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d };
@@ -64,7 +64,7 @@ enum class PoseReason {
   not_converged,      ///< the iteration did not converge
 };
 
-[[nodiscard]] MechanismReason named(PoseReason reason);
+MechanismReason named(PoseReason reason);
 using PoseFailure = Failure<PoseReason>;
 
 /// One chain in equilibrium. s = 0 is the sled's end.
@@ -119,17 +119,16 @@ class Kinematics {
   [[nodiscard]] virtual PoseResult inverse(BedPoint point) const = 0;
   [[nodiscard]] virtual PoseResult forward(ChainLengths lengths) const = 0;
   /// At a pose returned by this object, with derivatives by x and y.
-  [[nodiscard]] virtual PerSide<ChainNumbers<2>> by_place(const Pose& pose) const = 0;
+  virtual PerSide<ChainNumbers<2>> by_place(const Pose& pose) const = 0;
   /// With derivatives by the parameter at fixed (x, y).
-  [[nodiscard]] virtual PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
-                                                              Parameter parameter) const = 0;
+  virtual PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const = 0;
   /// d(left, right)/d(x, y)
-  [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const;
+  Eigen::Matrix2d jacobian(const Pose& pose) const;
 };
 
 /// \throws std::invalid_argument if a parameter is not finite or out of its range, with its name
 /// and value.
-[[nodiscard]] std::unique_ptr<const Kinematics> make_kinematics(
-    const EquilibriumParameters& parameters, Model model = Model::elastic);
+std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& parameters,
+                                                  Model model = Model::elastic);
 
 }  // namespace chaintrue::model

@@ -42,7 +42,7 @@ struct Sprocket {
   /// Radius of the chain line, for the tangent and the wrap; absent: pitch * teeth / (2 pi).
   std::optional<double> radius_mm;
   /// The radius in force.
-  [[nodiscard]] double effective_radius_mm() const;
+  double effective_radius_mm() const;
 };
 
 /// Which way the chain leaves the sprocket: over its top, with the slack hanging down, or off its

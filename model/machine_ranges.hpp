@@ -37,7 +37,7 @@ class RangeChecks {
   void add(std::string_view place, const Value& value, std::string expected) {
     problems_.push_back({std::string(place), fmt::format("{}", value), std::move(expected)});
   }
-  [[nodiscard]] bool sound() const { return problems_.empty(); }
+  bool sound() const { return problems_.empty(); }
   [[nodiscard]] std::vector<MachineProblem> take() { return std::move(problems_); }
 
  private:
@@ -46,6 +46,6 @@ class RangeChecks {
 };
 
 /// The ranges of problems_of for a ring and for brackets, with every setting of a controller.
-[[nodiscard]] std::vector<MachineRange> machine_ranges();
+std::vector<MachineRange> machine_ranges();
 
 }  // namespace chaintrue::model

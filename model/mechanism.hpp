@@ -89,9 +89,7 @@ struct MechanismExtent {
   double x_max_mm = 0.0;
   double y_min_mm = 0.0;
   double y_max_mm = 0.0;
-  [[nodiscard]] ToolPosition centre() const {
-    return {0.5 * (x_min_mm + x_max_mm), 0.5 * (y_min_mm + y_max_mm)};
-  }
+  ToolPosition centre() const { return {0.5 * (x_min_mm + x_max_mm), 0.5 * (y_min_mm + y_max_mm)}; }
 };
 
 /// A point of the mechanism itself at which a tape may end: an anchor, a nail.
@@ -114,15 +112,15 @@ class Mechanism {
   virtual ~Mechanism() = default;
 
   /// Identifier: "chains", "belts".
-  [[nodiscard]] virtual std::string_view kind() const = 0;
+  virtual std::string_view kind() const = 0;
   /// Words for its lengths, in the order of every vector of lengths: left, right. The first two place
   /// the tool: they are what a controller pays out for a command.
-  [[nodiscard]] virtual std::span<const std::string_view> lengths() const = 0;
-  [[nodiscard]] virtual std::span<const MechanismParameter> parameters() const = 0;
+  virtual std::span<const std::string_view> lengths() const = 0;
+  virtual std::span<const MechanismParameter> parameters() const = 0;
   /// theta, in the order of parameters(); 0 if not stated.
-  [[nodiscard]] virtual const Eigen::VectorXd& values() const = 0;
+  virtual const Eigen::VectorXd& values() const = 0;
   /// Positions at which predict() succeeds for a valid mechanism.
-  [[nodiscard]] virtual MechanismExtent extent() const = 0;
+  virtual MechanismExtent extent() const = 0;
 
   /// The same mechanism with other values of its parameters. Stated values and priors are kept.
   /// \throws std::invalid_argument for values that are not valid, with the first reason.
@@ -130,7 +128,7 @@ class Mechanism {
       const Eigen::VectorXd& values) const = 0;
 
   /// The effects that may act, in the order in which they act.
-  [[nodiscard]] virtual std::span<const effects::Effect* const> effects() const = 0;
+  virtual std::span<const effects::Effect* const> effects() const = 0;
   /// Why it cannot have these effects, each with its place ("/effects/0/side"); empty if it can.
   [[nodiscard]] virtual std::vector<MachineProblem> problems_of_effects(
       const std::vector<AppliedEffect>& applied) const = 0;
@@ -155,29 +153,27 @@ class Mechanism {
   [[nodiscard]] virtual tl::expected<ToolPosition, MechanismFailure> locate_by_first(
       ChainLengths lengths) const;
   /// Where a tape may end besides the tool's positions; none by default.
-  [[nodiscard]] virtual std::vector<FixedPoint> fixed_points() const { return {}; }
+  virtual std::vector<FixedPoint> fixed_points() const { return {}; }
   /// One by default: its lengths are read in true millimetres.
-  [[nodiscard]] virtual FrameScale frame_scale() const {
+  virtual FrameScale frame_scale() const {
     return {1.0, Eigen::RowVectorXd::Zero(values().size())};
   }
   /// The true position of the mark with these numbers: effects of the paper are removed.
-  [[nodiscard]] virtual ToolPosition place_of_mark(const ToolPosition& written) const {
-    return written;
-  }
+  virtual ToolPosition place_of_mark(const ToolPosition& written) const { return written; }
   /// What may have changed since it was calibrated. By default: all parameters that zeroing sets,
   /// or one of them, or one of the others.
-  [[nodiscard]] virtual std::vector<MechanismChange> possible_changes() const;
+  virtual std::vector<MechanismChange> possible_changes() const;
 };
 
 /// Base of this library's mechanisms. It holds values, parameters and effects; a derived class
 /// implements how a copy with others is made.
 class MechanismBase : public Mechanism {
  public:
-  [[nodiscard]] std::string_view kind() const final { return kind_; }
-  [[nodiscard]] std::span<const std::string_view> lengths() const final { return lengths_; }
-  [[nodiscard]] std::span<const MechanismParameter> parameters() const final { return parameters_; }
-  [[nodiscard]] const Eigen::VectorXd& values() const final { return values_; }
-  [[nodiscard]] std::span<const effects::Effect* const> effects() const final { return effects_; }
+  std::string_view kind() const final { return kind_; }
+  std::span<const std::string_view> lengths() const final { return lengths_; }
+  std::span<const MechanismParameter> parameters() const final { return parameters_; }
+  const Eigen::VectorXd& values() const final { return values_; }
+  std::span<const effects::Effect* const> effects() const final { return effects_; }
   /// \throws std::invalid_argument also for values that are not finite, or too few or too many.
   [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
       const Eigen::VectorXd& values) const final;
@@ -201,11 +197,11 @@ class MechanismBase : public Mechanism {
         values_(std::move(values)),
         applied_(std::move(applied)) {}
   /// The same mechanism with these values and these effects alone.
-  [[nodiscard]] virtual std::shared_ptr<const Mechanism> rebuild(
-      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const = 0;
-  [[nodiscard]] virtual bool has(effects::Part /*part*/) const { return true; }
-  [[nodiscard]] const std::vector<MechanismParameter>& stated() const { return parameters_; }
-  [[nodiscard]] const std::vector<AppliedEffect>& applied() const { return applied_; }
+  virtual std::shared_ptr<const Mechanism> rebuild(const Eigen::VectorXd& values,
+                                                   std::vector<AppliedEffect> applied) const = 0;
+  virtual bool has(effects::Part /*part*/) const { return true; }
+  const std::vector<MechanismParameter>& stated() const { return parameters_; }
+  const std::vector<AppliedEffect>& applied() const { return applied_; }
   /// \throws std::invalid_argument for lengths that are not as many as lengths().
   void require_all(const Eigen::VectorXd& lengths_mm) const;
 

@@ -25,7 +25,7 @@ struct ChangedQuantity {
   std::vector<std::size_t> lengths = {};  ///< which ones, of `added` and `elongation`
   std::size_t parameter = 0;              ///< which one, of `parameter`
   double mean = 0.0;
-  double sigma = 0.0;      ///< 0: it is `mean`
+  double sigma = 0.0;       ///< 0: it is `mean`
   bool only_grows = false;  ///< half of the Gaussian counts
 };
 
@@ -42,7 +42,7 @@ enum class Change {
   bad_point,  ///< the machine is as it was: one new reading is wrong
 };
 /// As in files.
-[[nodiscard]] std::string_view name(Change what);
+std::string_view name(Change what);
 
 struct MechanismChange {
   Change what = Change::nothing;

@@ -65,9 +65,9 @@ class MarkFrame {
   /// \throws std::invalid_argument for effects that cannot act.
   explicit MarkFrame(const Machine& machine);
   /// The written coordinates of a mark whose true position is `place`.
-  [[nodiscard]] MarkPoint written(MarkPoint place) const;
+  MarkPoint written(MarkPoint place) const;
   /// The true position of the mark with these written coordinates.
-  [[nodiscard]] MarkPoint place(MarkPoint written) const;
+  MarkPoint place(MarkPoint written) const;
 
  private:
   Eigen::Matrix2d written_per_place_;
@@ -84,15 +84,15 @@ class ReadingModel final : public MechanismBase {
   /// d(left, right)/d(setting) for the motor positions and chain zeros, as accurate as the
   /// position_jacobian. \throws std::invalid_argument for the sheet's settings: they move the
   /// point, not the machine.
-  [[nodiscard]] Eigen::Vector2d sensitivity(const PointReading& reading, Setting setting) const;
+  Eigen::Vector2d sensitivity(const PointReading& reading, Setting setting) const;
   /// The tool's position when these lengths are read, searched from `start` (Newton on at(), 1e-9
   /// mm).
   [[nodiscard]] tl::expected<PointReading, PoseFailure> find(ChainLengths lengths,
                                                              BedPoint start) const;
   /// The machine with its values and effects.
-  [[nodiscard]] const Machine& machine() const { return machine_; }
+  const Machine& machine() const { return machine_; }
 
-  [[nodiscard]] MechanismExtent extent() const override;
+  MechanismExtent extent() const override;
   /// Values of effects are not left out.
   [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
       const std::vector<AppliedEffect>& applied) const override;
@@ -102,23 +102,23 @@ class ReadingModel final : public MechanismBase {
       Derivatives wanted = Derivatives::by_position_and_parameter) const override;
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
-  [[nodiscard]] ToolPosition place_of_mark(const ToolPosition& written) const override;
-  [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
+  ToolPosition place_of_mark(const ToolPosition& written) const override;
+  std::vector<MechanismChange> possible_changes() const override;
 
  private:
   friend class Session;
   ReadingModel(const Machine& machine, Model model, std::vector<MechanismParameter> parameters);
-  [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
-      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
+  std::shared_ptr<const Mechanism> rebuild(const Eigen::VectorXd& values,
+                                           std::vector<AppliedEffect> applied) const override;
   /// What effects add to a chain, without those of the visit.
-  [[nodiscard]] effects::Number added(const Pose& pose, Side side) const;
+  effects::Number added(const Pose& pose, Side side) const;
   /// What a visit adds to the reading of a chain, independent of the tool's position: drift, skips
   /// and hysteresis, the latter by the `direction` in which the chain reached its length (+1 paid
   /// out, -1 taken in).
-  [[nodiscard]] double added_at_visit(Side side, int order, double direction) const;
-  [[nodiscard]] Eigen::Vector2d added_at(const MechanismVisit& visit) const;
+  double added_at_visit(Side side, int order, double direction) const;
+  Eigen::Vector2d added_at(const MechanismVisit& visit) const;
   /// The reading of a chain paid out to this length.
-  [[nodiscard]] double counted(double length_mm, Side side) const {
+  double counted(double length_mm, Side side) const {
     return length_mm / (1.0 + elongation_[side]) + machine_.chain_zero[side];
   }
 
@@ -130,7 +130,7 @@ class ReadingModel final : public MechanismBase {
   PerSide<double> elongation_;  ///< sum of the elongations of a chain
 };
 
-[[nodiscard]] std::shared_ptr<const ReadingModel> make_chain_mechanism(const Machine& machine);
+std::shared_ptr<const ReadingModel> make_chain_mechanism(const Machine& machine);
 
 /// A visit of the tool: its true position and its number.
 struct Visit {

@@ -52,11 +52,10 @@ class SpatialKinematics final : public Kinematics {
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override {
     return forward_by_inverse(*this, limits_of(m_), lengths);
   }
-  [[nodiscard]] PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
+  PerSide<ChainNumbers<2>> by_place(const Pose& pose) const override {
     return moved_chains_in_space(m_, pose, inputs_by_place(m_, pose.position));
   }
-  [[nodiscard]] PerSide<ChainNumbers<1>> by_parameter(const Pose& pose,
-                                                      Parameter parameter) const override {
+  PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const override {
     return moved_chains_in_space(m_, pose, inputs_by_parameter(m_, pose.position, parameter));
   }
 

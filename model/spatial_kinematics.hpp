@@ -15,7 +15,6 @@
 namespace chaintrue::model {
 
 /// Accuracy: 1e-10 mm over the default bed, against 40-digit tables.
-[[nodiscard]] std::unique_ptr<const Kinematics> make_spatial_kinematics(
-    const EquilibriumParameters& parameters);
+std::unique_ptr<const Kinematics> make_spatial_kinematics(const EquilibriumParameters& parameters);
 
 }  // namespace chaintrue::model

@@ -53,18 +53,16 @@ struct CutSquare {
   double falling_diagonal_mm = 0.0;  ///< upper left to lower right
   BedPoint offset;                   ///< the cut corners' middle less the commanded one
   double rotation_rad = 0.0;         ///< of the cut corners, counter-clockwise
-  [[nodiscard]] const CutSide& side(SquareSide side) const {
-    return sides[static_cast<std::size_t>(side)];
-  }
+  const CutSide& side(SquareSide side) const { return sides[static_cast<std::size_t>(side)]; }
 };
 
 /// The points of the outline as commanded, in the order of CutSquare::commanded.
 /// \throws std::invalid_argument for a size that is no positive number or fewer than two points to a
 /// side.
-[[nodiscard]] std::vector<BedPoint> outline_of(const SquareTask& task);
+std::vector<BedPoint> outline_of(const SquareTask& task);
 /// The measurements of a square cut through `cut`, one point for each of the outline. \throws
 /// std::invalid_argument as above, and for another number of points.
-[[nodiscard]] CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut);
+CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut);
 
 struct SquarePlace {
   BedPoint commanded;

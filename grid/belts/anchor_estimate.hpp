@@ -25,38 +25,35 @@ namespace chaintrue::grid::belts {
 
 /// Where the four spans of a point come nearest to one another, from where those of the lower
 /// anchors, or of the upper, cross.
-[[nodiscard]] model::FramePoint nearest_place(const model::BeltMachine& machine,
-                                              const BeltPoint& point,
-                                              const model::PerBelt<bool>& counting);
+model::FramePoint nearest_place(const model::BeltMachine& machine,
+                                const BeltPoint& point,
+                                const model::PerBelt<bool>& counting);
 
 /// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
 /// the lengths.
-[[nodiscard]] std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
+std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
 
 /// Readings that count, and the distances; units are places of which three or four readings count.
 /// `about` has a position of each point to linearise about, or is empty. \throws
 /// std::invalid_argument with both distances and positions.
-[[nodiscard]] observation::BeltLengthReadings readings_of(
-    const MeasuredBelts& belts,
-    const Counting& counting,
-    double sigma_mm = 1.0,
-    const std::vector<model::FramePoint>& about = {});
+observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
+                                            const Counting& counting,
+                                            double sigma_mm = 1.0,
+                                            const std::vector<model::FramePoint>& about = {});
 
 /// Four belts at a state, without priors; with a scale if there are distances.
-[[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
-                                                                   const FrameState& state);
+std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
+                                                     const FrameState& state);
 
 /// A hole that was commanded with these anchors in force, from what the controller paid out. A command
 /// that cannot be reached has no lengths, and no mechanism has a position for it.
-[[nodiscard]] observation::AtHole hole_at(const model::BeltMachine& in_force,
-                                          model::BedPoint command);
+observation::AtHole hole_at(const model::BeltMachine& in_force, model::BedPoint command);
 /// A distance as these belts predict it, with the points of the state; empty if a hole cannot be
 /// reached.
-[[nodiscard]] std::optional<observation::DistanceLine> distance_at(
-    const MeasuredBelts& belts,
-    const model::Mechanism& mechanism,
-    const FrameState& state,
-    const BeltDistance& distance);
+std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
+                                                     const model::Mechanism& mechanism,
+                                                     const FrameState& state,
+                                                     const BeltDistance& distance);
 
 /// Every place from its readings and distances, with what counts and the spread as the fit has them; from
 /// all four lengths if too few count.
@@ -65,18 +62,18 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 /// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
 /// Precondition: `belts` has no distances. In its estimate, noise_factor is the spread in mm, and
 /// the first five rows of the covariance are those of the anchors, mm^2.
-[[nodiscard]] estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
-                                                       const Counting& counting,
-                                                       const AnchorVector& start);
+estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
+                                         const Counting& counting,
+                                         const AnchorVector& start);
 
 /// From the likeliest start that leads to a sound frame, with every reading counted; if none does,
 /// the best fit; empty if no start converges.
-[[nodiscard]] std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts);
+std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts);
 /// As above, without outliers.
-[[nodiscard]] std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts);
+std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts);
 /// From a nearby state, with the given readings.
-[[nodiscard]] std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
-                                                        const FrameState& state,
-                                                        const Counting& counting);
+std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
+                                          const FrameState& state,
+                                          const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

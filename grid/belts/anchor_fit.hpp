@@ -45,19 +45,19 @@ struct AnchorFit {
   bool is_sound = false;
 };
 
-[[nodiscard]] AnchorVector anchors_of(const model::BeltMachine& machine);
+AnchorVector anchors_of(const model::BeltMachine& machine);
 [[nodiscard]] model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a);
 
 /// The row of a point's belt among all.
-[[nodiscard]] inline Eigen::Index row_of(std::size_t point, model::Belt belt) {
+inline Eigen::Index row_of(std::size_t point, model::Belt belt) {
   return 4 * as_index(point) + static_cast<Eigen::Index>(belt);
 }
-[[nodiscard]] inline int readings_counting(const model::PerBelt<bool>& counting) {
+inline int readings_counting(const model::PerBelt<bool>& counting) {
   return counting.tl + counting.tr + counting.bl + counting.br;
 }
 /// In a strip no wider than 50 mm: the anchors could lie on either side of it. \pre one place.
-[[nodiscard]] bool are_on_a_line(const std::vector<model::FramePoint>& places);
+bool are_on_a_line(const std::vector<model::FramePoint>& places);
 /// Counted readings minus two per place minus five.
-[[nodiscard]] Eigen::Index checks_of(const Counting& counting);
+Eigen::Index checks_of(const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

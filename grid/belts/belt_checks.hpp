@@ -19,9 +19,9 @@ using BeltPair = std::pair<model::Belt, model::Belt>;
 
 /// Likely exchanges: one pair, followed by its mirror image; then two pairs at once, which give a
 /// valid frame turned over.
-[[nodiscard]] const std::array<std::vector<BeltPair>, 9>& belt_swaps();
+const std::array<std::vector<BeltPair>, 9>& belt_swaps();
 /// "tl and tr swapped and bl and br as well".
-[[nodiscard]] std::string words_of(const std::vector<BeltPair>& swapped);
+std::string words_of(const std::vector<BeltPair>& swapped);
 
 /// Belts whose lengths change places in the whole file.
 struct SwappedBelts {
@@ -34,10 +34,10 @@ struct SwappedBelts {
 };
 /// Swapped belts are considered if the stated lengths fit no frame, or one far from the stated
 /// anchors or commands.
-[[nodiscard]] std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts);
+std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts);
 
 /// The frame fitted to the lengths without a tape; empty if they fit none.
-[[nodiscard]] std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts);
+std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts);
 
 /// A point whose lengths do not meet.
 struct NowherePoint {
@@ -45,8 +45,7 @@ struct NowherePoint {
   double residual_mm = 0.0;  ///< residual of the worst belt at the best place
 };
 /// With the anchors fitted to the other points.
-[[nodiscard]] std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
-                                                       const belts::AnchorFit& frame);
+std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const belts::AnchorFit& frame);
 
 /// A reading that the other three belts contradict, and the writing error that would explain it.
 struct BeltQuestion {
@@ -54,8 +53,8 @@ struct BeltQuestion {
   model::Belt belt{};
   std::string sentence;
 };
-[[nodiscard]] std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
-                                                           const belts::AnchorFit& frame);
+std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
+                                             const belts::AnchorFit& frame);
 
 /// A taped distance that no scale of the belts explains: off by more than 1.5 % and five sigmas
 /// from the prediction by lengths alone or, if the other tapes agree with it, by more than an
@@ -65,8 +64,8 @@ struct DistanceQuestion {
   double by_belts_mm = 0.0;
   std::string question;
 };
-[[nodiscard]] std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
-                                                                const belts::AnchorFit& frame);
+std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
+                                                  const belts::AnchorFit& frame);
 
 struct OtherUnit {
   const char* word;
@@ -74,6 +73,6 @@ struct OtherUnit {
   double found;   ///< the median length, unchanged
 };
 /// If no frame is as small as these lengths.
-[[nodiscard]] std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts);
+std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

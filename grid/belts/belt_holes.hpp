@@ -64,9 +64,9 @@ struct TapedRows {
 };
 /// Empty if the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
 /// machine whose anchors in force are not known.
-[[nodiscard]] std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
-                                                  const AnchorVector& anchors,
-                                                  double log_scale);
+std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
+                                    const AnchorVector& anchors,
+                                    double log_scale);
 
 /// Size and reach of the displacement, and the factor on the stated noise.
 struct TapedNoise {
@@ -75,7 +75,7 @@ struct TapedNoise {
   double reach_mm = 1.0;
 };
 /// (1), with rejected distances given no weight.
-[[nodiscard]] Eigen::MatrixXd taped_covariance(const TapedRows& rows,
-                                               const TapedNoise& noise,
-                                               const std::vector<bool>& counting);
+Eigen::MatrixXd taped_covariance(const TapedRows& rows,
+                                 const TapedNoise& noise,
+                                 const std::vector<bool>& counting);
 }  // namespace chaintrue::grid::belts

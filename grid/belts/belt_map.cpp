@@ -90,8 +90,7 @@ class Placing {
   }
 
   /// `lengths` is what the mechanism's lengths count.
-  [[nodiscard]] PlacedMechanism at(const Eigen::VectorXd& unknowns,
-                                   model::BeltLengths lengths) const {
+  PlacedMechanism at(const Eigen::VectorXd& unknowns, model::BeltLengths lengths) const {
     model::BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
     const FramePoint centre = model::centre_of(in_force_);
     SheetInFrame sheet{{}, std::exp(unknowns[kAnchorUnknowns]), {centre.x_mm, centre.y_mm}};
@@ -105,7 +104,7 @@ class Placing {
     return {model::make_belt_mechanism(machine), std::move(sheet)};
   }
 
-  [[nodiscard]] std::vector<MarkPoint> measured() const {
+  std::vector<MarkPoint> measured() const {
     std::vector<MarkPoint> points;
     for (const Reference& reference : references_)
       points.push_back(model::identity_placement(reference.commanded));

@@ -29,10 +29,10 @@
 namespace chaintrue::grid {
 
 /// The machine as stated before the fit. \throws std::invalid_argument if it was not stated.
-[[nodiscard]] model::BeltMachine machine_in_force(const BeltsFit& fit);
+model::BeltMachine machine_in_force(const BeltsFit& fit);
 
 /// A machine whose upper lengths are the belts' own.
-[[nodiscard]] model::BeltMachine paying_out(model::BeltMachine machine);
+model::BeltMachine paying_out(model::BeltMachine machine);
 
 /// Immutable, thread safe. Lengths are tl, tr, bl, br; the lower two follow the tool.
 class BeltMap final : public MechanismMap {
@@ -44,7 +44,7 @@ class BeltMap final : public MechanismMap {
   /// Without a scale from a tape, the tool's error in true millimetres is unknown.
   [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
   /// The controller's machine when the places or holes were commanded.
-  [[nodiscard]] const model::BeltMachine& in_force() const { return in_force_; }
+  const model::BeltMachine& in_force() const { return in_force_; }
 
  private:
   model::BeltMachine in_force_;

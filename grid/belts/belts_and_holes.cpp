@@ -46,11 +46,11 @@ struct TapedMarginal {
   double log_likelihood = 0.0;
   std::vector<bool> counting;
 
-  [[nodiscard]] double left_out_mm(Eigen::Index k) const {
+  double left_out_mm(Eigen::Index k) const {
     return (inverse.row(k) * residual_mm)(0) / inverse(k, k);
   }
   /// The tape's variance plus that of the prediction, without what was added for rejection.
-  [[nodiscard]] double left_out_sigma_mm(Eigen::Index k) const {
+  double left_out_sigma_mm(Eigen::Index k) const {
     const double added = counting[as_size(k)] ? 0.0 : kRejectedMm2;
     return std::sqrt(1.0 / inverse(k, k) - added);
   }
@@ -97,8 +97,7 @@ double log_prior(double factor, double dof) {
 double extent_mm(const std::vector<model::MarkPoint>& marks) {
   double widest = 0.0;
   for (const model::MarkPoint& a : marks) {
-    for (const model::MarkPoint& b : marks)
-      widest = std::max(widest, distance_mm(a, b));
+    for (const model::MarkPoint& b : marks) widest = std::max(widest, distance_mm(a, b));
   }
   return widest;
 }
@@ -115,7 +114,7 @@ struct Chosen {
     best = log_posterior;
     noise = candidate;
   }
-  [[nodiscard]] double mean() const {
+  double mean() const {
     double sum = 0.0;
     for (const double one : all) sum += std::exp(one - best);
     return best + std::log(sum / as_double(all.size()));

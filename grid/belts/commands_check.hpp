@@ -30,7 +30,7 @@ struct AgainstCommands {
   std::optional<std::vector<BeltPair>> swapped;
 };
 /// Empty if no anchors are in force, or no place has a command that they reach.
-[[nodiscard]] std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts);
+std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts);
 
 /// The stated anchors are not those of the measured frame. Either a stated coordinate is many
 /// sigmas from the fitted one, or the upper two belts, by which the machine moves, do not read what
@@ -43,7 +43,7 @@ struct OtherFrame {
   double upper_mm = 0.0;
 };
 /// `frame` is the fit without a tape. Empty if the stated anchors may be right or none are stated.
-[[nodiscard]] std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
-                                                              const belts::AnchorFit& frame);
+std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
+                                                const belts::AnchorFit& frame);
 
 }  // namespace chaintrue::grid

@@ -39,7 +39,7 @@ struct ReadingLines {
   Eigen::VectorXd residual_mm;  ///< read less predicted
   Eigen::MatrixX2d by_place;    ///< d(predicted)/d(place)
 };
-[[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
+ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
 /// Includes the residuals of the distances.
 struct FitResiduals : ReadingLines {
@@ -51,31 +51,31 @@ class FitDiagnostics {
   FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
 
   /// Residuals at places with too few readings, about the fitted place.
-  [[nodiscard]] const FitResiduals& equations() const { return equations_; }
-  [[nodiscard]] double sigma_mm() const { return frame_.residual_sigma_mm; }
-  [[nodiscard]] const AnchorFit& frame() const { return frame_; }
+  const FitResiduals& equations() const { return equations_; }
+  double sigma_mm() const { return frame_.residual_sigma_mm; }
+  const AnchorFit& frame() const { return frame_; }
   /// For a. Not finite, or with a negative diagonal, if it is not determined.
-  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
   /// cov(a)^-1.
-  [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }
-  [[nodiscard]] bool has_scale() const { return covariance_.cols() > kAnchorUnknowns; }
-  [[nodiscard]] bool counts(std::size_t point, model::Belt belt) const {
+  const Eigen::MatrixXd& precision() const { return precision_; }
+  bool has_scale() const { return covariance_.cols() > kAnchorUnknowns; }
+  bool counts(std::size_t point, model::Belt belt) const {
     return is_placed(point) && frame_.counting[point][belt];
   }
 
   /// At least two of its readings count.
-  [[nodiscard]] bool is_placed(std::size_t point) const { return slots_[point].has_value(); }
+  bool is_placed(std::size_t point) const { return slots_[point].has_value(); }
   /// A tape ends there.
-  [[nodiscard]] bool is_taped(std::size_t point) const {
+  bool is_taped(std::size_t point) const {
     return slots_[point] && blocks_[slots_[point]->block].is_taped;
   }
 
-  [[nodiscard]] Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
+  Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
 
   /// w cov(a) x': the response of a to a reading.
-  [[nodiscard]] Eigen::VectorXd influence(std::size_t point, model::Belt belt) const;
+  Eigen::VectorXd influence(std::size_t point, model::Belt belt) const;
 
-  [[nodiscard]] BeltResidual residual(std::size_t point, model::Belt belt) const;
+  BeltResidual residual(std::size_t point, model::Belt belt) const;
 
   /// A distance as predicted by the fit, and its sigma.
   struct Expected {
@@ -84,11 +84,10 @@ class FitDiagnostics {
     double with_scale = 0.0;  ///< covariance with the scale's logarithm, if there is one
   };
   /// Empty if too few readings determine one of its ends.
-  [[nodiscard]] std::optional<Expected> expected(const MeasuredBelts& belts,
-                                                 const BeltDistance& distance) const;
+  std::optional<Expected> expected(const MeasuredBelts& belts, const BeltDistance& distance) const;
 
   /// The anchors without the readings of a point that no tape ends at, to first order.
-  [[nodiscard]] AnchorVector anchors_without(std::size_t point) const;
+  AnchorVector anchors_without(std::size_t point) const;
 
  private:
   struct Block {
@@ -98,10 +97,10 @@ class FitDiagnostics {
     Eigen::MatrixXd left;        ///< X
     bool is_taped = false;
     /// X' w A, and the gradient X' w r.
-    [[nodiscard]] Eigen::MatrixXd precision() const {
+    Eigen::MatrixXd precision() const {
       return left.transpose() * line.weight.asDiagonal() * line.by_parameter;
     }
-    [[nodiscard]] Eigen::VectorXd gradient() const {
+    Eigen::VectorXd gradient() const {
       return left.transpose() * line.weight.cwiseProduct(line.residual_mm);
     }
   };
@@ -109,9 +108,7 @@ class FitDiagnostics {
   struct Slot {
     std::size_t block = 0;
     Eigen::Index place = 0;
-    [[nodiscard]] Eigen::Index row(model::Belt belt) const {
-      return 4 * place + static_cast<Eigen::Index>(belt);
-    }
+    Eigen::Index row(model::Belt belt) const { return 4 * place + static_cast<Eigen::Index>(belt); }
   };
 
   AnchorFit frame_;

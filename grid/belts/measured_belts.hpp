@@ -82,26 +82,26 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
 
 /// Belts that the firmware pulls at a place: on an upright frame the lower two; on a flat one those
 /// behind the last move, and at the first six places the lower two. `visit` counts from 0.
-[[nodiscard]] std::vector<model::Belt> pulled_after(model::Orientation orientation,
-                                                    model::BedPoint from,
-                                                    model::BedPoint to,
-                                                    std::size_t visit);
+std::vector<model::Belt> pulled_after(model::Orientation orientation,
+                                      model::BedPoint from,
+                                      model::BedPoint to,
+                                      std::size_t visit);
 /// The lengths alone.
 [[nodiscard]] MeasuredBelts without_distances(MeasuredBelts belts);
 
 /// Whether a motor pulled this belt at the reading.
-[[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
+bool is_pulled(const BeltPoint& point, model::Belt belt);
 /// For all four belts.
-[[nodiscard]] model::PerBelt<bool> pulled_belts(const BeltPoint& point);
+model::PerBelt<bool> pulled_belts(const BeltPoint& point);
 /// The pull that sizes of effects refer to; empty if no point has one.
-[[nodiscard]] std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);
+std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);
 /// Over `reference`; 1 where either is not known.
-[[nodiscard]] double pull_over(const std::optional<BeltPull>& reference, const BeltPoint& point);
+double pull_over(const std::optional<BeltPull>& reference, const BeltPoint& point);
 /// The different pulls of a session over the reference, in order; {1} where all are equal.
-[[nodiscard]] std::vector<double> different_pulls(const MeasuredBelts& belts);
+std::vector<double> different_pulls(const MeasuredBelts& belts);
 /// "1200 mA", "150 N", "1.6 times".
-[[nodiscard]] std::string words_of(const BeltPull& pull);
+std::string words_of(const BeltPull& pull);
 /// "point 3", "the top left anchor", "the hole at (-900, 300)".
-[[nodiscard]] std::string words_of(const BeltEnd& end);
+std::string words_of(const BeltEnd& end);
 
 }  // namespace chaintrue::grid

@@ -15,11 +15,11 @@ namespace chaintrue::grid {
 /// Each point's index in the file, from 0; empty: none was left out.
 using PointIndices = std::vector<std::size_t>;
 
-[[nodiscard]] inline std::size_t index_in_file(const PointIndices& indices, std::size_t point) {
+inline std::size_t index_in_file(const PointIndices& indices, std::size_t point) {
   return point < indices.size() ? indices[point] : point;
 }
 /// "point 3" as the file counts, from 1; an anchor, or a hole.
-[[nodiscard]] inline std::string words_of(const BeltEnd& end, const PointIndices& indices) {
+inline std::string words_of(const BeltEnd& end, const PointIndices& indices) {
   const auto* point = std::get_if<std::size_t>(&end);
   return words_of(point != nullptr ? BeltEnd(index_in_file(indices, *point)) : end);
 }

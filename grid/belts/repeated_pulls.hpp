@@ -25,9 +25,9 @@ struct RepeatedPull {
 };
 
 /// Consecutive points, each taken once, whose belts that hold agree to a millimetre.
-[[nodiscard]] std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts);
+std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts);
 
 /// The result as a sentence; empty if there are none.
-[[nodiscard]] std::string repeated_pulls_in_words(const MeasuredBelts& belts);
+std::string repeated_pulls_in_words(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

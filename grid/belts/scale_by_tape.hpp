@@ -29,7 +29,6 @@ struct DistanceForScale {
 };
 /// Holes where the anchors in force are known, else points of the file. Empty for a fit without
 /// places.
-[[nodiscard]] std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
-                                                                 const BeltsFit& fit);
+std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts, const BeltsFit& fit);
 
 }  // namespace chaintrue::grid

@@ -16,6 +16,6 @@ namespace chaintrue::grid {
 
 /// The first point of the second frame, if all points together fit no frame and each part fits one.
 /// Both parts have kFewestBeltPoints or more.
-[[nodiscard]] std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts);
+std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

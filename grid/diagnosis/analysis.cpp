@@ -137,11 +137,10 @@ void speak_of_leaders(const RegressorSystem& system,
       if (members.front() == own || !contains(members, own)) {
         continue;
       }
-      auto* alone =
-          find_where(comparison.models, [&](const CandidateModel& model) {
-            return model.regressors.size() == 1 &&
-                   system.regressor(model.regressors.front()).cause == members.front();
-          });
+      auto* alone = find_where(comparison.models, [&](const CandidateModel& model) {
+        return model.regressors.size() == 1 &&
+               system.regressor(model.regressors.front()).cause == members.front();
+      });
       if (alone != nullptr) k = alone->regressors.front();
     }
   }
@@ -216,14 +215,14 @@ class CalibratedRules final : public AnalysisRules {
     share_out_links(a.system);
     return {};
   }
-  [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool /*last*/) const override {
+  ComparisonOptions compared(const Analysis& a, bool /*last*/) const override {
     ComparisonOptions options{.given_cause = a.options.given_cause};
     // A smooth pattern is one of chain lengths over the bed.
     options.discrepancies = a.session.is_of_chains();
     if (!a.comparison.models.empty()) options.kernels = best_kernels(a.comparison);
     return options;
   }
-  [[nodiscard]] bool refit(Analysis& a) const override {
+  bool refit(Analysis& a) const override {
     if (a.decision.regressors.empty()) return false;
     relinearise(a);
     return true;

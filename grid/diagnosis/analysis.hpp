@@ -21,7 +21,7 @@ struct Analysis {
   ObservationSet session;
   DiagnosisOptions options;
   bool converged = true;  ///< the calibration converged
-  State state;          ///< settings about which the system is linear, without any named effect
+  State state;            ///< settings about which the system is linear, without any named effect
   std::vector<SizedCause> known;  ///< secants of these are taken at their values
   Candidates candidates;
   RegressorSystem system;
@@ -56,12 +56,13 @@ class AnalysisRules {
 
   /// The system linearised about the state, with the regressors of all testable causes.
   [[nodiscard]] virtual tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const = 0;
-  [[nodiscard]] virtual ComparisonOptions compared(const Analysis& a, bool last) const = 0;
+  virtual ComparisonOptions compared(const Analysis& a, bool last) const = 0;
   /// Moves state and known causes to their values in the decision; false if another round would
   /// find the same.
-  [[nodiscard]] virtual bool refit(Analysis& a) const = 0;
+  virtual bool refit(Analysis& a) const = 0;
   /// The regressors against which noise is drawn, about a state that does not depend on it; empty: those compared.
-  [[nodiscard]] virtual std::optional<RegressorSystem> tried_with_noise(const Analysis& /*a*/) const {
+  [[nodiscard]] virtual std::optional<RegressorSystem> tried_with_noise(
+      const Analysis& /*a*/) const {
     return std::nullopt;
   }
   /// The units that a decision leaves out. `detected`: the strongest effect exceeds what noise
@@ -81,12 +82,12 @@ void decide_by(const AnalysisRules& rules, bool detected, Analysis& a);
 void judge(const AnalysisRules& rules, Analysis& a);
 /// Compares and judges the causes again about the same state, after subtracting `rows` (whitened,
 /// one for each row of the system) from the readings.
-[[nodiscard]] Analysis analyse_without(Analysis analysis,
-                                       const Eigen::VectorXd& rows,
-                                       const AnalysisRules& rules);
+Analysis analyse_without(Analysis analysis,
+                         const Eigen::VectorXd& rows,
+                         const AnalysisRules& rules);
 
 /// For every machine except four belts.
-[[nodiscard]] const AnalysisRules& calibrated_rules();
+const AnalysisRules& calibrated_rules();
 
 /// Fails with a sentence if the machine cannot reach a place where it was measured.
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,

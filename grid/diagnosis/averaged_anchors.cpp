@@ -53,7 +53,7 @@ struct SizePrior {
   double wide = 0.0;
   /// Log ratio of the evidence with the usual prior to that with the comparison's mixture, for a
   /// coefficient that the readings alone put at `at` with this variance.
-  [[nodiscard]] double log_evidence(double at, double variance) const {
+  double log_evidence(double at, double variance) const {
     const auto log_density = [&](double prior) {
       return -0.5 * (at * at / (variance + prior) + std::log(variance + prior));
     };
@@ -126,7 +126,7 @@ struct SizeMoments {
     most = own;
     weightiest = cause;
   }
-  [[nodiscard]] AveragedCause averaged() const {
+  AveragedCause averaged() const {
     AveragedCause result{weightiest, 0.0, 0.0};
     const double mean = first / weight;
     result.cause.values.front() = mean;
@@ -186,7 +186,7 @@ class Averaging {
   }
 
   /// The likeliest expected cause, and all others more likely than not.
-  [[nodiscard]] std::vector<Key> reported_causes() const {
+  std::vector<Key> reported_causes() const {
     double most = 0.0;
     for (const auto& [key, moments] : sizes_) {
       if (moments.expected) most = std::max(most, moments.weight);
@@ -201,7 +201,7 @@ class Averaging {
 
   /// Mean over the models with exactly these causes, or over all models if none has: anchors belong
   /// to the causes reported with them.
-  [[nodiscard]] belts::AnchorVector change_with(const std::vector<Key>& causes) const {
+  belts::AnchorVector change_with(const std::vector<Key>& causes) const {
     belts::AnchorVector sum = belts::AnchorVector::Zero();
     double weight = 0.0;
     for (const Part& part : parts_) {
@@ -215,7 +215,7 @@ class Averaging {
   }
 
   /// Replaces the comparison's prior of causes by kWeights.
-  [[nodiscard]] double log_prior_change(const CandidateModel& model) const {
+  double log_prior_change(const CandidateModel& model) const {
     const bool smooth = model.discrepancy >= 0;
     double change = log_prior(system_, {}, smooth) - log_prior(system_, model.regressors, smooth);
     bool gives = false;

@@ -46,7 +46,6 @@ struct AveragedAnchors {
 
 /// \pre the system is linear about these anchors. \throws std::invalid_argument for a comparison without a
 /// model.
-[[nodiscard]] AveragedAnchors averaged_anchors(const belts::AnchorVector& about,
-                                               const Analysis& analysis);
+AveragedAnchors averaged_anchors(const belts::AnchorVector& about, const Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

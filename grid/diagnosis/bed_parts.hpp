@@ -42,9 +42,9 @@ struct BedPart {
 /// outlier groups); only those that leave at least `fewest` units, not on one line. A distance
 /// counts at its midpoint. Empty where fewer than half of the sixteen can be formed: the least
 /// number of readings in which one direction does not outweigh the others.
-[[nodiscard]] std::vector<BedPart> bed_parts(const RegressorSystem& system,
-                                             const Flags& excluded,
-                                             std::size_t fewest);
+std::vector<BedPart> bed_parts(const RegressorSystem& system,
+                               const Flags& excluded,
+                               std::size_t fewest);
 
 /// The result from some of the readings alone.
 struct PartPosterior {
@@ -56,9 +56,9 @@ struct PartPosterior {
 
 /// Replaces the weights by averaged probabilities and returns the results of the parts. The
 /// comparison is unchanged if no parts can be formed or a pattern is not more likely than not.
-[[nodiscard]] std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
-                                                            std::size_t fewest,
-                                                            ModelComparison& comparison);
+std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
+                                              std::size_t fewest,
+                                              ModelComparison& comparison);
 
 /// Results of each session alone; sessions of fewer than `fewest` units are left out, and the
 /// result is empty if fewer than two remain. \pre The comparison's weights are those of all
@@ -68,8 +68,8 @@ struct SessionPosterior {
   std::size_t units = 0;
   PartPosterior posterior;
 };
-[[nodiscard]] std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
-                                                               std::size_t fewest,
-                                                               const ModelComparison& comparison);
+std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
+                                                 std::size_t fewest,
+                                                 const ModelComparison& comparison);
 
 }  // namespace chaintrue::grid::diagnosis

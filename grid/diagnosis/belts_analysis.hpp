@@ -25,9 +25,9 @@ class BeltRules final : public AnalysisRules {
  public:
   explicit BeltRules(BeltsAnalysis& belts);
   [[nodiscard]] tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const override;
-  [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool last) const override;
+  ComparisonOptions compared(const Analysis& a, bool last) const override;
   /// The state is unchanged if that does not converge.
-  [[nodiscard]] bool refit(Analysis& a) const override;
+  bool refit(Analysis& a) const override;
   [[nodiscard]] std::optional<RegressorSystem> tried_with_noise(const Analysis& a) const override;
   void restrain(bool detected, Analysis& a) const override;
 
@@ -42,13 +42,12 @@ class BeltRules final : public AnalysisRules {
 
 /// The frame with the readings and the causes that the decision keeps; empty if that does not
 /// converge.
-[[nodiscard]] std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts,
-                                                           const Analysis& decided);
+std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& decided);
 
 /// For each reading, whether the decision keeps it.
-[[nodiscard]] belts::Counting decided_counting(const Analysis& analysis);
+belts::Counting decided_counting(const Analysis& analysis);
 
 /// The analysis with patterns of single belts added, for weighing laws.
-[[nodiscard]] Analysis analysis_of_laws(const BeltsAnalysis& analysis);
+Analysis analysis_of_laws(const BeltsAnalysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -52,7 +52,7 @@ struct SecondPass {
   double raises_probability_to = 0.0;
 };
 /// A proposed measurement, and its value.
-[[nodiscard]] std::string in_words(const SecondPass& pass);
+std::string in_words(const SecondPass& pass);
 
 struct BeltsFindings {
   model::BeltMachine machine;  ///< with the anchors fitted with the causes
@@ -69,7 +69,7 @@ struct BeltsFindings {
   ToolError tool;
   std::optional<BeltScale> scale;
   std::optional<FirmwareFit> firmware_fit;
-  std::vector<BeltPlacePicture> places;  ///< in the order of the file
+  std::vector<BeltPlacePicture> places;   ///< in the order of the file
   std::optional<SecondPass> second_pass;  ///< if it separates causes that nothing less separates
 };
 

@@ -82,7 +82,7 @@ class NextPlaces {
   }
 
   /// Each alternative's prediction; sets the rows of the candidates.
-  [[nodiscard]] std::vector<Alternative> predicted() {
+  std::vector<Alternative> predicted() {
     const RegressorSystem system =
         system_of(belts, state, observations_of(belts, state, a_.sigma_mm));
     for (std::size_t u = 0; u < system.units.size() && !candidates.empty(); ++u) {

@@ -9,14 +9,14 @@
 namespace chaintrue::grid::diagnosis {
 
 /// fit_with_causes() with an analysis of the same belts that is not judged yet.
-[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const BeltsAnalysis& analysis);
+[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(
+    const BeltsAnalysis& analysis);
 
 /// Prediction of the lower belts of each half of the places by a fit to the other, including the
 /// causes' sizes; empty with too few places.
-[[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(
-    const MeasuredBelts& belts,
-    const belts::AnchorFit& frame,
-    const std::vector<SizedCause>& causes);
+std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
+                                                   const belts::AnchorFit& frame,
+                                                   const std::vector<SizedCause>& causes);
 
 /// Rejected readings (a place with more than one is listed as a whole), the unexplained pattern if the
 /// decision has one, else only its probability, and `belts` without a second pass.
@@ -43,13 +43,12 @@ struct BeltsNext {
   bool is_open = false;  ///< two explanations or more remain
 };
 /// `indices`: positions of the points in their file.
-[[nodiscard]] BeltsNext next_measurements(const BeltsAnalysis& analysis,
-                                          const PointIndices& indices);
+BeltsNext next_measurements(const BeltsAnalysis& analysis, const PointIndices& indices);
 
 /// What to measure next; last, if no tape determines the scale, the distance that would.
-[[nodiscard]] std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& analysis,
-                                                           const BeltsNext& next,
-                                                           const PointIndices& indices);
+std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& analysis,
+                                             const BeltsNext& next,
+                                             const PointIndices& indices);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
 void put_into_words(const BeltsAnalysis& analysis, const BeltsNext& next, Diagnosis& diagnosis);

@@ -33,14 +33,13 @@
 namespace chaintrue::grid::diagnosis {
 
 /// As effects of the belts' table.
-[[nodiscard]] std::vector<model::effects::ActingEffect> resolved(
-    const std::vector<SizedCause>& causes);
+std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>& causes);
 
 /// What the causes add to the printed lengths, 4 N numbers in mm in the order of row_of(); 0 for
 /// readings that such a machine cannot give.
-[[nodiscard]] Eigen::VectorXd added_by(const MeasuredBelts& belts,
-                                       const std::vector<SizedCause>& causes,
-                                       const belts::FrameState& state);
+Eigen::VectorXd added_by(const MeasuredBelts& belts,
+                         const std::vector<SizedCause>& causes,
+                         const belts::FrameState& state);
 
 /// The readings minus that.
 [[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
@@ -50,10 +49,10 @@ namespace chaintrue::grid::diagnosis {
 /// The readings that count, by default all, about a state; units are points of which three or four
 /// count. A point that the machine cannot reach there (a gross error) is linearised about the frame's
 /// middle. \pre no distances.
-[[nodiscard]] ObservationSet observations_of(const MeasuredBelts& belts,
-                                             const belts::FrameState& state,
-                                             double sigma_mm,
-                                             const belts::Counting& counting = {});
+ObservationSet observations_of(const MeasuredBelts& belts,
+                               const belts::FrameState& state,
+                               double sigma_mm,
+                               const belts::Counting& counting = {});
 
 /// Converged anchors, places and sizes; `belts` are the readings corrected for the causes.
 struct FitGivenCauses : belts::Refitted {
@@ -61,25 +60,25 @@ struct FitGivenCauses : belts::Refitted {
 };
 /// From a nearby state; whole-number sizes are fixed, others stay in their ranges. Empty if it does
 /// not converge. \pre no distances.
-[[nodiscard]] std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
-                                                             std::vector<SizedCause> causes,
-                                                             const belts::AnchorFit& from);
+std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
+                                               std::vector<SizedCause> causes,
+                                               const belts::AnchorFit& from);
 
 /// What would reveal the causes that these data cannot show.
-[[nodiscard]] Candidates candidates(const MeasuredBelts& belts);
+Candidates candidates(const MeasuredBelts& belts);
 
 /// The system of readings that all count, about this state, with a regressor for each of `causes`
 /// at every place where it may set in. Regressors of known causes are secants at their values.
-[[nodiscard]] RegressorSystem system_of(const MeasuredBelts& belts,
-                                        const belts::FrameState& state,
-                                        const ObservationSet& session,
-                                        const std::vector<CauseId>& causes = {},
-                                        const std::vector<SizedCause>& known = {});
+RegressorSystem system_of(const MeasuredBelts& belts,
+                          const belts::FrameState& state,
+                          const ObservationSet& session,
+                          const std::vector<CauseId>& causes = {},
+                          const std::vector<SizedCause>& known = {});
 
 /// What a cause adds to the checks of a system of these belts about this state, whitened.
-[[nodiscard]] Eigen::VectorXd column_of(const MeasuredBelts& belts,
-                                        const belts::FrameState& state,
-                                        const RegressorSystem& system,
-                                        const SizedCause& cause);
+Eigen::VectorXd column_of(const MeasuredBelts& belts,
+                          const belts::FrameState& state,
+                          const RegressorSystem& system,
+                          const SizedCause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -8,20 +8,20 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Column k of the analysis' system.
-[[nodiscard]] const Regressor& regressor(const Analysis& analysis, int k);
+const Regressor& regressor(const Analysis& analysis, int k);
 
 /// The marginalised system in which the decision was made.
-[[nodiscard]] const MarginalisedSystem& marginalised_system(const Analysis& analysis);
+const MarginalisedSystem& marginalised_system(const Analysis& analysis);
 
 /// The most probable column of a cause over the comparison's models, or its best-scoring one; -1 if
 /// it has none.
-[[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
+int best_regressor(const Analysis& analysis, const CauseId& cause);
 
 /// Flags the units whose readings are explained only by a cause at one visit.
 void reject_slips(const Analysis& analysis, Flags& outliers);
 
 /// Whether no points distinguish the two.
-[[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
+bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
 
 /// The column most similar to another, among causes that are neither of its class nor named; -1 if
 /// there is none.
@@ -29,7 +29,7 @@ struct Nearest {
   int column = -1;
   double collinearity = 0.0;  ///< |cosine| of the two
 };
-[[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
+Nearest nearest_other(const Analysis& analysis, int column);
 
 /// The named causes, or else the leading ones, and the cause most similar to the first, for
 /// pictures side by side.
@@ -37,12 +37,12 @@ struct Shown {
   RegressorSet best;
   RegressorSet rival;
 };
-[[nodiscard]] Shown shown(const Analysis& analysis);
+Shown shown(const Analysis& analysis);
 
 /// Estimate with these columns, given the decision's discrepancy, if any.
-[[nodiscard]] Estimate estimate_with(const Analysis& analysis, RegressorSet columns);
+Estimate estimate_with(const Analysis& analysis, RegressorSet columns);
 
 /// Estimate with these columns and no discrepancy.
-[[nodiscard]] Estimate estimate_of(const Analysis& analysis, const RegressorSet& columns);
+Estimate estimate_of(const Analysis& analysis, const RegressorSet& columns);
 
 }  // namespace chaintrue::grid::diagnosis

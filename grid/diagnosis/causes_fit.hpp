@@ -81,7 +81,7 @@ struct HeldOutBlocksError {
 
 struct CausesFit {
   JointFit fit;
-  std::vector<Cause> built_on;         ///< empty: the plain map
+  std::vector<Cause> built_on;  ///< empty: the plain map
   std::vector<OfferedCause> offered;
   std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
   /// Rms of (2) at the tool over the measured part, mm; zero if it is too small to be known, and nothing is added.
@@ -95,19 +95,19 @@ struct CausesFit {
     const Measured& measured, const CausesFitOptions& options = {});
 /// The same, given the named causes and the plain map. `naming_helps` is asked at most once:
 /// whether naming_improves_the_map().
-[[nodiscard]] CausesFit fit_on_causes(const Measured& measured,
-                                      const Naming& naming,
-                                      JointFit plain,
-                                      const CausesFitOptions& options,
-                                      const std::function<bool()>& naming_helps);
+CausesFit fit_on_causes(const Measured& measured,
+                        const Naming& naming,
+                        JointFit plain,
+                        const CausesFitOptions& options,
+                        const std::function<bool()>& naming_helps);
 
 /// Sentences for the owner: what the map is built on and what is offered.
-[[nodiscard]] std::vector<std::string> in_words(const CausesFit& fit);
+std::vector<std::string> in_words(const CausesFit& fit);
 
 /// A cause as in a machine file.
-[[nodiscard]] model::AppliedEffect applied(const Cause& cause);
+model::AppliedEffect applied(const Cause& cause);
 /// The same with its size divided among its possible places; a single one if its place is certain,
 /// or if no step or bend depends on it.
-[[nodiscard]] std::vector<model::AppliedEffect> applied_over_places(const Cause& cause);
+std::vector<model::AppliedEffect> applied_over_places(const Cause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

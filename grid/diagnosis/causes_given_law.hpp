@@ -18,21 +18,19 @@ namespace chaintrue::grid::diagnosis {
 
 /// The likeliest law's contribution to the readings, whitened; empty if none is claimed, or if
 /// removing it cannot change a name.
-[[nodiscard]] std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& analysis,
-                                                                 const LawsFound& laws);
+std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& analysis, const LawsFound& laws);
 
 /// Causes that only one of two comparisons names: first those named given the law, the likeliest
 /// first.
-[[nodiscard]] std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law,
-                                                        const Analysis& given_law);
+std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law, const Analysis& given_law);
 
 /// Withdraws the names that are less likely than not given the law. Probabilities become those
 /// given the law.
 void take_names_back(const Analysis& given_law, Analysis& analysis);
 
 /// The changes of names once a claimed law is known; causes that are no longer named are withdrawn.
-[[nodiscard]] std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
-                                                        const AnalysisRules& rules,
-                                                        Analysis& analysis);
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
+                                          const AnalysisRules& rules,
+                                          Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -45,16 +45,14 @@ enum class Coordinate {
   place,          ///< both x and y
 };
 /// Its name in files.
-[[nodiscard]] std::string_view name(Coordinate of);
+std::string_view name(Coordinate of);
 /// "mm", "rad", "n", "visit": what a parameter's name ends in.
-[[nodiscard]] std::string_view unit_of(Coordinate of);
+std::string_view unit_of(Coordinate of);
 /// The chain or belt that it belongs to, if any.
-[[nodiscard]] std::optional<model::Side> chain_of(Coordinate of);
-[[nodiscard]] std::optional<model::Belt> belt_of(Coordinate of);
+std::optional<model::Side> chain_of(Coordinate of);
+std::optional<model::Belt> belt_of(Coordinate of);
 
 /// `across_rad`: of Coordinate::across, from x towards y. \pre A coordinate of such a machine, and not the place.
-[[nodiscard]] double value_at(const estimation::SystemPlace& place,
-                              Coordinate of,
-                              double across_rad = 0.0);
+double value_at(const estimation::SystemPlace& place, Coordinate of, double across_rad = 0.0);
 
 }  // namespace chaintrue::grid::diagnosis

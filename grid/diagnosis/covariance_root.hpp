@@ -28,32 +28,32 @@ class CovarianceRoot {
 
   /// V^(-1/2) m.
   template <class M>
-  [[nodiscard]] linear::Like<M> solve(const M& m) const {
+  linear::Like<M> solve(const M& m) const {
     return multiplied<linear::Like<M>>(-0.5, m);
   }
   /// V^(1/2) m.
   template <class M>
-  [[nodiscard]] linear::Like<M> times(const M& m) const {
+  linear::Like<M> times(const M& m) const {
     return multiplied<linear::Like<M>>(0.5, m);
   }
   /// T with V^-1 = 1 - T T'.
-  [[nodiscard]] Eigen::MatrixXd explained() const;
+  Eigen::MatrixXd explained() const;
   /// The block of V^(-1) of this size that starts at these indices.
-  [[nodiscard]] Eigen::MatrixXd precision_block(Eigen::Index row,
-                                                Eigen::Index rows,
-                                                Eigen::Index column,
-                                                Eigen::Index columns) const;
-  [[nodiscard]] double log_det() const { return log_variance_.sum(); }
+  Eigen::MatrixXd precision_block(Eigen::Index row,
+                                  Eigen::Index rows,
+                                  Eigen::Index column,
+                                  Eigen::Index columns) const;
+  double log_det() const { return log_variance_.sum(); }
 
  private:
   /// V^exponent m.
   template <class M>
-  [[nodiscard]] M multiplied(double exponent, M m) const {
+  M multiplied(double exponent, M m) const {
     multiply(exponent, m);
     return m;
   }
   void multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) const;
-  [[nodiscard]] Eigen::VectorXd change(double exponent) const;
+  Eigen::VectorXd change(double exponent) const;
   Eigen::MatrixXd basis_;        ///< U
   Eigen::ArrayXd log_variance_;  ///< log(1 + a^2)
 };
@@ -68,12 +68,12 @@ class LowRankNoise {
 
   /// V^-1 x
   template <class X>
-  [[nodiscard]] linear::Like<X> solve(const X& x) const {
+  linear::Like<X> solve(const X& x) const {
     return half_solve(x).topRows(x.rows());
   }
   /// h(x), with a row for each of V's and then for each column.
   template <class X>
-  [[nodiscard]] linear::Like<X> half_solve(const X& x) const {
+  linear::Like<X> half_solve(const X& x) const {
     linear::Like<X> result = linear::Like<X>::Zero(x.rows() + a_.cols(), x.cols());
     result.topRows(x.rows()) = x;
     result.bottomRows(a_.cols()) = -normal_.solve(linear::product(linear::transposed(a_), x));
@@ -81,8 +81,8 @@ class LowRankNoise {
     return result;
   }
   /// T with V^-1 = 1 - T T'.
-  [[nodiscard]] Eigen::MatrixXd explained() const;
-  [[nodiscard]] double log_det() const { return normal_.log_det(); }
+  Eigen::MatrixXd explained() const;
+  double log_det() const { return normal_.log_det(); }
 
  private:
   Eigen::MatrixXd a_;

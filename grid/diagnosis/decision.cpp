@@ -102,7 +102,7 @@ class Decider {
   }
 
   /// The number of causes is decided first, then which.
-  [[nodiscard]] const Grouped* best_group() {
+  const Grouped* best_group() {
     std::map<std::size_t, double> by_count;
     for (const auto& [key, grouped] : groups_) by_count[key.size()] += grouped.probability;
     std::size_t count = 1;
@@ -167,7 +167,7 @@ class Decider {
   }
 
   /// A pattern lowers a cause's probability, but does not keep it from being named.
-  [[nodiscard]] double enough_to_name() const {
+  double enough_to_name() const {
     return result_.discrepancy > kDiscrepancyLikely ? kNamedGivenDiscrepancy : kNamedAlone;
   }
 
@@ -195,7 +195,7 @@ class Decider {
   }
 
   /// The most probable group in which all of these act; empty if none does. `causes` ascending.
-  [[nodiscard]] const Grouped* likeliest_with(const Key& causes) const {
+  const Grouped* likeliest_with(const Key& causes) const {
     const Grouped* best = nullptr;
     for (const auto& [key, grouped] : groups_) {
       const bool holds = std::includes(key.begin(), key.end(), causes.begin(), causes.end());
@@ -226,7 +226,7 @@ class Decider {
       // named.
       const Key named = {top.index};
       const auto alone = groups_.find(named);
-      const Grouped* own = best_key_ == named  ? &best_model
+      const Grouped* own = best_key_ == named       ? &best_model
                            : alone != groups_.end() ? &alone->second
                                                     : likeliest_with(named);
       take(*own);

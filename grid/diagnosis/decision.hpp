@@ -15,8 +15,8 @@ namespace chaintrue::grid::diagnosis {
 /// the machine precedes one on the paper. A cause that acts in whole numbers and one that acts by
 /// any amount form one class if the fitted amount is such a number; the likelier is first.
 using CauseClass = std::vector<CauseId>;
-[[nodiscard]] std::vector<CauseClass> classes_of(const RegressorSystem& system,
-                                                 const ModelComparison& comparison);
+std::vector<CauseClass> classes_of(const RegressorSystem& system,
+                                   const ModelComparison& comparison);
 
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes
@@ -44,20 +44,20 @@ struct Decision {
   std::size_t marginalised = 0;
 
   /// The cause that names each listed class.
-  [[nodiscard]] std::vector<CauseId> leaders() const;
+  std::vector<CauseId> leaders() const;
   /// The class of a cause; the number of classes if it has none.
-  [[nodiscard]] std::size_t class_of(const CauseId& cause) const;
+  std::size_t class_of(const CauseId& cause) const;
   /// Probability of a class; 0 if there is no such class.
-  [[nodiscard]] double probability_of(std::size_t index) const;
+  double probability_of(std::size_t index) const;
 };
 
 /// `detected`: the strongest effect exceeds what noise produces (family-wise). Only the rejected
 /// points of the comparison's marginalised systems are used.
-[[nodiscard]] Decision decide(const RegressorSystem& system,
-                              const ModelComparison& comparison,
-                              const Flags& excluded,
-                              bool detected,
-                              std::vector<CauseClass> classes);
+Decision decide(const RegressorSystem& system,
+                const ModelComparison& comparison,
+                const Flags& excluded,
+                bool detected,
+                std::vector<CauseClass> classes);
 
 /// Names no cause: what remains is an unexplained pattern or nothing. Probabilities are kept.
 void withdraw_names(const ModelComparison& comparison, Decision& decision);

@@ -42,8 +42,7 @@ struct VisitingOrderFound {
 
 /// "Nobody wrote down in which order the marks were visited. The readings say it: ... (99.8 %). ..." With the name of
 /// a session "the marks of C.json".
-[[nodiscard]] std::string in_words(const VisitingOrderFound& found,
-                                   const std::string& session = {});
+std::string in_words(const VisitingOrderFound& found, const std::string& session = {});
 
 enum class Verdict {
   named,              ///< one cause, or one class that no data of this kind can separate
@@ -54,12 +53,12 @@ enum class Verdict {
   outliers,  ///< "bad_points" in words
   nothing_found,
 };
-[[nodiscard]] std::string_view name(Verdict verdict);
+std::string_view name(Verdict verdict);
 
 /// What was read: chains at points, a tape between holes, both, four belts, or a test drawing.
 enum class Observations { points, distances, both, belts, drawing };
 /// "points", "distances", "readings", "belts", "measures".
-[[nodiscard]] std::string_view name(Observations observations);
+std::string_view name(Observations observations);
 
 /// A member of the same class, with the parameters it would have.
 struct SameCause {
@@ -143,8 +142,8 @@ struct BudgetLine {
   std::optional<double> part_mm{};
   enum class ChangesWith { nothing, place, order, direction } changes_with = ChangesWith::place;
 };
-[[nodiscard]] std::string_view name(BudgetLine::What what);
-[[nodiscard]] std::string_view name(BudgetLine::ChangesWith changes);
+std::string_view name(BudgetLine::What what);
+std::string_view name(BudgetLine::ChangesWith changes);
 
 /// The mean square of the tool's error as delivered, split into its sources: largest first, what
 /// cannot be split last. The lines add up to the whole.
@@ -192,7 +191,7 @@ struct DeclaredAnswer {
   Says says = Says::open;
   double probability = 0.0;
 };
-[[nodiscard]] std::string_view name(DeclaredAnswer::Says says);
+std::string_view name(DeclaredAnswer::Says says);
 
 struct CalibratedSetting {
   model::Setting setting = model::Setting::motor_left_x_mm;

@@ -55,9 +55,7 @@ struct DiscrepancyKernel {
   std::vector<DiscrepancyField> fields;  ///< equal in variance
   double prior = 0.0;                    ///< share among all kernels
   /// Whether its fields disturb each length of the mechanism separately.
-  [[nodiscard]] bool of_lengths() const {
-    return !fields.empty() && fields.front().entry == FieldEntry::lengths;
-  }
+  bool of_lengths() const { return !fields.empty() && fields.front().entry == FieldEntry::lengths; }
 };
 
 /// The discrepancies that are tried with a mechanism: each kernel at each strength, numbered
@@ -68,25 +66,23 @@ struct DiscrepancyFamily {
   /// noise.
   std::span<const double> strengths;
 
-  [[nodiscard]] int count() const { return static_cast<int>(kernels.size() * strengths.size()); }
-  [[nodiscard]] std::size_t kernel_of(int discrepancy) const {
-    return as_size(discrepancy) / strengths.size();
-  }
-  [[nodiscard]] double strength_of(int discrepancy) const {
+  int count() const { return static_cast<int>(kernels.size() * strengths.size()); }
+  std::size_t kernel_of(int discrepancy) const { return as_size(discrepancy) / strengths.size(); }
+  double strength_of(int discrepancy) const {
     return strengths[as_size(discrepancy) % strengths.size()];
   }
   /// Its kernel's share, and of its strengths what a half-Cauchy of scale 10 has, so that a huge
   /// discrepancy is rarer than one that just shows (A. Gelman, Bayesian Analysis 1 (2006), 515,
   /// section 4.3).
-  [[nodiscard]] double log_share_of(int discrepancy) const;
+  double log_share_of(int discrepancy) const;
 };
 /// For any other mechanism: a smooth function of the place for each of its lengths, and, where the
 /// visits' order is known, one that changes with these as well.
-[[nodiscard]] const DiscrepancyFamily& length_discrepancies(bool ordered);
+const DiscrepancyFamily& length_discrepancies(bool ordered);
 /// For four lengths those, and smooth functions of the place that disturb one length alone, as
 /// alternatives to a law of one length. Half of the prior is theirs; the first kernels are those of
 /// length_discrepancies().
-[[nodiscard]] const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered);
+const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered);
 
 struct Discrepancy {
   DiscrepancyKernel kernel;
@@ -100,61 +96,61 @@ struct FieldArgument {
   double second = 0.0;  ///< of the place: y
   double weight = 1.0;  ///< of the field there, with its sign
 };
-[[nodiscard]] FieldArgument field_argument(const DiscrepancyField& field,
-                                           const SystemPlace& place,
-                                           Eigen::Index component);
+FieldArgument field_argument(const DiscrepancyField& field,
+                             const SystemPlace& place,
+                             Eigen::Index component);
 
 /// For the field's values at two arguments.
-[[nodiscard]] double field_covariance(const DiscrepancyField& field,
-                                      const FieldArgument& a,
-                                      const FieldArgument& b);
+double field_covariance(const DiscrepancyField& field,
+                        const FieldArgument& a,
+                        const FieldArgument& b);
 
 /// How a field enters: d of its direction; (1, 1) of the border, where both components are one
 /// field's; nothing if the components are independent.
-[[nodiscard]] std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
+std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
 
 /// T at a place.
-[[nodiscard]] Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
+Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
 
 /// Covariance of the two chains at two places, for s = 1.
-[[nodiscard]] Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
-                                                const SystemPlace& a,
-                                                const SystemPlace& b);
+Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
+                                  const SystemPlace& a,
+                                  const SystemPlace& b);
 
 /// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
 /// that see no place stay 0.
-[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
-                                                     const RegressorSystem& from,
-                                                     const KeptRows& kept,
-                                                     const DiscrepancyKernel& kernel);
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
+                                       const RegressorSystem& from,
+                                       const KeptRows& kept,
+                                       const DiscrepancyKernel& kernel);
 
 /// Covariance of these whitened rows, for s = 1.
-[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
-                                                     const KeptRows& kept,
-                                                     const DiscrepancyKernel& kernel);
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
+                                       const KeptRows& kept,
+                                       const DiscrepancyKernel& kernel);
 
 /// F with F F' = that covariance up to rounding: kept x r. A smooth field over a bed has few degrees of freedom.
-[[nodiscard]] Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system,
-                                                 const KeptRows& kept,
-                                                 const DiscrepancyKernel& kernel);
+Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system,
+                                   const KeptRows& kept,
+                                   const DiscrepancyKernel& kernel);
 
 /// F with F F' ~= a covariance of n, n x r, what is left of its diagonal below `least`, by a pivoted Cholesky
 /// factorisation (H. Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428,
 /// algorithm 1).
 using CovarianceOf = std::function<double(Eigen::Index, Eigen::Index)>;
-[[nodiscard]] Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covariance);
+Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covariance);
 
 /// A field's effect on the kept rows, through either component of its entry, what is left of the field's unit
 /// variance at any place below `least`.
 struct FieldFactor {
   Eigen::MatrixXd first, second;  ///< kept x r
 };
-[[nodiscard]] FieldFactor field_factor(const RegressorSystem& system,
-                                       const KeptRows& kept,
-                                       const DiscrepancyField& field,
-                                       double least);
+FieldFactor field_factor(const RegressorSystem& system,
+                         const KeptRows& kept,
+                         const DiscrepancyField& field,
+                         double least);
 
 /// The mixes of the two components that a field enters by: its direction, or each of them alone.
-[[nodiscard]] std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field);
+std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field);
 
 }  // namespace chaintrue::grid::diagnosis

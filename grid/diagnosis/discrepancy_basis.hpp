@@ -44,9 +44,9 @@ class DiscrepancyBasis {
       Eigen::VectorXd ge;    ///< a column each
       Eigen::VectorXd gg;
     };
-    [[nodiscard]] Diagonal diagonal(double strength) const;
+    Diagonal diagonal(double strength) const;
     /// All inner products of some of the columns (regressors, ascending).
-    [[nodiscard]] NormalEquations equations(double strength, RegressorSet columns) const;
+    NormalEquations equations(double strength, RegressorSet columns) const;
 
    private:
     friend class DiscrepancyBasis;
@@ -56,14 +56,14 @@ class DiscrepancyBasis {
       Eigen::ArrayXd above;  ///< r, each column's entry in the row before; the first is 0
       double log_det = 0.0;  ///< |1 + s^2 B'B|
     };
-    [[nodiscard]] Half half(double strength) const;
+    Half half(double strength) const;
     /// Replaces rows E'BQ by E'BQH'.
     static void apply(const Half& half, Eigen::MatrixXd& lines);
     const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
     double trace_ = 0.0;
-    Eigen::ArrayXd on_;        ///< r, J's diagonal
-    Eigen::ArrayXd subdiagonal_;    ///< r - 1, the one next to it
-    Eigen::MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
+    Eigen::ArrayXd on_;           ///< r, J's diagonal
+    Eigen::ArrayXd subdiagonal_;  ///< r - 1, the one next to it
+    Eigen::MatrixXd rotated_;     ///< E'BQ, (1 + columns) x r
   };
   /// Prepares `given` of this kernel for many sets of columns, at the cost of as many columns as the kernel has.
   void prepare(std::size_t kernel);
@@ -73,7 +73,7 @@ class DiscrepancyBasis {
   /// Frees what `given` and `relate` keep of columns.
   void forget();
   /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
-  [[nodiscard]] GivenKernel given(std::size_t kernel, const NormalEquations& plain);
+  GivenKernel given(std::size_t kernel, const NormalEquations& plain);
 
  private:
   class Fields;

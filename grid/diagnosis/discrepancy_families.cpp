@@ -61,7 +61,7 @@ class Kernels {
     }
     take(group, 0.15);
   }
-  [[nodiscard]] const std::vector<DiscrepancyKernel>& all() const { return all_; }
+  const std::vector<DiscrepancyKernel>& all() const { return all_; }
 
  private:
   static void at_any_ratio(DiscrepancyField field, std::vector<DiscrepancyField>& group) {

@@ -54,11 +54,10 @@ class Downdating {
   [[nodiscard]] Without without(const Indices& units) const;
 
   /// The models followed, in the order of `probabilities_without`.
-  [[nodiscard]] std::vector<const CandidateModel*> followed() const;
+  std::vector<const CandidateModel*> followed() const;
   /// For each followed model, given that one of them holds. Models that differ only in which of the
   /// left-out points they reject divide their probability by their weights with all points.
-  [[nodiscard]] std::vector<double> probabilities_without(const Indices& units,
-                                                          CountAs count_as) const;
+  std::vector<double> probabilities_without(const Indices& units, CountAs count_as) const;
 
  private:
   /// One marginalised system with one discrepancy or none.
@@ -86,13 +85,12 @@ class Downdating {
     std::vector<ModelWithout> models;
     std::vector<std::pair<double, std::size_t>> strongest;  ///< score, by system
   };
-  [[nodiscard]] AllWithout all_without(const Indices& units, CountAs count_as) const;
-  [[nodiscard]] Factorisation factorisation_of(std::size_t marginalised,
-                                               int discrepancy,
-                                               std::vector<CandidateModel> models) const;
+  AllWithout all_without(const Indices& units, CountAs count_as) const;
+  Factorisation factorisation_of(std::size_t marginalised,
+                                 int discrepancy,
+                                 std::vector<CandidateModel> models) const;
   /// Inner products with these rows of the marginalised system gone.
-  [[nodiscard]] NormalEquations downdated_equations(const Factorisation& factorised,
-                                                    const Rows& out) const;
+  NormalEquations downdated_equations(const Factorisation& factorised, const Rows& out) const;
 
   const RegressorSystem& system_;
   const ModelComparison& comparison_;

@@ -20,8 +20,8 @@ struct Estimate {
   Eigen::VectorXd coefficient;         ///< for each regressor
   /// 0 if the size is a whole number; at a bound, the sigma from noise alone.
   Eigen::VectorXd coefficient_sigma;
-  double noise_square = 1.0;                ///< s^2
-  Eigen::VectorXd left;                     ///< n whitened rows, the discrepancy not taken out
+  double noise_square = 1.0;               ///< s^2
+  Eigen::VectorXd left;                    ///< n whitened rows, the discrepancy not taken out
   Eigen::VectorXd left_given_discrepancy;  ///< the same with the discrepancy taken out
   Discrepancy discrepancy;
   Eigen::VectorXd discrepancy_weights;  ///< N, one for each kept row; empty without a discrepancy
@@ -29,9 +29,9 @@ struct Estimate {
   Eigen::MatrixXd covariance;
   Indices free;  ///< positions in `regressors`
 
-  [[nodiscard]] RegressorSet free_regressors() const;
+  RegressorSet free_regressors() const;
   /// Index of one of the model's regressors in this estimate.
-  [[nodiscard]] Eigen::Index position(int regressor) const;
+  Eigen::Index position(int regressor) const;
 };
 
 /// The linear unknowns of a model: the settings, nuisances included, then the sizes of some regressors.
@@ -39,16 +39,16 @@ struct Unknowns {
   Eigen::MatrixXd design;  ///< N x unknowns
   Eigen::VectorXd sigma;   ///< of each beforehand
 };
-[[nodiscard]] Unknowns unknowns_of(const RegressorSystem& system,
-                                   const MarginalisedSystem& marginalised,
-                                   const RegressorSet& free);
+Unknowns unknowns_of(const RegressorSystem& system,
+                     const MarginalisedSystem& marginalised,
+                     const RegressorSet& free);
 
 /// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
-[[nodiscard]] Estimate estimate(const RegressorSystem& system,
-                                const MarginalisedSystem& marginalised,
-                                const RegressorSet& regressors,
-                                int discrepancy);
+Estimate estimate(const RegressorSystem& system,
+                  const MarginalisedSystem& marginalised,
+                  const RegressorSet& regressors,
+                  int discrepancy);
 
 /// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
 struct DiscrepancyNoise {
@@ -56,44 +56,45 @@ struct DiscrepancyNoise {
   LowRankNoise covariance;  ///< 1 + s^2 K
 };
 /// Null for no discrepancy.
-[[nodiscard]] std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(
-    const RegressorSystem& system, const MarginalisedSystem& marginalised, int discrepancy);
-[[nodiscard]] Estimate estimate(const RegressorSystem& system,
-                                const MarginalisedSystem& marginalised,
-                                const RegressorSet& regressors,
-                                const DiscrepancyNoise* noise);
+std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem& system,
+                                                          const MarginalisedSystem& marginalised,
+                                                          int discrepancy);
+Estimate estimate(const RegressorSystem& system,
+                  const MarginalisedSystem& marginalised,
+                  const RegressorSet& regressors,
+                  const DiscrepancyNoise* noise);
 
 /// The model discrepancy of either chain at a place [mm]; zero without one.
-[[nodiscard]] Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
-                                             const MarginalisedSystem& marginalised,
-                                             const Estimate& estimate,
-                                             const SystemPlace& place);
+Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
+                               const MarginalisedSystem& marginalised,
+                               const Estimate& estimate,
+                               const SystemPlace& place);
 
 /// `left` with the nuisances' share added back: the machine's residual. For points `left` itself.
-[[nodiscard]] Eigen::VectorXd left_of_machine(const RegressorSystem& system,
-                                              const Estimate& estimate,
-                                              const Eigen::VectorXd& left);
+Eigen::VectorXd left_of_machine(const RegressorSystem& system,
+                                const Estimate& estimate,
+                                const Eigen::VectorXd& left);
 
 /// A unit's whitened residual in mm: a shift of the tool for chain readings; for a distance (excess
 /// length, 0).
-[[nodiscard]] Eigen::Vector2d error_of_unit(const RegressorSystem& system,
-                                            const Eigen::VectorXd& whitened,
-                                            std::size_t unit);
-[[nodiscard]] std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
-                                                           const Eigen::VectorXd& whitened,
-                                                           const Indices& units);
+Eigen::Vector2d error_of_unit(const RegressorSystem& system,
+                              const Eigen::VectorXd& whitened,
+                              std::size_t unit);
+std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
+                                             const Eigen::VectorXd& whitened,
+                                             const Indices& units);
 /// Root mean square over the kept units in mm: of the tool where chains were read, of distances, or of one belt. `units`
 /// empty: all units.
-[[nodiscard]] double rms_of_units_mm(const RegressorSystem& system,
-                                     const KeptRows& kept,
-                                     const Eigen::VectorXd& whitened,
-                                     const Indices& units = {});
+double rms_of_units_mm(const RegressorSystem& system,
+                       const KeptRows& kept,
+                       const Eigen::VectorXd& whitened,
+                       const Indices& units = {});
 /// Its covariance with noise as stated.
-[[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
+Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
 /// Root mean square of that over some units.
-[[nodiscard]] double noise_of_units_mm(const RegressorSystem& system, const Indices& units);
+double noise_of_units_mm(const RegressorSystem& system, const Indices& units);
 
 /// A chain residual (read minus predicted) as an error of the tool [mm]: where it landed minus where the model has it.
-[[nodiscard]] Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);
+Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -47,23 +47,19 @@ class NoiseDensity {
     double noise_square = 0.0;  ///< expected s^2
     double larger_share = 0.0;  ///< share of the density from noise larger than stated
   };
-  [[nodiscard]] Averages averages(double quadratic) const;
+  Averages averages(double quadratic) const;
 
-  [[nodiscard]] double log_density(double quadratic) const {
-    return averages(quadratic).log_density;
-  }
+  double log_density(double quadratic) const { return averages(quadratic).log_density; }
   /// The part of it from noise as stated.
-  [[nodiscard]] double log_density_as_stated(double quadratic) const;
-  [[nodiscard]] double noise_square(double quadratic) const {
-    return averages(quadratic).noise_square;
-  }
+  double log_density_as_stated(double quadratic) const;
+  double noise_square(double quadratic) const { return averages(quadratic).noise_square; }
 
  private:
   struct Component {
     double anchor = 0.0;    ///< dof times the square of its scale
     double constant = 0.0;  ///< log density without the quadratic form, with the prior of the scale
   };
-  [[nodiscard]] double part(const Component& component, double quadratic) const;
+  double part(const Component& component, double quadratic) const;
 
   double dof_;
   double rows_;
@@ -73,10 +69,10 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points rejected.
 struct MarginalisedSystem {
-  Flags outliers;              ///< a flag for each outlier group
-  KeptRows kept;               ///< N rows
-  CovarianceRoot root;         ///< N x N, R of V = R R
-  Eigen::VectorXd e;           ///< N, R^-1 times the residual
+  Flags outliers;       ///< a flag for each outlier group
+  KeptRows kept;        ///< N rows
+  CovarianceRoot root;  ///< N x N, R of V = R R
+  Eigen::VectorXd e;    ///< N, R^-1 times the residual
   RegressorColumns
       g;  ///< N x a column a regressor, R^-1 times it; none if only an estimate is made
   double log_det = 0.0;       ///< log |V|
@@ -85,40 +81,38 @@ struct MarginalisedSystem {
   std::vector<double> discrepancy_trace;
 };
 /// Natural logarithm of the prior times the density of one rejected unit with this many rows.
-[[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
+double log_price_of_outlier(Eigen::Index rows);
 /// For all these groups; directions count separately.
-[[nodiscard]] double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers);
-[[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers);
+double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers);
+MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers);
 /// The same without g.
-[[nodiscard]] MarginalisedSystem marginalise_rows(const RegressorSystem& system,
-                                                  const Flags& outliers);
+MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& outliers);
 /// Length of R^-1 times a regressor's column.
-[[nodiscard]] double reduced_length(const RegressorSystem& system,
-                                    const MarginalisedSystem& marginalised,
-                                    int regressor);
+double reduced_length(const RegressorSystem& system,
+                      const MarginalisedSystem& marginalised,
+                      int regressor);
 /// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
 /// appears in the readings.
-[[nodiscard]] LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
+LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Length of a column's kept rows in units of that noise.
-[[nodiscard]] double length_in_noise(const RegressorSystem& system,
-                                     const KeptRows& kept,
-                                     const Eigen::VectorXd& column);
+double length_in_noise(const RegressorSystem& system,
+                       const KeptRows& kept,
+                       const Eigen::VectorXd& column);
 /// The rows after subtracting these columns with the amplitudes that the kept rows give them.
-[[nodiscard]] Eigen::VectorXd left_by(const KeptRows& kept,
-                                      const Eigen::MatrixXd& columns,
-                                      const Eigen::VectorXd& sigma,
-                                      Eigen::VectorXd rows);
+Eigen::VectorXd left_by(const KeptRows& kept,
+                        const Eigen::MatrixXd& columns,
+                        const Eigen::VectorXd& sigma,
+                        Eigen::VectorXd rows);
 /// R^-1 of a column of all rows.
-[[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
-                                      const Eigen::VectorXd& column);
+Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column);
 /// One sigma of a regressor's coefficient under the wide prior of its size.
-[[nodiscard]] double wide_coefficient_sigma(const RegressorSystem& system,
-                                            const MarginalisedSystem& marginalised,
-                                            int regressor);
+double wide_coefficient_sigma(const RegressorSystem& system,
+                              const MarginalisedSystem& marginalised,
+                              int regressor);
 
 /// |cosine| of two whitened signatures; 0 if one of them is zero.
 template <class One, class Other>
-[[nodiscard]] double collinearity_of(const One& one, const Other& other) {
+double collinearity_of(const One& one, const Other& other) {
   // Visible signatures are several sigmas long.
   constexpr double kNothing = 1e-12;
   const double lengths = one.norm() * other.norm();
@@ -127,37 +121,36 @@ template <class One, class Other>
 
 /// Inner products of the residual and of some columns.
 struct NormalEquations {
-  RegressorSet columns;      ///< m regressors, ascending
-  double ee = 0.0;           ///< e'e
-  Eigen::VectorXd ge;        ///< m, g'e
-  Eigen::MatrixXd gg;        ///< m x m, g'g
+  RegressorSet columns;  ///< m regressors, ascending
+  double ee = 0.0;       ///< e'e
+  Eigen::VectorXd ge;    ///< m, g'e
+  Eigen::MatrixXd gg;    ///< m x m, g'g
   /// m: the unit of the prior of a size. It is g'g without a discrepancy or, if the prior is on the
   /// size itself (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
   Eigen::VectorXd prior_square;
   double log_det = 0.0;  ///< of V and the discrepancy, without the noise's scale
-  [[nodiscard]] Eigen::Index position(int column) const;
+  Eigen::Index position(int column) const;
 };
 /// NormalEquations::prior_square of columns with these squares.
-[[nodiscard]] Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
-                                            const RegressorSet& columns,
-                                            Eigen::VectorXd squares);
-[[nodiscard]] NormalEquations normal_equations(const RegressorSystem& system,
-                                               const MarginalisedSystem& marginalised,
-                                               RegressorSet columns);
+Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
+                              const RegressorSet& columns,
+                              Eigen::VectorXd squares);
+NormalEquations normal_equations(const RegressorSystem& system,
+                                 const MarginalisedSystem& marginalised,
+                                 RegressorSet columns);
 
 /// The residual and these columns, N x (1 + columns).
-[[nodiscard]] Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised,
-                                           const RegressorSet& columns);
+Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns);
 
 /// Kernel and size of a discrepancy, in a marginalised system.
-[[nodiscard]] Discrepancy discrepancy_of(const RegressorSystem& system,
-                                         const MarginalisedSystem& marginalised,
-                                         int discrepancy);
+Discrepancy discrepancy_of(const RegressorSystem& system,
+                           const MarginalisedSystem& marginalised,
+                           int discrepancy);
 
 /// s F of a discrepancy (discrepancy_factor) in the kept rows; no columns for none.
-[[nodiscard]] Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
-                                                  const MarginalisedSystem& marginalised,
-                                                  int discrepancy);
+Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
+                                    const MarginalisedSystem& marginalised,
+                                    int discrepancy);
 
 /// Priors of a signal-to-noise ratio: the usual one, and the wide one.
 struct StrengthPrior {
@@ -179,10 +172,10 @@ struct SetEvidence {
 };
 /// `set` holds positions in the normal equations. Minus infinity if a cause would have to leave its
 /// range. Throws std::length_error for more than kMostFreeRegressors that are not fixed.
-[[nodiscard]] SetEvidence set_evidence(const NormalEquations& equations,
-                                       const std::vector<Regressor>& regressors,
-                                       std::span<const Eigen::Index> set,
-                                       const NoiseDensity& noise);
+SetEvidence set_evidence(const NormalEquations& equations,
+                         const std::vector<Regressor>& regressors,
+                         std::span<const Eigen::Index> set,
+                         const NoiseDensity& noise);
 
 /// Upper bounds of log_evidence for sets with one more column, at the cost of an inner product each.
 ///
@@ -199,7 +192,7 @@ class EvidenceBounds {
   [[nodiscard]] Eigen::ArrayXd with_each(std::span<const Eigen::Index> set) const;
 
  private:
-  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
+  const Regressor& regressor(Eigen::Index i) const {
     return regressors_[as_size(equations_.columns[as_size(i)])];
   }
   const NormalEquations& equations_;

@@ -39,9 +39,9 @@ namespace chaintrue::grid::diagnosis {
 struct Alternative {
   std::size_t group = 0;
   RegressorSet regressors;
-  int discrepancy = -1;      ///< with them, as in the most probable model of these causes
-  double probability = 0.0;  ///< their sum over all alternatives is 1
-  Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
+  int discrepancy = -1;        ///< with them, as in the most probable model of these causes
+  double probability = 0.0;    ///< their sum over all alternatives is 1
+  Eigen::VectorXd mean;        ///< m_k, whitened, of every row of the session of candidates
   Eigen::MatrixXd covariance;  ///< S_k without the noise
 };
 
@@ -50,17 +50,17 @@ struct Alternative {
 /// (NextCandidates). If the verdict names causes these are the sets of that many; otherwise those
 /// of none and of one, with and without a discrepancy. Empty if a place of `next` cannot be
 /// reached.
-[[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
-                                                                         const ObservationSet& next);
+std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
+                                                           const ObservationSet& next);
 
 /// As above for the rows of a system; `column` gives a regressor's column there. Empty if such a
 /// machine is invalid.
-[[nodiscard]] std::vector<Alternative> alternatives_about(const Analysis& analysis,
-                                                          const RegressorSystem& next,
-                                                          const ColumnOf& column);
+std::vector<Alternative> alternatives_about(const Analysis& analysis,
+                                            const RegressorSystem& next,
+                                            const ColumnOf& column);
 
 /// As above without predictions: no means and covariances.
-[[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
+std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
 
 /// Divides their probabilities by their sum.
 void normalise(std::vector<Alternative>& alternatives);
@@ -73,7 +73,7 @@ struct ExpectedDiscrimination {
   double named_alone = 0.0;  ///< probability that the right group is named alone
 };
 /// With these rows measured.
-[[nodiscard]] ExpectedDiscrimination expected_discrimination(
-    const std::vector<Alternative>& alternatives, const Rows& rows);
+ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
+                                               const Rows& rows);
 
 }  // namespace chaintrue::grid::diagnosis

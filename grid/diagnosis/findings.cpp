@@ -32,7 +32,7 @@ class PlaceOfCause {
         place_(own_.cause.effect->parameters[which]) {}
 
   /// \pre `fitted` has the regressor, with this coefficient.
-  [[nodiscard]] ParameterEstimate estimated(const Estimate& fitted, double coefficient) const {
+  ParameterEstimate estimated(const Estimate& fitted, double coefficient) const {
     ParameterEstimate result{std::string(place_.name), own_.values[which_], 0.0};
     double width = 0.0;
     if (!place_.integer) {
@@ -40,7 +40,8 @@ class PlaceOfCause {
       const bool is_step = slope && slope->isZero();
       if (slope && !is_step) width = fitted_sigma(fitted, coefficient, *slope);
       // No reading shows where between two of them a step is.
-      if (const auto gap = is_step ? gap_about(a_.system, own_.cause, result.value) : std::nullopt) {
+      if (const auto gap =
+              is_step ? gap_about(a_.system, own_.cause, result.value) : std::nullopt) {
         result.value = 0.5 * (gap->below + gap->above);
         width = (gap->above - gap->below) / std::sqrt(12.0);
       }
@@ -51,7 +52,7 @@ class PlaceOfCause {
 
  private:
   /// Derivative of the whitened signature by the place; empty if the machine cannot have such an effect.
-  [[nodiscard]] std::optional<Eigen::VectorXd> slope_by_place() const {
+  std::optional<Eigen::VectorXd> slope_by_place() const {
     // Step in radians: central differences of a wave are accurate to h^2 / 6, rounding to 1e-16 / h.
     constexpr double kStep = 1e-3;
     const auto at = [&](double step) {
@@ -68,13 +69,12 @@ class PlaceOfCause {
   /// The same with each setting, n x q. A wave along a chain moves along it with the chain's length:
   /// a motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. 0 if such a
   /// machine is invalid.
-  [[nodiscard]] Eigen::MatrixXd slope_by_settings() const {
+  Eigen::MatrixXd slope_by_settings() const {
     // Step in sigmas: central differences of a wave of 60 mm are accurate to 1e-7 for a motor known
     // to 3 mm.
     constexpr double kStep = 1e-3;
     const RegressorSystem& system = a_.system;
-    Eigen::MatrixXd slope =
-        Eigen::MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
+    Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
     for (Eigen::Index column = 0; column < a_.session.setting_columns(); ++column) {
       const double step = kStep * system.sigma(column);
       const auto at = [&](double change) -> std::optional<Eigen::VectorXd> {
@@ -94,7 +94,7 @@ class PlaceOfCause {
   }
 
   /// The distance from a continuous place to the nearest other one tried.
-  [[nodiscard]] double step_of_places() const {
+  double step_of_places() const {
     double least = kInfinity;
     for (const Regressor& other : a_.system.regressors) {
       if (other.cause != own_.cause) continue;
@@ -106,9 +106,9 @@ class PlaceOfCause {
 
   /// The sigma of a continuous place, from the curvature of the likelihood with settings and all
   /// coefficients free.
-  [[nodiscard]] double fitted_sigma(const Estimate& fitted,
-                                    double coefficient,
-                                    const Eigen::VectorXd& slope) const {
+  double fitted_sigma(const Estimate& fitted,
+                      double coefficient,
+                      const Eigen::VectorXd& slope) const {
     const MarginalisedSystem& marginalised = marginalised_system(a_);
     Unknowns unknowns = unknowns_of(a_.system, marginalised, fitted.free_regressors());
     auto& [design, sigma] = unknowns;
@@ -134,7 +134,7 @@ class PlaceOfCause {
   }
 
   /// The scatter of the place over the models, about a value.
-  [[nodiscard]] double scatter(double about) const {
+  double scatter(double about) const {
     const bool turns = place_.upper - place_.lower >= kTurn;
     double weight = 0.0;
     double square = 0.0;
@@ -236,7 +236,10 @@ std::vector<Cause> causes_found(const Analysis& a) {
 
 Hypothesis hypothesis_of(const CauseClass& members, double probability) {
   const CauseId& cause = members.front();
-  return {std::string(cause.effect->id), std::string(model::effects::name(cause.side)), probability, members};
+  return {std::string(cause.effect->id),
+          std::string(model::effects::name(cause.side)),
+          probability,
+          members};
 }
 
 std::vector<Hypothesis> hypotheses(const Analysis& a) {

@@ -8,36 +8,35 @@
 
 namespace chaintrue::grid::diagnosis {
 
-[[nodiscard]] std::vector<Cause> causes_found(const Analysis& analysis);
+std::vector<Cause> causes_found(const Analysis& analysis);
 /// Probability that some cause of a class acts.
-[[nodiscard]] Hypothesis hypothesis_of(const CauseClass& members, double probability);
-[[nodiscard]] std::vector<Hypothesis> hypotheses(const Analysis& analysis);
+Hypothesis hypothesis_of(const CauseClass& members, double probability);
+std::vector<Hypothesis> hypotheses(const Analysis& analysis);
 /// The quarters of the bed, and each session separately.
-[[nodiscard]] std::vector<PartFinding> bed_part_findings(const Analysis& analysis);
-[[nodiscard]] std::vector<PartFinding> session_findings(const Analysis& analysis,
-                                                        const std::vector<std::string>& names);
+std::vector<PartFinding> bed_part_findings(const Analysis& analysis);
+std::vector<PartFinding> session_findings(const Analysis& analysis,
+                                          const std::vector<std::string>& names);
 /// Also moves effects that the settings absorb to `not_testable`.
-[[nodiscard]] std::vector<Bound> bounds(const Analysis& analysis,
-                                        std::vector<NotTestable>& not_testable);
-[[nodiscard]] std::vector<CalibratedSetting> settings_found(const Analysis& analysis);
+std::vector<Bound> bounds(const Analysis& analysis, std::vector<NotTestable>& not_testable);
+std::vector<CalibratedSetting> settings_found(const Analysis& analysis);
 /// By number, points first.
-[[nodiscard]] std::vector<Outlier> outliers_found(const Analysis& analysis);
-[[nodiscard]] LeftOver left_over(const Analysis& analysis);
-[[nodiscard]] Unexplained unexplained(const Analysis& analysis);
-[[nodiscard]] ErrorBudget error_budget(const Analysis& analysis);
+std::vector<Outlier> outliers_found(const Analysis& analysis);
+LeftOver left_over(const Analysis& analysis);
+Unexplained unexplained(const Analysis& analysis);
+ErrorBudget error_budget(const Analysis& analysis);
 
 /// Probability that a cause, or one of its class, acts; 0 if none was compared.
-[[nodiscard]] double probability_of(const Analysis& analysis, const CauseId& cause);
+double probability_of(const Analysis& analysis, const CauseId& cause);
 /// In the order of the files' points, holes and distances.
-[[nodiscard]] std::vector<PointPicture> point_pictures(const Analysis& analysis);
-[[nodiscard]] std::vector<HolePicture> hole_pictures(const Analysis& analysis);
-[[nodiscard]] std::vector<DistancePicture> distance_pictures(const Analysis& analysis);
+std::vector<PointPicture> point_pictures(const Analysis& analysis);
+std::vector<HolePicture> hole_pictures(const Analysis& analysis);
+std::vector<DistancePicture> distance_pictures(const Analysis& analysis);
 
 /// Verdict, causes, hypotheses, bounds and untestable causes: the part common to all answers.
 void take_findings(const Analysis& analysis, Diagnosis& diagnosis);
 
 /// Whether a reading decides between chain and paper.
-[[nodiscard]] bool shows_scale(const ExtraReading& reading);
+bool shows_scale(const ExtraReading& reading);
 
 /// Sets the machine and the corrections of the data from the causes; a class that may also be on
 /// the paper only if the options accept it.
@@ -45,7 +44,7 @@ void apply_causes(const Analysis& analysis, Diagnosis& diagnosis);
 
 /// Quarters without which the answer differs, and causes of one session alone; empty if there are
 /// none.
-[[nodiscard]] std::vector<std::string> parts_in_words(const Diagnosis& diagnosis);
+std::vector<std::string> parts_in_words(const Diagnosis& diagnosis);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
 void put_into_words(const Analysis& analysis, Diagnosis& diagnosis);

@@ -35,7 +35,7 @@ class Scout {
   }
 
   /// `given` covers the columns that this scout knows.
-  [[nodiscard]] Scouted look_at(const DiscrepancyBasis::GivenKernel& given, int discrepancy) const {
+  Scouted look_at(const DiscrepancyBasis::GivenKernel& given, int discrepancy) const {
     const auto d = given.diagonal(family().strength_of(discrepancy));
     const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
     Scouted result{
@@ -59,10 +59,10 @@ class Scout {
   }
 
  private:
-  [[nodiscard]] const DiscrepancyFamily& family() const { return *system_.discrepancies; }
+  const DiscrepancyFamily& family() const { return *system_.discrepancies; }
 
   /// log evidence of one regressor, without the common determinants and ignoring its bounds.
-  [[nodiscard]] double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Eigen::Index k) const {
+  double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Eigen::Index k) const {
     const Regressor& own = system_.regressor(plain_.columns[as_size(k)]);
     const NoiseDensity& noise = collector_.noise();
     if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
@@ -76,9 +76,9 @@ class Scout {
     return noise.log_density_as_stated(std::max(q, 0.0)) - 0.5 * std::log1p(gg / precision);
   }
 
-  [[nodiscard]] double together(const NormalEquations& equations,
-                                int discrepancy,
-                                const RegressorSet& set) const {
+  double together(const NormalEquations& equations,
+                  int discrepancy,
+                  const RegressorSet& set) const {
     ColumnSet all;
     for (const int k : set) all.push_back(equations.position(k));
     return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +

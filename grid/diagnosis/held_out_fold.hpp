@@ -27,7 +27,7 @@ struct ExpectedImprovement {
 
 /// Over the measured area with equal weights; over the measured distances; or at the points
 /// themselves if a cause depends on the visits.
-[[nodiscard]] ExpectedImprovement expected_improvement(const Analysis& analysis);
+ExpectedImprovement expected_improvement(const Analysis& analysis);
 
 /// The decision's marginalised system without the points that only causes at one visit explain: a
 /// calibration without these causes would reject them too.
@@ -40,9 +40,9 @@ struct DecidedWithout {
   Downdating::Without models;
   Decision decision;
 };
-[[nodiscard]] DecidedWithout decided_without(const Analysis& analysis,
-                                             const Downdating& downdating,
-                                             const Indices& units);
+DecidedWithout decided_without(const Analysis& analysis,
+                               const Downdating& downdating,
+                               const Indices& units);
 
 /// Errors of the tool in mm with some causes, without a surface and with one.
 struct ErrorsWith {
@@ -65,18 +65,16 @@ struct Fold {
 /// \param units of the analysis' session, left out of everything. The gate and the decision are
 /// those for all units; the models are those of the whole comparison, weighed without these units
 /// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
-[[nodiscard]] Fold fold_without(const Analysis& analysis,
-                                const Downdating& downdating,
-                                const Indices& units);
+Fold fold_without(const Analysis& analysis, const Downdating& downdating, const Indices& units);
 
 /// Groups of units that are held out together.
 struct HeldOutBlocks {
-  std::vector<Indices> units;                   ///< empty if there are too few units
-  bool of_the_bed = false;                      ///< or each hole with all distances that end there
+  std::vector<Indices> units;  ///< empty if there are too few units
+  bool of_the_bed = false;     ///< or each hole with all distances that end there
 };
 
 /// The held-out errors are those of the tool if chains were read at enough marks, else of
 /// distances.
-[[nodiscard]] HeldOutBlocks held_out_blocks(const ObservationSet& session);
+HeldOutBlocks held_out_blocks(const ObservationSet& session);
 
 }  // namespace chaintrue::grid::diagnosis

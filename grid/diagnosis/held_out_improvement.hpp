@@ -15,23 +15,22 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Empty if there are too few points to hold any out.
-[[nodiscard]] std::optional<HeldOutImprovement> measure_improvement(const Analysis& analysis);
+std::optional<HeldOutImprovement> measure_improvement(const Analysis& analysis);
 
 /// Whether a machine with the causes predicts held-out readings better than one without, with the
 /// surface in both: only the comparison of measure_improvement().
-[[nodiscard]] bool naming_improves_the_map(const Analysis& analysis);
-[[nodiscard]] bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvement);
+bool naming_improves_the_map(const Analysis& analysis);
+bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvement);
 
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over
 /// resampled blocks. `block` numbers the block of each error.
-[[nodiscard]] HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
-                                const Indices& block,
-                                std::uint64_t seed);
+HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
+                  const Indices& block,
+                  std::uint64_t seed);
 
 /// The errors of the machine as it was delivered. For a place with a command they are commanded
 /// minus measured, regardless of the stated machine. Whitened like `stated.e`; `stated` is the
 /// session linearised about the stated values.
-[[nodiscard]] Eigen::VectorXd uncalibrated(const ObservationSet& session,
-                                           const RegressorSystem& stated);
+Eigen::VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated);
 
 }  // namespace chaintrue::grid::diagnosis

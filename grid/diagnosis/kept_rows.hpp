@@ -36,20 +36,20 @@ class KeptRows {
   KeptRows() = default;
   /// `rejected`: a flag for each outlier group of the system (regressor_system.hpp).
   KeptRows(const RegressorSystem& system, const Flags& rejected);
-  [[nodiscard]] static KeptRows all(const RegressorSystem& system);
+  static KeptRows all(const RegressorSystem& system);
 
-  [[nodiscard]] Eigen::Index size() const { return std::ssize(rows_); }
+  Eigen::Index size() const { return std::ssize(rows_); }
   /// Numbers in the system, ascending; a row across a direction has the number of its unit's first
   /// row.
-  [[nodiscard]] const Rows& rows() const { return rows_; }
-  [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
+  const Rows& rows() const { return rows_; }
+  const std::vector<Unit>& units() const { return units_; }
   /// Positions of the rows that belong to these units.
-  [[nodiscard]] Rows positions(const Indices& units) const;
+  Rows positions(const Indices& units) const;
 
-  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
-  [[nodiscard]] Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
+  Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
+  Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
   /// The kept part of a block of a unit's rows.
-  [[nodiscard]] static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
+  static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
     return unit.across ? Eigen::MatrixXd(*unit.across * block) : block;
   }
 

@@ -33,17 +33,17 @@ namespace chaintrue::grid::diagnosis {
 /// along an axis of the sheet, or none of these by itself. Of a law also: the tool along the
 /// direction that the law runs in, the tool outwards over every border, and one of four belts.
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
-[[nodiscard]] std::string_view name(Enters enters);
+std::string_view name(Enters enters);
 
 /// For a law that enters a belt; null for all others.
-[[nodiscard]] std::optional<model::Belt> belt_of(Enters enters);
+std::optional<model::Belt> belt_of(Enters enters);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
-[[nodiscard]] std::string_view name(LawShape shape);
+std::string_view name(LawShape shape);
 /// Whether it has a period.
-[[nodiscard]] bool is_periodic(LawShape shape);
+bool is_periodic(LawShape shape);
 /// How many parameters a law of this shape has.
-[[nodiscard]] std::size_t parameter_count(LawShape shape);
+std::size_t parameter_count(LawShape shape);
 
 struct ParameterEstimate {
   std::string parameter;
@@ -97,6 +97,6 @@ struct Law {
 
 /// In mm, at one value of its variable. \throws std::invalid_argument for a law whose parameters
 /// are not those of its shape.
-[[nodiscard]] double value_of(const Law& law, double v);
+double value_of(const Law& law, double v);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -72,7 +72,8 @@ class CurveList {
     }
     if (!of_border) add_waves(LawShape::wave, kWaveStep, 0.25 * weight);
     // Two parameters more than a wave.
-    if (may_repeat(start_.of, start_.enters)) add_waves(LawShape::harmonics, kHarmonicsStep, 0.0625 * weight);
+    if (may_repeat(start_.of, start_.enters))
+      add_waves(LawShape::harmonics, kHarmonicsStep, 0.0625 * weight);
   }
 
   void add(LawShape shape, int towards, double weight, std::vector<double> grid) {
@@ -91,14 +92,14 @@ class CurveList {
     curves_.back().mass = std::move(places.mass);
   }
 
-  [[nodiscard]] std::vector<double> kink_places() const {
+  std::vector<double> kink_places() const {
     std::vector<double> grid;
     for (int k = 0; k < kKinkPlaces; ++k)
       grid.push_back(start_.from + (k + 0.5) / kKinkPlaces * start_.span());
     return grid;
   }
 
-  [[nodiscard]] std::vector<double> scales() const {
+  std::vector<double> scales() const {
     std::vector<double> grid;
     for (int k = 0; k < kScales; ++k)
       grid.push_back(kShortestScale * std::pow(kScaleFactor, k) * start_.span());
@@ -107,7 +108,7 @@ class CurveList {
 
   /// Waves over the span beyond which evenly spaced values mistake one for a longer one: half of the
   /// first number of waves that all of them see nearly in the same phase (the sampling theorem).
-  [[nodiscard]] double most_resolvable_waves(double most) const {
+  double most_resolvable_waves(double most) const {
     // 0.97: a strength of 12 separates two such waves by less than three sigmas, 12 sqrt(1 -
     // 0.97^2).
     constexpr double kSamePhase = 0.97;
@@ -134,7 +135,8 @@ class CurveList {
   void add_waves(LawShape shape, double step, double weight) {
     const double harmonic = shape == LawShape::harmonics ? 2.0 : 1.0;
     const double most =
-        std::min(start_.span() / shortest_wave(start_.of, start_.enters, start_.span()), most_resolvable_waves_) /
+        std::min(start_.span() / shortest_wave(start_.of, start_.enters, start_.span()),
+                 most_resolvable_waves_) /
         harmonic;
     std::vector<double> grid;
     std::vector<double> mass;

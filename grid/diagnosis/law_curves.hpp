@@ -44,24 +44,24 @@ struct LawTerm {
 };
 
 /// The variables of the system's mechanism, except Coordinate::across.
-[[nodiscard]] std::vector<Coordinate> law_variables(const RegressorSystem& system);
+std::vector<Coordinate> law_variables(const RegressorSystem& system);
 
 struct LawEntrance {
   Enters enters = Enters::left;
   double weight = 0.0;  ///< among all entries of a variable, of sum 1
 };
 /// A law in a chain's or belt's variable mostly acts on that chain or belt.
-[[nodiscard]] std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of);
+std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of);
 
 /// The shortest period: shorter ones are implausible, or no marks show them.
-[[nodiscard]] double shortest_wave(Coordinate of, Enters enters, double span);
+double shortest_wave(Coordinate of, Enters enters, double span);
 /// Whether something rotates there, or consists of equal parts.
-[[nodiscard]] bool may_repeat(Coordinate of, Enters enters);
+bool may_repeat(Coordinate of, Enters enters);
 
 /// Values of a law's variable at all places of a system that have one.
-[[nodiscard]] std::vector<double> values_of_variable(const RegressorSystem& system,
-                                                     Coordinate of,
-                                                     double direction_rad);
+std::vector<double> values_of_variable(const RegressorSystem& system,
+                                       Coordinate of,
+                                       double direction_rad);
 
 /// A value of a law's variable, and what one millimetre of the law adds to the whitened rows of a
 /// unit there.
@@ -71,9 +71,7 @@ struct LawRows {
 };
 /// One for each place of the unit, or two if the law moves the tool outwards; none at a visit
 /// without a number for a law of the visits.
-[[nodiscard]] std::vector<LawRows> law_rows(const RegressorSystem& system,
-                                            std::size_t unit,
-                                            const LawTerm& term);
+std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit, const LawTerm& term);
 
 struct LawCurve : LawTerm {
   LawShape shape = LawShape::linear;
@@ -86,8 +84,8 @@ struct LawCurve : LawTerm {
   std::vector<double> mass;  ///< prior of each, of sum 1
   double weight = 0.0;       ///< relative to those of other laws
   double share = 0.0;        ///< among all laws, of sum 1
-  [[nodiscard]] double span() const { return to - from; }
-  [[nodiscard]] double middle() const { return 0.5 * (from + to); }
+  double span() const { return to - from; }
+  double middle() const { return 0.5 * (from + to); }
 };
 
 /// Where a step may lie, evenly over a range, in the unit of its variable: the middle of each gap
@@ -96,24 +94,24 @@ struct StepPlaces {
   std::vector<double> at;
   std::vector<double> mass;
 };
-[[nodiscard]] StepPlaces step_places(const std::vector<double>& values, double from, double to);
+StepPlaces step_places(const std::vector<double>& values, double from, double to);
 
 /// For this system's places.
-[[nodiscard]] std::vector<LawCurve> law_curves(const RegressorSystem& system);
+std::vector<LawCurve> law_curves(const RegressorSystem& system);
 /// Shares in proportion to the weights.
 void share_out(std::vector<LawCurve>& curves);
 
 /// Number of linear amplitudes: two for a square and a wave, four for a wave with its second
 /// harmonic, else one.
-[[nodiscard]] Eigen::Index columns_of(LawShape shape);
+Eigen::Index columns_of(LawShape shape);
 /// Whether there is a continuous place, scale or period to refine.
-[[nodiscard]] bool is_continuous(LawShape shape);
+bool is_continuous(LawShape shape);
 /// Prior density of a grid point, up to a factor.
-[[nodiscard]] double density_at(const LawCurve& curve, double at);
+double density_at(const LawCurve& curve, double at);
 
 /// Whitened rows that a law's amplitudes add to at some points of its grid, one after the other: all rows by columns_of().
-[[nodiscard]] Eigen::MatrixXd law_columns(const RegressorSystem& system,
-                                          const LawCurve& curve,
-                                          const std::vector<double>& at);
+Eigen::MatrixXd law_columns(const RegressorSystem& system,
+                            const LawCurve& curve,
+                            const std::vector<double>& at);
 
 }  // namespace chaintrue::grid::diagnosis

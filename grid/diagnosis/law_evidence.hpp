@@ -34,19 +34,19 @@ struct WeighedLaw {
 
 struct LawEvidence {
   std::vector<LawCurve> curves;
-  std::vector<RegressorSet> sets;      ///< of the system's regressors
-  std::size_t marginalised = 0;        ///< in which they were weighed
-  double log_without = 0.0;            ///< no law acts
-  std::size_t without_set = 0;         ///< in the best context of these
+  std::vector<RegressorSet> sets;  ///< of the system's regressors
+  std::size_t marginalised = 0;    ///< in which they were weighed
+  double log_without = 0.0;        ///< no law acts
+  std::size_t without_set = 0;     ///< in the best context of these
   int without_discrepancy = -1;
-  std::vector<WeighedLaw> laws;        ///< those with a share, heaviest first
+  std::vector<WeighedLaw> laws;  ///< those with a share, heaviest first
   /// Logarithm of all weights together.
-  [[nodiscard]] double log_total() const;
+  double log_total() const;
 };
 
 /// In one of the comparison's marginalised systems. `curves` with their shares.
-[[nodiscard]] LawEvidence weigh_laws(const Analysis& analysis,
-                                     std::size_t marginalised,
-                                     std::vector<LawCurve> curves);
+LawEvidence weigh_laws(const Analysis& analysis,
+                       std::size_t marginalised,
+                       std::vector<LawCurve> curves);
 
 }  // namespace chaintrue::grid::diagnosis

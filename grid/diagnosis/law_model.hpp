@@ -49,7 +49,7 @@ class LawModel {
   }
 
   /// For all kept rows, after subtracting `known` (all rows).
-  [[nodiscard]] double log_density(const Eigen::VectorXd& known) const {
+  double log_density(const Eigen::VectorXd& known) const {
     const LowRankNoise noise(reduced_);
     return density().log_density(noise.half_solve(left_by(known)).squaredNorm()) -
            0.5 * (marginalised_.log_det + noise.log_det());
@@ -61,7 +61,7 @@ class LawModel {
     Eigen::VectorXd noise;
     Eigen::VectorXd unexplained;
   };
-  [[nodiscard]] Left left_of(const Eigen::VectorXd& known) const {
+  Left left_of(const Eigen::VectorXd& known) const {
     Left left;
     left.noise = marginalised_.root.solve(LowRankNoise(reduced_).solve(left_by(known)));
     left.unexplained = left.noise;
@@ -78,8 +78,7 @@ class LawModel {
     Eigen::VectorXd mean;
     Eigen::MatrixXd covariance;
   };
-  [[nodiscard]] Expected expected_of(const RegressorSystem& next,
-                                     const Eigen::MatrixXd& columns) const {
+  Expected expected_of(const RegressorSystem& next, const Eigen::MatrixXd& columns) const {
     const Eigen::Index settings = system_.by_setting.cols();
     const Eigen::Index rows = marginalised_.kept.size();
     Eigen::MatrixXd here(rows, settings + columns.cols());
@@ -102,8 +101,9 @@ class LawModel {
         linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
     if (process_) {
       const double square = process_->sigma_mm * process_->sigma_mm;
-      across += square *
-                discrepancy_covariance(next, system_, marginalised_.kept, process_->kernel).transpose();
+      across +=
+          square *
+          discrepancy_covariance(next, system_, marginalised_.kept, process_->kernel).transpose();
       own += square * discrepancy_covariance(next, KeptRows::all(next), process_->kernel);
     }
     const LowRankNoise noise(reduced_);
@@ -142,27 +142,23 @@ class LawModel {
   };
 
  private:
-  [[nodiscard]] NoiseDensity density() const {
-    return {system_.noise_dof, marginalised_.kept.size()};
-  }
+  NoiseDensity density() const { return {system_.noise_dof, marginalised_.kept.size()}; }
   /// R^-1 (e - known)
-  [[nodiscard]] Eigen::VectorXd left_by(const Eigen::VectorXd& known) const {
+  Eigen::VectorXd left_by(const Eigen::VectorXd& known) const {
     return marginalised_.e - reduced(marginalised_, known);
   }
 
   const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   std::optional<Discrepancy> process_;
-  Eigen::MatrixXd pattern_;               ///< s F in the kept rows; no columns without a discrepancy
-  Eigen::MatrixXd reduced_;               ///< B
+  Eigen::MatrixXd pattern_;  ///< s F in the kept rows; no columns without a discrepancy
+  Eigen::MatrixXd reduced_;  ///< B
   std::vector<Eigen::VectorXd> columns_;  ///< kept rows, scaled to one sigma each
   std::vector<double> sigmas_;
 };
 
 /// An explanation with the amplitudes of a law at one place; null for the likeliest without a law.
-[[nodiscard]] inline LawModel model_with(const Analysis& a,
-                                         const LawEvidence& evidence,
-                                         const WeighedLaw* law) {
+inline LawModel model_with(const Analysis& a, const LawEvidence& evidence, const WeighedLaw* law) {
   LawModel model(a,
                  a.comparison.marginalised_systems[evidence.marginalised],
                  evidence.sets[law != nullptr ? law->set : evidence.without_set],

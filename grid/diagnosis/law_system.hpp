@@ -100,7 +100,7 @@ class LawSystem {
 
   /// A larger law at its usual strength would be visible without a measurement: the settings absorb
   /// nearly all of it. By the columns taken last.
-  [[nodiscard]] bool shows(const ColumnSet& laws) const {
+  bool shows(const ColumnSet& laws) const {
     constexpr double kLargestMm = 6.0;
     return all_of(laws, [&](Eigen::Index k) {
       const Eigen::Index at = causes_.cols() + k;
@@ -112,7 +112,7 @@ class LawSystem {
   void prepare(int discrepancy) { basis_->prepare(family().kernel_of(discrepancy)); }
 
   /// For the causes and the laws taken last.
-  [[nodiscard]] NormalEquations equations(int discrepancy) {
+  NormalEquations equations(int discrepancy) {
     if (discrepancy < 0) return plain_;
     const std::size_t kernel = family().kernel_of(discrepancy);
     auto found = given_.find(kernel);
@@ -121,9 +121,9 @@ class LawSystem {
   }
 
   /// Log prior and evidence of a context with some of the laws' columns; without the laws' prior.
-  [[nodiscard]] double log_weight(const NormalEquations& equations,
-                                  const LawContext& context,
-                                  const ColumnSet& laws) const {
+  double log_weight(const NormalEquations& equations,
+                    const LawContext& context,
+                    const ColumnSet& laws) const {
     const Priors& priors = log_prior_[context.set];
     const bool given = context.discrepancy >= 0;
     const double prior =
@@ -133,9 +133,9 @@ class LawSystem {
                .log_evidence;
   }
 
-  [[nodiscard]] LawAmplitudes amplitudes(const NormalEquations& equations,
-                                         const LawContext& context,
-                                         const ColumnSet& laws) const {
+  LawAmplitudes amplitudes(const NormalEquations& equations,
+                           const LawContext& context,
+                           const ColumnSet& laws) const {
     const ColumnSet all = all_columns(context, laws);
     Eigen::MatrixXd a = equations.gg(all, all);
     const Eigen::VectorXd prior = equations.prior_square(all);
@@ -148,8 +148,8 @@ class LawSystem {
     return {b.tail(m), square * factor.inverse().bottomRightCorner(m, m)};
   }
 
-  [[nodiscard]] const DiscrepancyFamily& family() const { return *own_.discrepancies; }
-  [[nodiscard]] std::size_t sets() const { return sets_.size(); }
+  const DiscrepancyFamily& family() const { return *own_.discrepancies; }
+  std::size_t sets() const { return sets_.size(); }
 
  private:
   /// Replaces the columns of laws.
@@ -169,7 +169,7 @@ class LawSystem {
   }
 
   /// Columns in a context: of its causes and of some laws.
-  [[nodiscard]] ColumnSet all_columns(const LawContext& context, const ColumnSet& laws) const {
+  ColumnSet all_columns(const LawContext& context, const ColumnSet& laws) const {
     ColumnSet all = sets_[context.set];
     for (const Eigen::Index k : laws) all.push_back(causes_.cols() + k);
     return all;

@@ -33,10 +33,10 @@ double log_total(const std::vector<LawEvidence>& evidence) {
 struct FoundPoint {
   const LawEvidence* evidence = nullptr;
   const WeighedLaw* law = nullptr;
-  [[nodiscard]] const LawCurve& curve() const { return evidence->curves[law->curve]; }
+  const LawCurve& curve() const { return evidence->curves[law->curve]; }
   /// The posterior density there, up to a factor, independent of the grid's spacing, which is finer
   /// about the leading points. A step's place is one of its gaps.
-  [[nodiscard]] double log_density() const {
+  double log_density() const {
     const LawCurve& own = curve();
     if (!is_continuous(own.shape)) return law->log_weight;
     const auto at = std::find(own.grid.begin(), own.grid.end(), law->at) - own.grid.begin();

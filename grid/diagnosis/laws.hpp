@@ -28,15 +28,15 @@ struct LawsFound {
 
 /// Likeliest first, at most three; empty unless all laws together are at least kLawLikely, and if
 /// only one cause is requested.
-[[nodiscard]] LawsFound laws_found(const Analysis& analysis);
+LawsFound laws_found(const Analysis& analysis);
 
 /// As above from evidence in one or more of the comparison's systems, each with the same laws.
-[[nodiscard]] LawsFound laws_of(const Analysis& analysis, std::vector<LawEvidence> evidence);
+LawsFound laws_of(const Analysis& analysis, std::vector<LawEvidence> evidence);
 /// Adds them to a complete diagnosis: to its hypotheses and, if no cause is named, its verdict.
 void take_laws(std::vector<Law> laws, Diagnosis& diagnosis);
 /// The likeliest, if at least kLawClaimed; else null.
-[[nodiscard]] const Law* claimed_law(const Diagnosis& diagnosis);
+const Law* claimed_law(const Diagnosis& diagnosis);
 /// Probability that some law acts.
-[[nodiscard]] double probability_of_any(const std::vector<LawEvidence>& evidence);
+double probability_of_any(const std::vector<LawEvidence>& evidence);
 
 }  // namespace chaintrue::grid::diagnosis

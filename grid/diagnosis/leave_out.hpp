@@ -32,7 +32,7 @@ class LeaveOut {
  public:
   LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const Eigen::MatrixXd& x);
 
-  [[nodiscard]] Eigen::Index rows() const { return weighed_.rows(); }
+  Eigen::Index rows() const { return weighed_.rows(); }
 
   struct Kept {
     Eigen::MatrixXd inner;    ///< x' V_kept^-1 x
@@ -40,7 +40,7 @@ class LeaveOut {
     linear::Cholesky block;   ///< P_OO
     Eigen::MatrixXd weighed;  ///< (P x)_O
     /// x_O minus its prediction by the kept rows.
-    [[nodiscard]] Eigen::MatrixXd missed() const { return block.solve(weighed); }
+    Eigen::MatrixXd missed() const { return block.solve(weighed); }
   };
   [[nodiscard]] Kept without(const Rows& out) const;
 

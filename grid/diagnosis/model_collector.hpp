@@ -16,7 +16,7 @@ struct WeighedSet {
 };
 /// Whether two regressors may act together: a cause acts at one place, an effect on both chains
 /// excludes the same on one of them, and one effect may set in at one visit of one chain.
-[[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
+bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
 class ModelCollector {
  public:
   /// `number` is the marginalised system's in its comparison; the references must outlive this.
@@ -28,14 +28,14 @@ class ModelCollector {
   /// Returns a set's weight and keeps the set if relevant; minus infinity if it is impossible.
   double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
   /// Whether a set of so many causes with this weight is relevant.
-  [[nodiscard]] bool keeps(std::size_t size, int discrepancy, double weight) const;
+  bool keeps(std::size_t size, int discrepancy, double weight) const;
   /// Log prior of a set with a discrepancy or none, including the discrepancy's share and the rejected points.
-  [[nodiscard]] double log_prior_of(const RegressorSet& regressors, int discrepancy) const;
+  double log_prior_of(const RegressorSet& regressors, int discrepancy) const;
 
-  [[nodiscard]] double best() const { return best_; }
-  [[nodiscard]] const NoiseDensity& noise() const { return noise_; }
+  double best() const { return best_; }
+  const NoiseDensity& noise() const { return noise_; }
   /// Moves out all that are kept so far.
-  [[nodiscard]] std::vector<CandidateModel> take();
+  std::vector<CandidateModel> take();
 
  private:
   const RegressorSystem& system_;
@@ -64,14 +64,12 @@ class GrowingSets {
               ModelCollector& collector);
 
   void weigh(const ColumnSet& set);
-  [[nodiscard]] const std::vector<WeighedSet>& of_size(std::size_t size) const {
-    return weighed_[size];
-  }
-  [[nodiscard]] const Regressor& regressor(Eigen::Index column) const {
+  const std::vector<WeighedSet>& of_size(std::size_t size) const { return weighed_[size]; }
+  const Regressor& regressor(Eigen::Index column) const {
     return system_.regressor(equations_.columns[as_size(column)]);
   }
   /// Whether the columns may act together.
-  [[nodiscard]] bool fits(const ColumnSet& set, Eigen::Index column) const;
+  bool fits(const ColumnSet& set, Eigen::Index column) const;
   /// Weighs the best sets of `size` and more columns with one more, as `extensions` has for each.
   void grow(std::size_t size,
             const GrowthLimits& limits,

@@ -23,8 +23,8 @@ struct CandidateModel {
   std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
   /// Natural logarithm of prior times evidence, or of a probability averaged over parts (bed_parts.hpp).
   double log_weight = 0.0;
-  double larger_noise = 0.0;     ///< share of it from noise larger than stated
-  double quadratic = 0.0;        ///< residual of e'e
+  double larger_noise = 0.0;  ///< share of it from noise larger than stated
+  double quadratic = 0.0;     ///< residual of e'e
 };
 
 struct ModelComparison {
@@ -34,12 +34,12 @@ struct ModelComparison {
   /// Kernels of the model discrepancy that were tried, the heaviest first.
   Indices kernels;
   /// \throws std::invalid_argument if no model has a finite weight.
-  [[nodiscard]] const CandidateModel& best() const;
+  const CandidateModel& best() const;
   /// The marginalised system of the best model.
-  [[nodiscard]] const MarginalisedSystem& best_system() const {
+  const MarginalisedSystem& best_system() const {
     return marginalised_systems[best().marginalised];
   }
-  [[nodiscard]] double probability(const CandidateModel& model) const;
+  double probability(const CandidateModel& model) const;
 };
 
 /// Best first, and `log_total`.
@@ -72,27 +72,25 @@ struct ComparisonOptions {
 };
 
 /// Points that are known not to count (held out) are `excluded`.
-[[nodiscard]] ModelComparison compare_models(const RegressorSystem& system,
-                                             const Flags& excluded,
-                                             const ComparisonOptions& options);
+ModelComparison compare_models(const RegressorSystem& system,
+                               const Flags& excluded,
+                               const ComparisonOptions& options);
 
 /// The heaviest kernels of a comparison, for others of the same session: enough to hold the weight
 /// of a discrepancy for each of its causes.
-[[nodiscard]] Indices best_kernels(const ModelComparison& comparison);
+Indices best_kernels(const ModelComparison& comparison);
 
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;
 
 /// Prior of a set of regressors, without its outliers.
-[[nodiscard]] double log_prior(const RegressorSystem& system,
-                               const RegressorSet& set,
-                               bool discrepancy);
+double log_prior(const RegressorSystem& system, const RegressorSet& set, bool discrepancy);
 
 /// Log prior odds of one more lasting cause, without its share in the catalogue (exp of its
 /// log_prior); minus infinity beyond kMostCauses.
-[[nodiscard]] double log_odds_of_another(const RegressorSystem& system,
-                                         const RegressorSet& set,
-                                         bool discrepancy);
+double log_odds_of_another(const RegressorSystem& system,
+                           const RegressorSet& set,
+                           bool discrepancy);
 
 /// Log Bayes factor of one cause against none, averaged over its places, by position in `causes`.
 struct SingleScores {
@@ -100,9 +98,9 @@ struct SingleScores {
   std::vector<double> log_factor;
   RegressorSet best_regressor;
 };
-[[nodiscard]] SingleScores single_scores(const RegressorSystem& system,
-                                         const MarginalisedSystem& marginalised,
-                                         const NoiseDensity& noise,
-                                         const Eigen::VectorXd& e);
+SingleScores single_scores(const RegressorSystem& system,
+                           const MarginalisedSystem& marginalised,
+                           const NoiseDensity& noise,
+                           const Eigen::VectorXd& e);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -45,7 +45,7 @@ class PointCandidates {
     add_revisits();
   }
 
-  [[nodiscard]] CandidateReadings take() {
+  CandidateReadings take() {
     // Each is a next visit; their order is arbitrary.
     return {{std::make_shared<const observation::ChainLengthReadings>(
                  observation::ChainLengthReadings::in_given_order(
@@ -140,7 +140,7 @@ class HoleCandidates {
     add_holes();
   }
 
-  [[nodiscard]] std::optional<CandidateReadings> take() {
+  std::optional<CandidateReadings> take() {
     if (candidates_.empty()) return std::nullopt;
     auto tape = observation::TapeDistances::in_given_order(std::move(set_));
     if (!tape) return std::nullopt;
@@ -150,7 +150,7 @@ class HoleCandidates {
   }
 
  private:
-  [[nodiscard]] bool is_measured(const HoleDistance& wanted) const {
+  bool is_measured(const HoleDistance& wanted) const {
     return any_of(measured_.distances, [&](const HoleDistance& d) {
       if (d.edge != wanted.edge) return false;
       if (d.edge) return d.from == wanted.from;
@@ -189,7 +189,7 @@ class HoleCandidates {
   }
 
   /// The existing holes, the farthest from a place first.
-  [[nodiscard]] Indices by_distance(const model::BedPoint& place) const {
+  Indices by_distance(const model::BedPoint& place) const {
     Indices order;
     for (std::size_t i = 0; i < measured_.holes.size(); ++i) order.push_back(i);
     const auto squared = [&](std::size_t i) {
@@ -200,7 +200,7 @@ class HoleCandidates {
     return order;
   }
 
-  [[nodiscard]] bool can_be_cut(const Hole& hole) const {
+  bool can_be_cut(const Hole& hole) const {
     MeasuredHoles alone = measured_;
     alone.holes = {hole};
     alone.distances.clear();

@@ -29,7 +29,7 @@ struct NextCandidates {
 
 /// Points over the bed and repeated visits if chains were read, distances and holes if a tape was
 /// used, and readings of the machine.
-[[nodiscard]] NextCandidates next_candidates(const Analysis& analysis);
+NextCandidates next_candidates(const Analysis& analysis);
 
 /// One observation of candidates; `rows` are its own.
 struct CandidateReadings {
@@ -38,7 +38,6 @@ struct CandidateReadings {
 };
 /// For a part with distances: those not measured yet, and holes not cut yet with their distances.
 /// Empty if nothing of this kind can be measured.
-[[nodiscard]] std::optional<CandidateReadings> candidate_distances(const Analysis& analysis,
-                                                                   std::size_t part);
+std::optional<CandidateReadings> candidate_distances(const Analysis& analysis, std::size_t part);
 
 }  // namespace chaintrue::grid::diagnosis

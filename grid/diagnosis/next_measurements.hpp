@@ -17,20 +17,18 @@ inline constexpr std::size_t kMostNextMeasurements = 8;
 inline constexpr double kEnough = 0.97;
 
 /// Empty if fewer than two hypotheses remain.
-[[nodiscard]] std::vector<NextMeasurement> next_measurements(const Analysis& analysis);
+std::vector<NextMeasurement> next_measurements(const Analysis& analysis);
 
 /// Whether nothing is left to distinguish: no name, and one explanation well ahead.
-[[nodiscard]] bool is_left_alone(const Analysis& analysis,
-                                 const std::vector<Alternative>& alternatives);
+bool is_left_alone(const Analysis& analysis, const std::vector<Alternative>& alternatives);
 
 /// The most informative of these candidates, whose rows are those of the alternatives, one after
 /// the other until a name is nearly certain or no further one helps.
-[[nodiscard]] std::vector<NextMeasurement> most_telling(
-    const std::vector<Alternative>& alternatives, std::vector<Candidate> options);
+std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& alternatives,
+                                          std::vector<Candidate> options);
 
 /// Measurements that separate the laws found from each other and from none (laws.hpp). Empty if one
 /// is nearly certain.
-[[nodiscard]] std::vector<NextMeasurement> next_for_laws(const Analysis& analysis,
-                                                         const LawsFound& found);
+std::vector<NextMeasurement> next_for_laws(const Analysis& analysis, const LawsFound& found);
 
 }  // namespace chaintrue::grid::diagnosis

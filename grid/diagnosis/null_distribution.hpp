@@ -38,7 +38,7 @@ class SingleScore {
   }
 
   /// The largest of all; `e` like MarginalisedSystem::e.
-  [[nodiscard]] double largest(const Eigen::VectorXd& e) const {
+  double largest(const Eigen::VectorXd& e) const {
     const Eigen::VectorXd c = marginalised_.g.transpose_times(e);
     const double ee = e.squaredNorm();
     const auto n = as_double(e.size());
@@ -49,7 +49,7 @@ class SingleScore {
   }
 
   /// The largest over the columns of normal equations with this many rows.
-  [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const {
+  double largest(const NormalEquations& equations, Eigen::Index rows) const {
     double result = kNoScore;
     for (std::size_t i = 0; i < equations.columns.size(); ++i) {
       const auto at = as_index(i);
@@ -64,7 +64,7 @@ class SingleScore {
   }
 
   /// For each column of `e`.
-  [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const {
+  Eigen::VectorXd largest(const Eigen::MatrixXd& e) const {
     const RegressorColumns& g = marginalised_.g;
     const Eigen::MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
     const auto n = as_double(e.rows());
@@ -86,14 +86,14 @@ class SingleScore {
   static double precision() { return 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise); }
 
   /// For a regressor with this square and inner product with the residual, in this many rows.
-  [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const {
+  double score(Eigen::Index k, double square, double c, double ee, double n) const {
     const auto at = as_size(k);
     if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
     return constant_(k) - 0.5 * (n + dof_) * std::log1p(-share_taken(at, square, c, ee));
   }
 
   /// A bound of it without a logarithm.
-  [[nodiscard]] double most(Eigen::Index k, double square, double c, double ee, double n) const {
+  double most(Eigen::Index k, double square, double c, double ee, double n) const {
     // -log(1 - x) <= x / (1 - x); the last digits of either side do not matter to a score that is far below.
     constexpr double kRounding = 1e-9;
     const double taken = share_taken(as_size(k), square, c, ee);
@@ -101,7 +101,7 @@ class SingleScore {
   }
 
   /// The reduction of the residual's square by the regressor's best size, relative to noise.
-  [[nodiscard]] double share_taken(std::size_t at, double square, double c, double ee) const {
+  double share_taken(std::size_t at, double square, double c, double ee) const {
     const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + precision()));
     return drop / (dof_ + ee);
   }
@@ -117,7 +117,7 @@ class SingleScore {
 struct NullDistribution {
   std::vector<double> largest;  ///< ascending
   /// Share of draws at least as large: never 0, the data count as one draw.
-  [[nodiscard]] double p_value(double score) const {
+  double p_value(double score) const {
     const auto first = std::lower_bound(largest.begin(), largest.end(), score);
     const auto above = as_double(largest.end() - first);
     return (above + 1.0) / (as_double(largest.size()) + 1.0);
@@ -131,10 +131,10 @@ enum class NoiseSize { stated, unknown };
 
 /// For residuals like those of `marginalised`; of unknown size: as long as those, and projected on the
 /// settings in the same way.
-[[nodiscard]] NullDistribution draw_null(const SingleScore& score,
-                                         const MarginalisedSystem& marginalised,
-                                         NoiseSize noise,
-                                         int draws,
-                                         std::uint64_t seed);
+NullDistribution draw_null(const SingleScore& score,
+                           const MarginalisedSystem& marginalised,
+                           NoiseSize noise,
+                           int draws,
+                           std::uint64_t seed);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -30,19 +30,19 @@ namespace chaintrue::grid::diagnosis {
 /// The order of a grid without visit numbers, if its probability is at least kOrderFound; with its
 /// corner only if no mark was repeated, since a repeat may come between any two visits. Empty if
 /// the grid has an order or its marks are not in lines. \pre `analysis` covers this file only.
-[[nodiscard]] std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
-                                                                    const Analysis& analysis);
+std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
+                                                      const Analysis& analysis);
 
 /// As above for the first of several files, analysed alone: only its order matters to their
 /// diagnosis. Empty if it is not a grid, or another grid has an order.
-[[nodiscard]] std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured,
-                                                                    const DiagnosisOptions& options);
+std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured,
+                                                      const DiagnosisOptions& options);
 
 /// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have. \pre one file.
-[[nodiscard]] std::vector<double> order_probabilities(const Measured& measured, const Analysis& analysis);
+std::vector<double> order_probabilities(const Measured& measured, const Analysis& analysis);
 
 /// The measurements with the first grid's visits numbered in this order, if no grid has one; empty
 /// if the marks do not have it. Repeated marks come last, by place.
-[[nodiscard]] std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder& order);
+std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder& order);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -12,11 +12,10 @@ namespace chaintrue::grid::diagnosis {
 
 /// The rectangle spanned by the marks at which chains were read. Precondition: the session reads
 /// chains.
-[[nodiscard]] interp::Rectangle marked_area(const ObservationSet& session);
+interp::Rectangle marked_area(const ObservationSet& session);
 
 /// A session with a point at each reachable mark, without an order of visits. Precondition: as
 /// above.
-[[nodiscard]] ObservationSet session_at(const Analysis& analysis,
-                                 const std::vector<model::MarkPoint>& marks);
+ObservationSet session_at(const Analysis& analysis, const std::vector<model::MarkPoint>& marks);
 
 }  // namespace chaintrue::grid::diagnosis

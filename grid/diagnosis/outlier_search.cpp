@@ -29,7 +29,7 @@ struct FreeGroup {
   /// absent: all rows.
   std::optional<Eigen::Vector2d> direction;
 
-  [[nodiscard]] Eigen::Index directions() const { return direction ? 1 : rows; }
+  Eigen::Index directions() const { return direction ? 1 : rows; }
 };
 
 /// The data under one hypothesis: precision P of the rows, and P times the residual.
@@ -38,7 +38,7 @@ struct FreeGroup {
 /// shift. Of P only the units' own blocks are kept, and a group's columns are made when it is
 /// rejected: with hundreds of points nothing of rows x rows is ever made.
 class MeanShifts {
-  [[nodiscard]] auto taken() const { return taken_.leftCols(count_); }
+  auto taken() const { return taken_.leftCols(count_); }
 
  public:
   /// `groups` are those that may be rejected.
@@ -79,12 +79,12 @@ class MeanShifts {
   }
 
   /// Whether anything else determines the group's readings.
-  [[nodiscard]] bool is_checked(const FreeGroup& group) const {
+  bool is_checked(const FreeGroup& group) const {
     return !group.direction || precision_along(group) > kNoDirection;
   }
 
   /// (1): the drop of the quadratic form without the group.
-  [[nodiscard]] double drop_without(const FreeGroup& group) const {
+  double drop_without(const FreeGroup& group) const {
     if (group.direction) {
       const Eigen::Vector2d& d = *group.direction;
       return std::pow(d.dot(u_.segment<2>(group.at)), 2) / precision_along(group);
@@ -101,8 +101,8 @@ class MeanShifts {
     }
   }
 
-  [[nodiscard]] double quadratic() const { return std::max(quadratic_, 0.0); }
-  [[nodiscard]] double log_det() const { return log_det_; }
+  double quadratic() const { return std::max(quadratic_, 0.0); }
+  double log_det() const { return log_det_; }
 
  private:
   template <int kRows>
@@ -113,7 +113,7 @@ class MeanShifts {
   }
 
   /// D' P D.
-  [[nodiscard]] double precision_along(const FreeGroup& group) const {
+  double precision_along(const FreeGroup& group) const {
     const Eigen::Matrix2d block = own_.block<2, 2>(0, group.at);
     return group.direction->dot(block * *group.direction);
   }
@@ -121,8 +121,7 @@ class MeanShifts {
   void reject_rows(Eigen::Index at, Eigen::Index rows) {
     const linear::Cholesky block(own_.block(0, at, rows, rows));
     Eigen::MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
-    linear::add_product(
-        columns, -1.0, taken(), linear::transposed(taken().middleRows(at, rows)));
+    linear::add_product(columns, -1.0, taken(), linear::transposed(taken().middleRows(at, rows)));
     linear::add_product(u_, -1.0, columns, block.solve(u_.segment(at, rows)));
     log_det_ += block.log_det();
     const Eigen::MatrixXd scaled = block.half_solve(columns.transpose());
@@ -132,13 +131,11 @@ class MeanShifts {
   void reject_direction(const FreeGroup& group) {
     const Eigen::Vector2d& d = *group.direction;
     const double own = precision_along(group);
-    Eigen::VectorXd column =
-        linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
-    linear::add_product(
-        column,
-        -1.0,
-        taken(),
-        linear::product(linear::transposed(taken().middleRows(group.at, 2)), d));
+    Eigen::VectorXd column = linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
+    linear::add_product(column,
+                        -1.0,
+                        taken(),
+                        linear::product(linear::transposed(taken().middleRows(group.at, 2)), d));
     u_ -= column * (d.dot(u_.segment<2>(group.at)) / own);
     log_det_ += std::log(own);
     take(column / std::sqrt(own));

@@ -19,9 +19,10 @@ struct PointPicture {
   model::MarkPoint mark;
   std::optional<int> order;
   bool bad = false;
-  Eigen::Vector2d before_mm = Eigen::Vector2d::Zero();       ///< of the calibrated machine
-  Eigen::Vector2d after_mm = Eigen::Vector2d::Zero();        ///< with the causes named
-  Eigen::Vector2d noise_sigma_mm = Eigen::Vector2d::Zero();  ///< one sigma of the tool, along x and y
+  Eigen::Vector2d before_mm = Eigen::Vector2d::Zero();  ///< of the calibrated machine
+  Eigen::Vector2d after_mm = Eigen::Vector2d::Zero();   ///< with the causes named
+  Eigen::Vector2d noise_sigma_mm =
+      Eigen::Vector2d::Zero();  ///< one sigma of the tool, along x and y
   /// Chain residuals [mm], measured less predicted.
   Eigen::Vector2d chain_before_mm = Eigen::Vector2d::Zero();
   Eigen::Vector2d chain_after_mm = Eigen::Vector2d::Zero();
@@ -61,6 +62,6 @@ struct DistancePicture {
 };
 
 /// "A-B", "A to the top edge".
-[[nodiscard]] std::string words_of_ends(const DistancePicture& distance);
+std::string words_of_ends(const DistancePicture& distance);
 
 }  // namespace chaintrue::grid::diagnosis

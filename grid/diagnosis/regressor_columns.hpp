@@ -64,24 +64,24 @@ class RegressorColumns {
   }
 
   /// Column k is factor(k) times column index(k) of these.
-  [[nodiscard]] auto distinct() const { return distinct_.leftCols(count_); }
-  [[nodiscard]] Eigen::Index rows() const { return distinct_.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return std::ssize(of_); }
-  [[nodiscard]] auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
+  auto distinct() const { return distinct_.leftCols(count_); }
+  Eigen::Index rows() const { return distinct_.rows(); }
+  Eigen::Index cols() const { return std::ssize(of_); }
+  auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
   /// Some rows of a column.
-  [[nodiscard]] Eigen::VectorXd column(const Rows& rows, Eigen::Index k) const {
+  Eigen::VectorXd column(const Rows& rows, Eigen::Index k) const {
     return distinct_.col(index(k))(rows) * factor(k);
   }
 
   /// rows() x cols()
-  [[nodiscard]] Eigen::MatrixXd dense() const {
+  Eigen::MatrixXd dense() const {
     Eigen::MatrixXd result(rows(), cols());
     for (Eigen::Index k = 0; k < cols(); ++k) result.col(k) = col(k);
     return result;
   }
 
   /// rows() x columns.size()
-  [[nodiscard]] Eigen::MatrixXd dense(const RegressorSet& columns) const {
+  Eigen::MatrixXd dense(const RegressorSet& columns) const {
     Eigen::MatrixXd result(rows(), std::ssize(columns));
     for (Eigen::Index k = 0; k < result.cols(); ++k) {
       result.col(k) = col(columns[as_size(k)]);
@@ -89,7 +89,7 @@ class RegressorColumns {
     return result;
   }
 
-  [[nodiscard]] RegressorColumns subset(const ColumnSet& columns) const {
+  RegressorColumns subset(const ColumnSet& columns) const {
     ColumnSet kept;  // for the distinct columns, in their order
     RegressorColumns result;
     for (const Eigen::Index k : columns) {
@@ -103,7 +103,7 @@ class RegressorColumns {
 
   /// Applies a linear map to all columns: `map` takes and returns a matrix of as many columns.
   template <typename Map>
-  [[nodiscard]] RegressorColumns mapped(const Map& map) const {
+  RegressorColumns mapped(const Map& map) const {
     RegressorColumns result;
     result.distinct_ = map(distinct_.leftCols(count_));
     result.count_ = count_;
@@ -112,7 +112,7 @@ class RegressorColumns {
   }
 
   /// cols(): inner products of every column with a vector.
-  [[nodiscard]] Eigen::VectorXd transpose_times(const Eigen::VectorXd& vector) const {
+  Eigen::VectorXd transpose_times(const Eigen::VectorXd& vector) const {
     const Eigen::VectorXd products = linear::product(linear::transposed(distinct()), vector);
     Eigen::VectorXd result(cols());
     for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * products(index(k));
@@ -120,15 +120,15 @@ class RegressorColumns {
   }
 
   /// cols()
-  [[nodiscard]] Eigen::VectorXd squared_norms() const {
+  Eigen::VectorXd squared_norms() const {
     const Eigen::VectorXd squares = distinct().colwise().squaredNorm();
     Eigen::VectorXd result(cols());
     for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * factor(k) * squares(index(k));
     return result;
   }
 
-  [[nodiscard]] Eigen::Index index(Eigen::Index k) const { return of_[as_size(k)].index; }
-  [[nodiscard]] double factor(Eigen::Index k) const { return of_[as_size(k)].factor; }
+  Eigen::Index index(Eigen::Index k) const { return of_[as_size(k)].index; }
+  double factor(Eigen::Index k) const { return of_[as_size(k)].factor; }
 
  private:
   struct Multiple {

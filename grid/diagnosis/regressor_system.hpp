@@ -77,7 +77,7 @@ struct OutlierLimits {
 };
 
 struct DiscrepancyFamily;
-[[nodiscard]] const DiscrepancyFamily& chain_discrepancies();
+const DiscrepancyFamily& chain_discrepancies();
 
 /// Prior probabilities of causes, by the mechanism's catalogue.
 ///
@@ -97,17 +97,15 @@ struct CausePrior {
 struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
   std::vector<Regressor> regressors;
-  [[nodiscard]] const Regressor& regressor(Eigen::Index k) const { return regressors[as_size(k)]; }
-  [[nodiscard]] RegressorSet regressors_of(const CauseId& cause) const {
+  const Regressor& regressor(Eigen::Index k) const { return regressors[as_size(k)]; }
+  RegressorSet regressors_of(const CauseId& cause) const {
     auto all = numbers_below<int>(regressors.size());
     std::erase_if(all, [&](int k) { return regressor(k).cause != cause; });
     return all;
   }
   /// Of a mechanism whose lengths are not those of two chains: a place for each unit, whose by_reading has
   /// the lengths' effect on its rows.
-  [[nodiscard]] bool is_of_lengths() const {
-    return !places.empty() && !places.front().length_mm.empty();
-  }
+  bool is_of_lengths() const { return !places.empty() && !places.front().length_mm.empty(); }
   Eigen::VectorXd setting;          ///< q, value in the state
   Eigen::VectorXd expected_change;  ///< q, stated value minus that
   Eigen::VectorXd sigma;            ///< q, one sigma as stated
@@ -120,7 +118,7 @@ struct RegressorSystem : estimation::LinearisedSystem {
 };
 
 /// A flag for each outlier group, all false.
-[[nodiscard]] inline Flags nothing_rejected(const RegressorSystem& system) {
+inline Flags nothing_rejected(const RegressorSystem& system) {
   return Flags(system.groups.empty() ? system.units.size() : system.groups.size(), false);
 }
 

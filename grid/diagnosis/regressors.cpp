@@ -101,7 +101,7 @@ struct Signatures {
   std::optional<Eigen::VectorXd> without{};
 
   /// As signature().
-  [[nodiscard]] std::optional<Eigen::VectorXd> operator()(const SizedCause& sized) {
+  std::optional<Eigen::VectorXd> operator()(const SizedCause& sized) {
     const auto& [cause, values] = sized;
     if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
       return added(system, state.machine.sprocket, cause, values);
@@ -152,9 +152,7 @@ class Builder {
   }
 
  private:
-  [[nodiscard]] static double share_of_side(CauseId cause) {
-    return 1.0 / as_double(cause.effect->sides.size());
-  }
+  static double share_of_side(CauseId cause) { return 1.0 / as_double(cause.effect->sides.size()); }
 
   void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
     Regressor regressor{{cause, values}};

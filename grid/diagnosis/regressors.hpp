@@ -21,7 +21,7 @@ struct Candidates {
   std::vector<NotTestable> not_testable;
 };
 /// An effect that one of the observations can show is testable.
-[[nodiscard]] Candidates candidates(const ObservationSet& session);
+Candidates candidates(const ObservationSet& session);
 
 /// Appends the regressors of all these causes. Known causes get secants at their sizes, and also at
 /// their places.
@@ -32,16 +32,16 @@ void add_regressors(const ObservationSet& session,
                     RegressorSystem& system);
 
 /// Recomputes regressors about another state, at their values. False if such a machine is invalid.
-[[nodiscard]] bool renew_regressors(const ObservationSet& session,
-                                    const State& state,
-                                    const std::vector<Regressor>& regressors,
-                                    RegressorSystem& system);
+bool renew_regressors(const ObservationSet& session,
+                      const State& state,
+                      const std::vector<Regressor>& regressors,
+                      RegressorSystem& system);
 
 /// The whitened column of a cause; empty if such a machine is invalid.
-[[nodiscard]] std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
-                                                       const State& state,
-                                                       const RegressorSystem& system,
-                                                       const SizedCause& cause);
+std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
+                                         const State& state,
+                                         const RegressorSystem& system,
+                                         const SizedCause& cause);
 using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const SizedCause&)>;
 
 /// Appends a regressor with its power and range, from its column and one at a smaller size: nearby if
@@ -49,8 +49,8 @@ using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const SizedCause&)
 bool add_regressor(Regressor regressor, const ColumnOf& column, RegressorSystem& system);
 
 /// Size of a cause at a coefficient of its regressor.
-[[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
+double size_at(const Regressor& regressor, double coefficient);
 /// d(size)/d(coefficient) there.
-[[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
+double size_slope(const Regressor& regressor, double coefficient);
 
 }  // namespace chaintrue::grid::diagnosis

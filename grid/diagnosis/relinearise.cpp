@@ -12,8 +12,8 @@ namespace {
 constexpr int kRounds = 8;
 constexpr double kConverged = 1e-3;           // of a size: a hundredth of its sigma at strength 10
 constexpr double kConvergedSettingMm = 1e-3;  // of a setting
-constexpr int kSteps = 5;                   // of the search for a size
-constexpr double kLongestStep = 0.5;        // of a size
+constexpr int kSteps = 5;                     // of the search for a size
+constexpr double kLongestStep = 0.5;          // of a size
 
 /// Distance of the places next to a regressor's own.
 struct Reach {
@@ -51,11 +51,11 @@ class Round {
     estimate_ = diagnosis::estimate(
         system, marginalised_, numbers_below<int>(system.regressors.size()), discrepancy);
   }
-  [[nodiscard]] const Estimate& estimate() const { return estimate_; }
+  const Estimate& estimate() const { return estimate_; }
 
   /// The size whose signature, projected on the current one, has the length that the coefficient
   /// needs.
-  [[nodiscard]] double size(std::size_t which) const {
+  double size(std::size_t which) const {
     const Regressor& own = system_.regressors[which];
     const auto& bounds = own.cause.effect->parameters.front();
     const double asked = estimate_.coefficient(as_index(which));
@@ -78,7 +78,7 @@ class Round {
   }
 
   /// The place at which a cause explains most, given the others.
-  [[nodiscard]] double place(std::size_t which, const Reach& reach) const {
+  double place(std::size_t which, const Reach& reach) const {
     const Regressor& own = system_.regressors[which];
     double low = own.values.back() - reach.below;
     double high = own.values.back() + reach.above;
@@ -113,7 +113,7 @@ class Round {
   }
 
  private:
-  [[nodiscard]] std::optional<double> length(std::size_t which, double size) const {
+  std::optional<double> length(std::size_t which, double size) const {
     std::vector<double> values = system_.regressors[which].values;
     values.front() = size;
     const auto g = column(which, values);
@@ -123,16 +123,15 @@ class Round {
   }
 
   /// R^-1 of a regressor's signature at other values.
-  [[nodiscard]] std::optional<Eigen::VectorXd> column(std::size_t which,
-                                                      const std::vector<double>& values) const {
-    const auto g =
-        signature(session_, state_, system_, {system_.regressors[which].cause, values});
+  std::optional<Eigen::VectorXd> column(std::size_t which,
+                                        const std::vector<double>& values) const {
+    const auto g = signature(session_, state_, system_, {system_.regressors[which].cause, values});
     if (!g) return std::nullopt;
     return reduced(marginalised_, *g);
   }
 
   /// What a regressor explains by its place, after projection on the others.
-  [[nodiscard]] std::function<double(double)> gain_given_others(std::size_t which) const {
+  std::function<double(double)> gain_given_others(std::size_t which) const {
     Eigen::MatrixXd others(marginalised_.e.size(), marginalised_.g.cols() - 1);
     for (Eigen::Index k = 0; k < others.cols(); ++k)
       others.col(k) = marginalised_.g.col(k < as_index(which) ? k : k + 1);
@@ -181,18 +180,17 @@ void relinearise(Analysis& a) {
     auto about = linearise(session, a.state);
     if (!about || !renew_regressors(session, a.state, own, *about)) break;
     MarginalisedSystem there = marginalise(*about, marginalised.outliers);
-    there.discrepancy_trace =
-        marginalised.discrepancy_trace;  // the discrepancy keeps its strength
+    there.discrepancy_trace = marginalised.discrepancy_trace;  // the discrepancy keeps its strength
     const Round here(session, a.state, *about, std::move(there), discrepancy);
     const Eigen::Index settings = session.setting_columns();
-    bool converged =
-        here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() < kConvergedSettingMm;
+    bool converged = here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() <
+                     kConvergedSettingMm;
     std::vector<Regressor> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k].fixed) continue;
       moved[k].values.front() = here.size(k);
       converged = converged && std::abs(moved[k].values.front() - own[k].values.front()) <
-                               kConverged * std::abs(own[k].values.front());
+                                   kConverged * std::abs(own[k].values.front());
       // With a discrepancy the best of the places tried is used, because e contains the
       // discrepancy.
       if (has_continuous_place(own[k]) && discrepancy < 0)

@@ -22,23 +22,23 @@ class SetSearch {
 
   SetSearch(const SetSearch&) = delete;
 
-  [[nodiscard]] std::vector<CandidateModel> run();
+  std::vector<CandidateModel> run();
   /// Call after run(). For these kernels; sets their weights.
-  [[nodiscard]] std::vector<CandidateModel> run_given_discrepancies(
-      const Indices& kernels, std::vector<double>& kernel_weight);
+  std::vector<CandidateModel> run_given_discrepancies(const Indices& kernels,
+                                                      std::vector<double>& kernel_weight);
   /// Largest weight so far.
-  [[nodiscard]] double best() const { return collector_.best(); }
-  [[nodiscard]] const Flags& outliers() const { return marginalised_.outliers; }
+  double best() const { return collector_.best(); }
+  const Flags& outliers() const { return marginalised_.outliers; }
 
  private:
   /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
   /// visits; of the others the best, alone or after projection on a leading regressor.
-  [[nodiscard]] RegressorSet columns() const;
+  RegressorSet columns() const;
   /// Upper bound of a pair's weight, ignoring bounds and larger noise.
-  [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const;
+  double quick_weight(Eigen::Index i, Eigen::Index j) const;
   void pairs();
   /// The columns that explain most of what a set leaves.
-  [[nodiscard]] ColumnSet extensions(const ColumnSet& parent) const;
+  ColumnSet extensions(const ColumnSet& parent) const;
 
   const RegressorSystem& system_;
   MarginalisedSystem& marginalised_;

@@ -23,35 +23,36 @@ inline constexpr double kLineGapMm = 25.0;
 /// A group of units that are left out together (positions in the session).
 struct LeftOut {
   Removal::What what = Removal::What::point;
-  std::size_t index = 0;  ///< for a point, a distance or a hole: its number among those of all files
-  double at_mm = 0.0;     ///< of a column its x, of a row its y
+  std::size_t index =
+      0;               ///< for a point, a distance or a hole: its number among those of all files
+  double at_mm = 0.0;  ///< of a column its x, of a row its y
   Indices units{};
 };
 /// Each hole with the distances that end there.
-[[nodiscard]] std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session);
+std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session);
 /// Every point, then the columns from the left, then the rows from below, then every distance and
 /// every hole; those that would leave too few units are missing.
-[[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session);
+std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session);
 
 /// Whether the causes named from all points are named in `without` too.
-[[nodiscard]] bool still_named(const Decision& all, const Decision& without);
+bool still_named(const Decision& all, const Decision& without);
 
 /// Empty if the analysis names nothing.
-[[nodiscard]] std::optional<Stability> examine_stability(const Analysis& analysis);
+std::optional<Stability> examine_stability(const Analysis& analysis);
 
 /// A sentence or two: what was left out, and the effect on the name. Precondition: the diagnosis
 /// has a stability.
-[[nodiscard]] std::string stability_in_words(const Diagnosis& diagnosis);
+std::string stability_in_words(const Diagnosis& diagnosis);
 /// Points without each of which the verdict would not name the same (indices into the grid's).
-[[nodiscard]] Indices influential_points(const Diagnosis& diagnosis);
+Indices influential_points(const Diagnosis& diagnosis);
 /// " The name rests on point 17: without it ...", or nothing if it holds.
-[[nodiscard]] std::string influence_in_words(const Diagnosis& diagnosis);
+std::string influence_in_words(const Diagnosis& diagnosis);
 
 /// A lasting cause acts on more than one reading, so a name that depends on a single reading is
 /// refused. If nothing would be named without one reading, decides `analysis` again without it and
 /// returns a sentence that says so. Nothing is done if the name holds, if a set remains, or if the
 /// cause is a slip or a skip, which may show in a single reading.
-[[nodiscard]] std::optional<std::string> refuse_name_of_one_reading(
-    const std::optional<Stability>& stability, Analysis& analysis);
+std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stability>& stability,
+                                                      Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

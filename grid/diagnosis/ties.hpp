@@ -19,7 +19,7 @@ namespace chaintrue::grid::diagnosis {
 /// difference of a millionth is irrelevant.
 inline constexpr double kTied = 1e-6;
 
-[[nodiscard]] inline bool tied(double a, double b) { return std::abs(a - b) < kTied; }
+inline bool tied(double a, double b) { return std::abs(a - b) < kTied; }
 
 /// The `most` best of a list by a score, best first, and those that tie with the last.
 template <typename List, typename Score>

@@ -16,41 +16,38 @@ struct NameAndUnit {
   std::string name;
   std::string unit;
 };
-[[nodiscard]] NameAndUnit parameter_words(std::string_view parameter);
+NameAndUnit parameter_words(std::string_view parameter);
 
 /// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and the effect, which
 /// may elongate links or a belt.
-[[nodiscard]] std::string in_workshop_units(const CauseId& cause,
-                                            const ParameterEstimate& estimate);
+std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& estimate);
 
 /// All its parameters, separated by commas.
-[[nodiscard]] std::string sizes_in_words(const CauseId& cause,
-                                         const std::vector<ParameterEstimate>& parameters);
+std::string sizes_in_words(const CauseId& cause, const std::vector<ParameterEstimate>& parameters);
 /// A cause with its side, and its sizes, if any, in brackets.
-[[nodiscard]] std::string sized(const CauseId& cause,
-                                const std::vector<ParameterEstimate>& parameters);
+std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters);
 /// "1.2 mm too short"
-[[nodiscard]] std::string off_in_words(double residual_mm);
+std::string off_in_words(double residual_mm);
 
 /// "the angle of the left chain" for angle_left.
-[[nodiscard]] std::string coordinate_words(std::string_view coordinate);
+std::string coordinate_words(std::string_view coordinate);
 
 /// " on the left", " along x": after a cause; empty if it has no side.
-[[nodiscard]] std::string side_words(const CauseId& cause);
+std::string side_words(const CauseId& cause);
 
 /// What to do about these causes, in their order. Causes on several sides with the same remedy
 /// share a line that lists the sides.
-[[nodiscard]] std::vector<std::string> remedies(const std::vector<Cause>& causes);
+std::vector<std::string> remedies(const std::vector<Cause>& causes);
 
 /// "87 %", "99.6 %", "above 99.9 %": a probability, the same in sentences and in tables.
-[[nodiscard]] std::string percent(double probability);
+std::string percent(double probability);
 
 /// "a; b and c": `last` comes before the last one.
-[[nodiscard]] std::string joined(const std::vector<std::string>& parts,
-                                 std::string_view last,
-                                 std::string_view between = "; ");
+std::string joined(const std::vector<std::string>& parts,
+                   std::string_view last,
+                   std::string_view between = "; ");
 
 /// "the distance between the motors' axes, with a tape" for motor_spacing_mm.
-[[nodiscard]] std::string reading_words(ReadingOf what, std::string_view side);
+std::string reading_words(ReadingOf what, std::string_view side);
 
 }  // namespace chaintrue::grid::diagnosis

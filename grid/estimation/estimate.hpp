@@ -81,7 +81,7 @@ struct ParameterKnowledge {
   Eigen::MatrixXd covariance;
 };
 /// The machine's stated uncertainty, and kScaleSigma of each scale.
-[[nodiscard]] ParameterKnowledge stated_knowledge(const model::Machine& machine);
+ParameterKnowledge stated_knowledge(const model::Machine& machine);
 
 enum class SurfaceUse {
   none,
@@ -141,14 +141,14 @@ struct UnitEstimate {
   Eigen::VectorXd left_out;             ///< against a fit without the unit
   Eigen::MatrixXd left_out_covariance;  ///< of that, including the unit's own noise
   Eigen::VectorXd left_out_with_group;  ///< empty if no group has the unit
-  [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
+  bool is_rejected() const { return weight == 0.0; }
 };
 
 /// A reading that was rejected alone; the rest of its unit counts.
 struct ReadingEstimate {
   std::size_t observation = 0;
   observation::UnitReading reading;  ///< its unit into the observation's
-  double residual_mm = 0.0;               ///< read minus the prediction by all others
+  double residual_mm = 0.0;          ///< read minus the prediction by all others
   double sigmas = 0.0;
 };
 
@@ -166,7 +166,7 @@ struct SessionZero {
 };
 
 /// "left chain 5.0 +- 0.1 mm more", both if both exceed the noise; empty if neither does.
-[[nodiscard]] std::string words_of(const std::array<SessionZero, 2>& zeros);
+std::string words_of(const std::array<SessionZero, 2>& zeros);
 
 /// Results of one observation.
 struct ObservationEstimate {
@@ -190,7 +190,7 @@ struct Estimate {
   bool has_surface = false;
   double surface_log_evidence = 0.0;  ///< of the surface over none, if requested
   Eigen::MatrixXd covariance;         ///< of all unknowns of a map, columns.total() squared
-  ParameterKnowledge knowledge;         ///< of the parameters, afterwards
+  ParameterKnowledge knowledge;       ///< of the parameters, afterwards
   double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
   double effective_parameters = 0.0;
   std::vector<UnitEstimate> units;  ///< of readings that may be outliers

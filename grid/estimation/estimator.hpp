@@ -74,9 +74,7 @@ class Estimator {
   /// Choosing the smoothing costs some twenty times a solution.
   enum class Smoothing { choose, keep };
   using Fit = tl::expected<interp::PenalisedFit, EstimationFailure>;
-  [[nodiscard]] Fit solve(const Eigen::VectorXd& weights,
-                          Smoothing smoothing,
-                          bool correct_covariance) const {
+  Fit solve(const Eigen::VectorXd& weights, Smoothing smoothing, bool correct_covariance) const {
     const interp::PenalisedProblem problem = weighted(*problem_, weights);
     interp::FitOptions options;
     options.correct_covariance = correct_covariance;
@@ -95,10 +93,9 @@ class Estimator {
     // is for noise-free readings.
     constexpr double kNear = 1e-6;
     constexpr double kNearNothing = 1e-12;
-    const bool is_known =
-        problem_->set().stated_sigma.head(problem_->settings()).allFinite();
-    const bool has_settings_alone = input_.surface == SurfaceUse::none &&
-                                    problem_->unknowns().total() == problem_->settings();
+    const bool is_known = problem_->set().stated_sigma.head(problem_->settings()).allFinite();
+    const bool has_settings_alone =
+        input_.surface == SurfaceUse::none && problem_->unknowns().total() == problem_->settings();
     if (is_known || !has_settings_alone) return {};
     if (auto done = problem_->linearise(state_); !done) return done;
     begin_weights();
@@ -190,7 +187,7 @@ class Estimator {
   }
 
   /// The counted reading that the others contradict most, if they do.
-  [[nodiscard]] std::optional<Shift> worst_reading() const {
+  std::optional<Shift> worst_reading() const {
     std::optional<Shift> worst;
     // Readings that share one check deviate equally; the first of them is taken.
     constexpr double kSame = 1e-6;
@@ -202,7 +199,7 @@ class Estimator {
   }
 
   /// The rejected reading that fits best, if it does.
-  [[nodiscard]] std::optional<Shift> best_rejected() const {
+  std::optional<Shift> best_rejected() const {
     std::optional<Shift> best;
     double least = input_.reading_limits->rejected_beyond;
     for (const Shift& one : shifts(*problem_, fit_, true)) {
@@ -271,7 +268,7 @@ class Estimator {
     }
   }
 
-  [[nodiscard]] double step_to(const State& next, const ConvergenceRule& rule) const {
+  double step_to(const State& next, const ConvergenceRule& rule) const {
     double step = 0.0;
     for (Eigen::Index i = 0; i < problem_->settings(); ++i) {
       const double stated = problem_->set().stated_sigma[i];
@@ -279,9 +276,8 @@ class Estimator {
       // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
       // micrometre.
       constexpr double kLeastSigma = 1e-3;
-      const double sigma = std::isfinite(stated)
-                               ? stated
-                               : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
+      const double sigma =
+          std::isfinite(stated) ? stated : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
       step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
     }
     for (const model::Side side : model::kSides) {
@@ -292,7 +288,7 @@ class Estimator {
     return step;
   }
 
-  [[nodiscard]] bool update_weights(int pass) {
+  bool update_weights(int pass) {
     if (input_.fixed_weights) return false;
     LeftOut left_out(*problem_, fit_, weights_);
     left_out.prepare_units();
@@ -320,7 +316,7 @@ class Estimator {
     return change > kConvergedWeight;
   }
 
-  [[nodiscard]] std::optional<std::size_t> worst_alone() const {
+  std::optional<std::size_t> worst_alone() const {
     constexpr double kSuspect = 2.5;
     std::optional<std::size_t> worst;
     std::size_t candidates = 0;

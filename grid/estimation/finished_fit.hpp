@@ -16,9 +16,9 @@
 namespace chaintrue::grid::estimation {
 
 /// The part of a map's covariance that the places observe, and the part that keeps its prior.
-[[nodiscard]] inline Eigen::MatrixXd map_covariance(const JointProblem& problem,
-                                                    const interp::PenalisedFit& fit,
-                                                    const FitColumns& columns) {
+inline Eigen::MatrixXd map_covariance(const JointProblem& problem,
+                                      const interp::PenalisedFit& fit,
+                                      const FitColumns& columns) {
   const Unknowns& unknowns = problem.unknowns();
   const ObservedSubspace* observed = problem.observed();
   Eigen::MatrixXd to_splines = Eigen::MatrixXd::Zero(columns.total(), unknowns.total());
@@ -28,15 +28,13 @@ namespace chaintrue::grid::estimation {
     to_splines(columns.scale(side), unknowns.scale(side)) = 1.0;
     if (observed == nullptr) continue;
     auto spline = to_splines.middleRows(columns.spline(side), columns.basis);
-    spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) =
-        observed->polynomials;
-    spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) =
-        observed->penalised;
+    spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) = observed->polynomials;
+    spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) = observed->penalised;
   }
   Eigen::MatrixXd result = to_splines * problem.covariance(fit) * to_splines.transpose();
   if (observed == nullptr) return result;
-  const Eigen::MatrixXd unobserved = fit.inverse_lambda * observed->null_space *
-                                     observed->null_space.transpose();
+  const Eigen::MatrixXd unobserved =
+      fit.inverse_lambda * observed->null_space * observed->null_space.transpose();
   for (const model::Side side : model::kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
         unobserved;
@@ -56,8 +54,7 @@ struct FinishedFit {
     const EstimationInput& input = problem.input();
     Estimate estimate{.machine = input.machine, .surface = state.surface};
     estimate.mechanism = problem.mechanism_at(problem.coefficients(fit));
-    if (const auto* chains =
-            dynamic_cast<const model::ReadingModel*>(estimate.mechanism.get())) {
+    if (const auto* chains = dynamic_cast<const model::ReadingModel*>(estimate.mechanism.get())) {
       estimate.machine = chains->machine();
       estimate.settings =
           observation::settings_in(observation::columns_of(*input.observations.front()));
@@ -121,8 +118,7 @@ struct FinishedFit {
 
   tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const {
     const Eigen::VectorXd coefficients = problem.coefficients(fit);
-    const Eigen::VectorXd sigma =
-        problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::VectorXd sigma = problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
     const auto corrections = problem.corrections_of(state);
     for (std::size_t k = 0; k < problem.set().parts.size(); ++k) {
       const ObservationPart& part = problem.set().parts[k];

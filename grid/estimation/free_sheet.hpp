@@ -36,11 +36,10 @@ struct PlacesOnSheet {
   std::vector<Eigen::Index> free_rows;  ///< of M, in the same order
 
   /// M
-  [[nodiscard]] Eigen::MatrixXd whole_motion() const {
+  Eigen::MatrixXd whole_motion() const {
     const auto count = std::ssize(commanded);
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const model::MarkPoint& c : commanded)
-      middle += vector_of(c) / as_double(count);
+    for (const model::MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
     double squares = 0.0;
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -55,7 +54,7 @@ struct PlacesOnSheet {
   }
 
   /// m - c
-  [[nodiscard]] Eigen::VectorXd alongside() const {
+  Eigen::VectorXd alongside() const {
     Eigen::VectorXd all(2 * std::ssize(marks));
     for (std::size_t i = 0; i < marks.size(); ++i) {
       all.segment<2>(2 * as_index(i)) = difference(marks[i], commanded[i]);

@@ -55,7 +55,7 @@ class JointProblem {
     });
   }
 
-  [[nodiscard]] State stated() const {
+  State stated() const {
     const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(basis_.size());
     return {Eigen::VectorXd::Zero(set_.setting_columns()),
             {basis_, {0.0, 0.0}, {nothing, nothing}}};
@@ -101,7 +101,7 @@ class JointProblem {
   }
 
   /// For each observation, with the state's surface. The state must outlive them.
-  [[nodiscard]] std::vector<SurfaceCorrection> corrections_of(const State& state) const {
+  std::vector<SurfaceCorrection> corrections_of(const State& state) const {
     const model::SheetPlacement first = sheet_at(state.settings, 0);
     std::vector<SurfaceCorrection> corrections{SurfaceCorrection(state.surface)};
     for (std::size_t k = 1; k < set_.parts.size(); ++k)
@@ -109,49 +109,45 @@ class JointProblem {
     return corrections;
   }
 
-  [[nodiscard]] const EstimationInput& input() const { return input_; }
-  [[nodiscard]] const ObservationSet& set() const { return set_; }
-  [[nodiscard]] const Unknowns& unknowns() const { return unknowns_; }
+  const EstimationInput& input() const { return input_; }
+  const ObservationSet& set() const { return set_; }
+  const Unknowns& unknowns() const { return unknowns_; }
   /// Number of a map's settings, the first unknowns: parameters, and those of the first sheet.
-  [[nodiscard]] Eigen::Index settings() const {
+  Eigen::Index settings() const {
     return set_.parts.front().sheet ? ObservationSet::sheet_column(1) : set_.parameters();
   }
   /// The mechanism and a sheet for deviations from what was stated.
-  [[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(
-      const Eigen::VectorXd& deviations) const {
+  std::shared_ptr<const model::Mechanism> mechanism_at(const Eigen::VectorXd& deviations) const {
     return set_.mechanism->with_values(set_.mechanism->values() +
                                        deviations.head(set_.parameters()));
   }
-  [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& deviations,
-                                               std::size_t observation) const {
+  model::SheetPlacement sheet_at(const Eigen::VectorXd& deviations, std::size_t observation) const {
     const auto& sheet = set_.parts[observation].sheet;
     if (!sheet) return {};
     const Eigen::Vector3d at = deviations.segment<3>(ObservationSet::sheet_column(*sheet));
     return {at.x(), at.y(), at.z()};
   }
 
-  [[nodiscard]] bool has_surface() const { return has_surface_; }
+  bool has_surface() const { return has_surface_; }
   /// Null without a surface.
-  [[nodiscard]] const ObservedSubspace* observed() const {
-    return observed_ ? &*observed_ : nullptr;
-  }
+  const ObservedSubspace* observed() const { return observed_ ? &*observed_ : nullptr; }
   /// Some places follow from the machine: they move with what is estimated.
-  [[nodiscard]] bool places_move() const { return places_move_; }
+  bool places_move() const { return places_move_; }
   /// Units that may be rejected, and their whitened rows by all unknowns.
-  [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
-  [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
-  [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
+  const std::vector<SystemUnit>& units() const { return units_; }
+  const Eigen::MatrixXd& design() const { return design_; }
+  const Eigen::VectorXd& response() const { return response_; }
   /// Rows of readings that cannot be outliers.
-  [[nodiscard]] const Eigen::MatrixXd& sure_design() const { return sure_design_; }
-  [[nodiscard]] const Eigen::VectorXd& sure_response() const { return sure_response_; }
+  const Eigen::MatrixXd& sure_design() const { return sure_design_; }
+  const Eigen::VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
-  [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const {
+  const std::vector<Eigen::Index>& rejected(std::size_t unit) const {
     static const std::vector<Eigen::Index> kNone;
     return rejected_.empty() ? kNone : rejected_.at(unit);
   }
-  [[nodiscard]] const RejectedReadings& rejected() const { return rejected_; }
+  const RejectedReadings& rejected() const { return rejected_; }
   /// Counted rows minus the fit's effective parameters.
-  [[nodiscard]] double dof(const interp::PenalisedFit& fit) const {
+  double dof(const interp::PenalisedFit& fit) const {
     Eigen::Index rows = 0;
     for (std::size_t u = 0; u < units_.size(); ++u)
       rows += without_readings(units_[u], rejected(u)).cols();
@@ -159,14 +155,14 @@ class JointProblem {
   }
 
   /// The local design for many readings under a surface; null if the dense one is as fast.
-  [[nodiscard]] const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
+  const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, with a free sheet placed as its frame is defined.
-  [[nodiscard]] const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
+  const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
   }
 
   /// All unknowns of a fit, including the free directions, and their covariance.
-  [[nodiscard]] Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const {
+  Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const {
     Eigen::VectorXd all = fit.coefficients;
     if (!free_.columns.empty()) {
       const Eigen::VectorXd free = free_.constant + free_.following * all;
@@ -174,7 +170,7 @@ class JointProblem {
     }
     return all;
   }
-  [[nodiscard]] Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const {
+  Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const {
     if (free_.columns.empty()) return fit.corrected_covariance;
     Eigen::MatrixXd follows = Eigen::MatrixXd::Identity(unknowns_.total(), unknowns_.total());
     follows(free_.columns, Eigen::all) = free_.following;
@@ -182,7 +178,7 @@ class JointProblem {
   }
 
   /// The state that a fit of the problem leads to.
-  [[nodiscard]] State state_of(const interp::PenalisedFit& fit) const {
+  State state_of(const interp::PenalisedFit& fit) const {
     const Eigen::VectorXd all = coefficients(fit);
     State state = stated();
     state.settings = all.head(set_.setting_columns());
@@ -191,8 +187,7 @@ class JointProblem {
       state.surface.scale[side] = all[unknowns_.scale(side)];
       if (!has_surface_) continue;
       state.surface.coefficients[side] =
-          observed_->polynomials *
-              all.segment(unknowns_.polynomial(side), unknowns_.polynomials) +
+          observed_->polynomials * all.segment(unknowns_.polynomial(side), unknowns_.polynomials) +
           observed_->penalised *
               all.segment(unknowns_.first_penalised_of(side), unknowns_.penalised);
     }
@@ -219,8 +214,7 @@ class JointProblem {
     const auto intervals = [spacing_mm](double length_mm, int most) {
       return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
     };
-    return {
-        input.domain, intervals(input.domain.width(), 12), intervals(input.domain.height(), 8)};
+    return {input.domain, intervals(input.domain.width(), 12), intervals(input.domain.height(), 8)};
   }
 
   /// Chain lengths at given marks are linear in the correction, so it can be omitted from the point
@@ -239,9 +233,9 @@ class JointProblem {
   }
 
   /// e f + s at the state.
-  [[nodiscard]] Eigen::Vector2d correction_at(std::size_t place,
-                                              const SystemPlace& at,
-                                              const State& state) const {
+  Eigen::Vector2d correction_at(std::size_t place,
+                                const SystemPlace& at,
+                                const State& state) const {
     const model::ChainLengths own = at.state.reading.lengths;
     const model::ChainLengths corrected =
         state.surface.apply(surface_marks_[place], own, Eigen::Matrix2d::Zero()).lengths;
@@ -298,20 +292,18 @@ class JointProblem {
       const SystemPlace& at = system.places[place.place];
       for (const model::Side side : model::kSides) {
         const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
-        add_chain(
-            place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
+        add_chain(place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
       }
-      if (!is_linear_in_correction(*input_.observations[unit.observation]) ||
-          input_.fixed_weights)
+      if (!is_linear_in_correction(*input_.observations[unit.observation]) || input_.fixed_weights)
         response.segment(unit.first_row, unit.rows) +=
             place.by_chain * correction_at(place.place, at, state);
     }
   }
 
   /// d(corrected lengths at a mark)/d(unknowns), 2 x total.
-  [[nodiscard]] Eigen::MatrixXd lengths_by_unknown(std::size_t place,
-                                                   const SystemPlace& at,
-                                                   const ObservedFrom& from) const {
+  Eigen::MatrixXd lengths_by_unknown(std::size_t place,
+                                     const SystemPlace& at,
+                                     const ObservedFrom& from) const {
     const ObservationPart& part = set_.parts[at.observation];
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_.total());
     rows(Eigen::all, set_.columns_of(part)) =

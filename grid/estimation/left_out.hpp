@@ -56,7 +56,7 @@ class LeftOut {
   };
   /// Residual and covariance of a unit. If the unit nearly determines its own prediction, I - w X C
   /// X' / s^2 is rounding: the rest is then fitted again with the smoothing of the whole.
-  [[nodiscard]] Conditioned conditioned(std::size_t unit) const {
+  Conditioned conditioned(std::size_t unit) const {
     const auto at = as_index(unit);
     const bool by_formula =
         weights_[at] == 0.0 ||
@@ -74,7 +74,7 @@ class LeftOut {
   }
 
   /// The whitened left-out residual of a unit. Rejected readings are not in the fit.
-  [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const {
+  Eigen::VectorXd residual(std::size_t unit) const {
     const double weight = weights_[as_index(unit)];
     Eigen::VectorXd residual = residual_of(unit);
     if (weight == 0.0) return residual;
@@ -84,7 +84,7 @@ class LeftOut {
 
   /// Those of a group of units with all of them left out. \throws std::logic_error before
   /// prepare_all().
-  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const {
+  std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const {
     if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
     std::vector<Eigen::Index> rows;
     std::vector<double> roots;
@@ -134,7 +134,7 @@ class LeftOut {
   }
 
   /// (1), whitened, the unit's noise at its full weight.
-  [[nodiscard]] Eigen::MatrixXd covariance(std::size_t unit) const {
+  Eigen::MatrixXd covariance(std::size_t unit) const {
     const double weight = weights_[as_index(unit)];
     Eigen::MatrixXd spread = spread_of(unit);
     const Eigen::MatrixXd noise =
@@ -146,19 +146,19 @@ class LeftOut {
     return noise + spread;
   }
 
-  [[nodiscard]] double distance(std::size_t unit) const {
+  double distance(std::size_t unit) const {
     const Eigen::VectorXd residual = this->residual(unit);
     return std::sqrt(residual.dot(linear::PivotedCholesky(covariance(unit)).solve(residual)));
   }
 
  private:
-  [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const {
+  Eigen::MatrixXd rows_of(std::size_t unit) const {
     const SystemUnit& own = problem_.units()[unit];
     return problem_.design().middleRows(own.first_row, own.rows);
   }
 
   /// The fit of the rest, with the smoothing of the whole; empty if there is none.
-  [[nodiscard]] std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const {
+  std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const {
     Eigen::VectorXd without = weights_;
     for (const std::size_t unit : group) without[as_index(unit)] = 0.0;
     auto rest = interp::fit_with_smoothing(weighted(problem_, without), fit_.lambda, fit_.sigma2);
@@ -166,7 +166,7 @@ class LeftOut {
   }
 
   /// X C X'.
-  [[nodiscard]] Eigen::MatrixXd spread_of(std::size_t unit) const {
+  Eigen::MatrixXd spread_of(std::size_t unit) const {
     if (!spreads_.empty()) return spreads_[unit];
     if (by_root_.size() == 0) {
       const Eigen::MatrixXd design = rows_of(unit);
@@ -177,12 +177,12 @@ class LeftOut {
     return root.lazyProduct(root.transpose());
   }
 
-  [[nodiscard]] Eigen::VectorXd residual_of(std::size_t unit) const {
+  Eigen::VectorXd residual_of(std::size_t unit) const {
     if (residuals_.size() > 0) return problem_.units()[unit].segment(residuals_);
     return response_of(unit) - rows_of(unit) * fit_.coefficients;
   }
 
-  [[nodiscard]] Eigen::VectorXd response_of(std::size_t unit) const {
+  Eigen::VectorXd response_of(std::size_t unit) const {
     return problem_.units()[unit].segment(problem_.response());
   }
 
@@ -196,7 +196,7 @@ class LeftOut {
 
 /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
 /// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
-[[nodiscard]] inline double chi(Eigen::Index n, double z) {
+inline double chi(Eigen::Index n, double z) {
   const double part = 2.0 / (9.0 * as_double(n));
   return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
 }
@@ -208,7 +208,7 @@ struct UnitRule {
   bool worst_first;  ///< one at a time, against the others' prediction and noise
 };
 
-[[nodiscard]] inline UnitRule rule_of(Eigen::Index rows) {
+inline UnitRule rule_of(Eigen::Index rows) {
   if (rows == 1) return {1.96, kBadDistanceSigmas, true};
   if (rows == 2) return {2.4477, kBadPointDistance, false};
   // The same probabilities as for two rows: 5 % and 4e-5.
@@ -220,9 +220,9 @@ struct Shift : ReadingShift {
   observation::UnitReading at;
 };
 /// Among the rejected readings, or among the others.
-[[nodiscard]] inline std::vector<Shift> shifts(const JointProblem& problem,
-                                               const interp::PenalisedFit& fit,
-                                               bool of_rejected) {
+inline std::vector<Shift> shifts(const JointProblem& problem,
+                                 const interp::PenalisedFit& fit,
+                                 bool of_rejected) {
   std::vector<Shift> all;
   const Eigen::VectorXd residual = problem.response() - problem.design() * fit.coefficients;
   const FittedRows rows{problem.design(), residual, fit, problem.dof(fit)};

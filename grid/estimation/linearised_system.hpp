@@ -47,7 +47,7 @@ struct SystemUnit {
   Eigen::Index first_row = 0;
   Eigen::Index rows = 1;
   UnitMatrix whitening = UnitMatrix::Identity(1, 1);  ///< W_u
-  bool reads_chains = false;  ///< the rows are the chains at its only place
+  bool reads_chains = false;                          ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
   /// The effect of a millimetre of each reading on the whitened rows; empty: the unit is an outlier
@@ -55,13 +55,11 @@ struct SystemUnit {
   Eigen::MatrixXd by_reading{};
 
   /// From the readings' units to those of noise, and back: the rows of this unit, at most two.
-  [[nodiscard]] Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;
-  [[nodiscard]] Eigen::Vector2d unwhitened(const Eigen::VectorXd& all) const;
-  [[nodiscard]] auto segment(const Eigen::VectorXd& all) const {
-    return all.segment(first_row, rows);
-  }
+  Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;
+  Eigen::Vector2d unwhitened(const Eigen::VectorXd& all) const;
+  auto segment(const Eigen::VectorXd& all) const { return all.segment(first_row, rows); }
   /// One sigma of a unit of one reading.
-  [[nodiscard]] double sigma() const { return 1.0 / whitening(0, 0); }
+  double sigma() const { return 1.0 / whitening(0, 0); }
 };
 
 /// A place at the state.
@@ -105,10 +103,10 @@ using UnreachablePlace = Failure<model::MechanismReason, PlaceOfObservation>;
     Prediction prediction = Prediction::place_by_place);
 
 /// All n rows, from the readings' units to those of noise.
-[[nodiscard]] Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all);
+Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all);
 
 /// The nuisances' columns.
-[[nodiscard]] inline auto nuisance_columns(const LinearisedSystem& system) {
+inline auto nuisance_columns(const LinearisedSystem& system) {
   return system.by_setting.rightCols(system.nuisances);
 }
 

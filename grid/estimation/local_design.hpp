@@ -111,7 +111,7 @@ class LocalDesign {
   }
 
   /// X_u C X_u' of every unit.
-  [[nodiscard]] std::vector<Eigen::MatrixXd> spreads(const Eigen::MatrixXd& covariance) const {
+  std::vector<Eigen::MatrixXd> spreads(const Eigen::MatrixXd& covariance) const {
     const Eigen::MatrixXd local = linear::carried(to_unknowns_, covariance);
     std::vector<Eigen::MatrixXd> result;
     result.reserve(units_.size());

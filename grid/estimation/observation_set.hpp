@@ -54,7 +54,7 @@ struct ObservationPart {
   /// Columns of the zeros of this session minus the machine's; empty for the session that defines
   /// the machine's.
   std::vector<Eigen::Index> zero_columns{};
-  [[nodiscard]] bool reads_chains() const { return observation->kind().reads_chains; }
+  bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
 struct NumberedPlace {
@@ -75,8 +75,7 @@ struct NumberedUnit {
 struct ObservationSet;
 /// The parts of one kind. `What` is ChainLengthReadings or TapeDistances.
 template <class What>
-[[nodiscard]] std::vector<std::pair<const ObservationPart*, const What*>> parts_of(
-    const ObservationSet& set);
+std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const ObservationSet& set);
 
 struct ObservationSet {
   model::Machine stated;
@@ -88,10 +87,10 @@ struct ObservationSet {
   /// For two chains, those of a sheet once for each; empty for another mechanism.
   std::vector<model::Setting> settings;
   std::size_t sheets = 0;
-  std::size_t own_zeros = 0;     ///< sessions whose chain zeros are their own
-  Eigen::VectorXd stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
+  std::size_t own_zeros = 0;  ///< sessions whose chain zeros are their own
   Eigen::VectorXd
-      stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
+      stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
+  Eigen::VectorXd stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
   Eigen::Index rows = 0;
   /// Degrees of freedom of the noise: the smallest number among all observations.
   double noise_dof = 15.0;
@@ -100,39 +99,37 @@ struct ObservationSet {
   std::size_t fewest_units = 0;
 
   /// For the mechanism: the first columns.
-  [[nodiscard]] Eigen::Index parameters() const { return mechanism->values().size(); }
+  Eigen::Index parameters() const { return mechanism->values().size(); }
   /// For the mechanism's parameters and the sheets: the first columns.
-  [[nodiscard]] Eigen::Index setting_columns() const { return parameters() + 3 * as_index(sheets); }
-  [[nodiscard]] Eigen::Index nuisances() const {
+  Eigen::Index setting_columns() const { return parameters() + 3 * as_index(sheets); }
+  Eigen::Index nuisances() const {
     return stated_value.size() - setting_columns() - 2 * as_index(own_zeros);
   }
 
   /// Whether the mechanism is two chains, described by `stated`.
-  [[nodiscard]] bool is_of_chains() const { return !settings.empty(); }
-  [[nodiscard]] bool reads_chains() const {
+  bool is_of_chains() const { return !settings.empty(); }
+  bool reads_chains() const {
     return any_of(parts, [](const ObservationPart& part) { return part.reads_chains(); });
   }
 
-  [[nodiscard]] bool has_distances() const {
-    return !parts_of<observation::TapeDistances>(*this).empty();
-  }
+  bool has_distances() const { return !parts_of<observation::TapeDistances>(*this).empty(); }
 
   /// Chains were read, and the visits' order is known.
-  [[nodiscard]] bool ordered() const {
+  bool ordered() const {
     return any_of(parts, [](const ObservationPart& part) {
       return part.reads_chains() && part.observation->ordered();
     });
   }
 
   /// The readings of the machine itself, if any.
-  [[nodiscard]] const std::vector<ExtraReading>& readings() const {
+  const std::vector<ExtraReading>& readings() const {
     static const std::vector<ExtraReading> kNone;
     const auto own = parts_of<observation::SingleReadings>(*this);
     return own.empty() ? kNone : own.front().second->readings();
   }
 
   /// Whether the readings depend on the setting in this column.
-  [[nodiscard]] bool knows(std::size_t column) const {
+  bool knows(std::size_t column) const {
     if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
     return any_of(parts, [&](const ObservationPart& part) {
       return part.sheet && part.observation->sheet() &&
@@ -142,12 +139,12 @@ struct ObservationSet {
   }
 
   /// The first of the three columns of a sheet.
-  [[nodiscard]] static Eigen::Index sheet_column(std::size_t sheet) {
+  static Eigen::Index sheet_column(std::size_t sheet) {
     return kMachineSettingCount + as_index(model::kSheetSettings.size() * sheet);
   }
 
   /// Columns of an observation's own settings, as observation::columns_of() has them.
-  [[nodiscard]] std::vector<Eigen::Index> columns_of(const ObservationPart& part) const {
+  std::vector<Eigen::Index> columns_of(const ObservationPart& part) const {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
     // Follow-up readings may be in the frame of a sheet that they do not depend on.
@@ -158,7 +155,7 @@ struct ObservationSet {
   }
 
   /// Word for these units: "points", "distances", or "readings" for both.
-  [[nodiscard]] std::string_view units_word() const {
+  std::string_view units_word() const {
     std::string_view word;
     for (const ObservationPart& part : parts) {
       if (!part.observation->may_be_outlier()) continue;
@@ -171,10 +168,9 @@ struct ObservationSet {
 
 /// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
 /// \throws std::invalid_argument for a sheet under a mechanism other than two chains.
-[[nodiscard]] ObservationSet observation_set(
-    model::Machine stated,
-    const observation::Observations& observations,
-    std::shared_ptr<const model::Mechanism> mechanism = nullptr);
+ObservationSet observation_set(model::Machine stated,
+                               const observation::Observations& observations,
+                               std::shared_ptr<const model::Mechanism> mechanism = nullptr);
 
 /// The machine with other observations, each in the frame (sheet and nuisances) of one of the set's
 /// parts; additional nuisances come after all columns.
@@ -202,18 +198,18 @@ struct MachineState {
   std::vector<model::SheetPlacement> sheets;
   /// For a mechanism other than two chains; then `machine` is unused.
   std::shared_ptr<const model::Mechanism> mechanism = nullptr;
-  [[nodiscard]] model::SheetPlacement sheet_of(const ObservationPart& part) const {
+  model::SheetPlacement sheet_of(const ObservationPart& part) const {
     return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
   }
 
-  [[nodiscard]] observation::View view(const ObservationPart& part) const {
+  observation::View view(const ObservationPart& part) const {
     if (mechanism) return {mechanism, sheet_of(part)};
     return {model::ReadingModel(machine), sheet_of(part)};
   }
 };
-[[nodiscard]] MachineState stated_state(const ObservationSet& set);
+MachineState stated_state(const ObservationSet& set);
 /// Zeros of other sessions and nuisances are 0 in every state: their effect is linear.
-[[nodiscard]] Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
+Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
 /// \throws std::invalid_argument for another mechanism than two chains that cannot have these values.
 [[nodiscard]] MachineState with_settings(const ObservationSet& set,
                                          MachineState state,
@@ -223,6 +219,6 @@ struct MachineState {
     const ObservationSet& set, MachineState state, const Eigen::VectorXd& values);
 
 /// Words for a unit.
-[[nodiscard]] std::string name_of(const ObservationSet& set, std::size_t unit);
+std::string name_of(const ObservationSet& set, std::size_t unit);
 
 }  // namespace chaintrue::grid::estimation

@@ -42,7 +42,7 @@ using LinearisedAt = std::function<bool(const model::SheetPlacement&, PlacementN
 
 /// Eight steps from the identity: a shift of 50 mm and a turn of 0.03 rad converge in four. Without a
 /// prior the readings must determine all three unknowns.
-[[nodiscard]] model::SheetPlacement fit_placement(
-    const LinearisedAt& linearised, const std::optional<observation::SheetPrior>& prior = {});
+model::SheetPlacement fit_placement(const LinearisedAt& linearised,
+                                    const std::optional<observation::SheetPrior>& prior = {});
 
 }  // namespace chaintrue::grid::estimation

@@ -41,13 +41,13 @@ using RejectedReadings = std::vector<std::vector<Eigen::Index>>;
 inline constexpr double kOwnWord = 1e-6;
 
 /// The normal deviate of the same chance as Student's t.
-[[nodiscard]] double normal_deviate(double t, double dof);
+double normal_deviate(double t, double dof);
 /// (2), for a residual r with the share `kept` of its weight after leaving it out.
-[[nodiscard]] double deleted_deviate(double r, double kept, double s2, double dof);
+double deleted_deviate(double r, double kept, double s2, double dof);
 
 struct ReadingShift {
   double residual_mm = 0.0;  ///< reading minus the prediction by all others
-  double sigmas = 0.0;  ///< 0 if no other reading determines it
+  double sigmas = 0.0;       ///< 0 if no other reading determines it
 };
 
 /// A fit to the rows of a linearised system.
@@ -58,9 +58,9 @@ struct FittedRows {
   double dof = 0.0;  ///< n
 };
 
-[[nodiscard]] ReadingShift shift_of(const FittedRows& rows,
-                                    const SystemUnit& unit,
-                                    const std::vector<Eigen::Index>& rejected,
-                                    Eigen::Index reading);
+ReadingShift shift_of(const FittedRows& rows,
+                      const SystemUnit& unit,
+                      const std::vector<Eigen::Index>& rejected,
+                      Eigen::Index reading);
 
 }  // namespace chaintrue::grid::estimation

@@ -29,11 +29,9 @@ namespace chaintrue::grid {
 struct FitColumns {
   Eigen::Index settings = 0;  ///< how many settings there are
   Eigen::Index basis = 0;     ///< coefficients of one spline
-  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings + row_of(side); }
-  [[nodiscard]] Eigen::Index spline(model::Side side) const {
-    return settings + 2 + row_of(side) * basis;
-  }
-  [[nodiscard]] Eigen::Index total() const { return settings + 2 + 2 * basis; }
+  Eigen::Index scale(model::Side side) const { return settings + row_of(side); }
+  Eigen::Index spline(model::Side side) const { return settings + 2 + row_of(side) * basis; }
+  Eigen::Index total() const { return settings + 2 + 2 * basis; }
 };
 
 /// Immutable, thread safe.
@@ -47,9 +45,9 @@ struct ResidualSurface {
     model::ChainLengths lengths;
     Eigen::Matrix2d mark_jacobian;
   };
-  [[nodiscard]] Corrected apply(model::MarkPoint mark,
-                                model::ChainLengths lengths,
-                                const Eigen::Matrix2d& mark_jacobian) const;
+  Corrected apply(model::MarkPoint mark,
+                  model::ChainLengths lengths,
+                  const Eigen::Matrix2d& mark_jacobian) const;
 };
 
 }  // namespace chaintrue::grid

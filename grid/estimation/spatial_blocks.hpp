@@ -13,7 +13,6 @@ namespace chaintrue::grid {
 
 /// Indices into `points`, about eight blocks: four columns by the points' x, each split in two by
 /// its points' y. Each block is ascending; together they hold every point once.
-[[nodiscard]] std::vector<std::vector<std::size_t>> spatial_blocks(
-    const std::vector<LengthPoint>& points);
+std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoint>& points);
 
 }  // namespace chaintrue::grid

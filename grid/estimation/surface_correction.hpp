@@ -23,9 +23,9 @@ class SurfaceCorrection final : public observation::LengthCorrection {
                     model::SheetPlacement own_sheet)
       : surface_(surface), sheets_(Sheets{surface_sheet, own_sheet}) {}
 
-  [[nodiscard]] At at(model::MarkPoint mark,
-                      model::ChainLengths lengths,
-                      const Eigen::Matrix2d& by_mark) const override {
+  At at(model::MarkPoint mark,
+        model::ChainLengths lengths,
+        const Eigen::Matrix2d& by_mark) const override {
     const auto corrected = surface_.apply(to_surface(mark), lengths, Eigen::Matrix2d::Zero());
     const Eigen::Vector2d by_length(1.0 + surface_.scale.left, 1.0 + surface_.scale.right);
     Eigen::Matrix2d gradient = corrected.mark_jacobian;
@@ -33,7 +33,7 @@ class SurfaceCorrection final : public observation::LengthCorrection {
     return {corrected.lengths, by_length.asDiagonal() * by_mark + gradient, by_length};
   }
   /// The same place in the surface's frame.
-  [[nodiscard]] model::MarkPoint to_surface(model::MarkPoint mark) const {
+  model::MarkPoint to_surface(model::MarkPoint mark) const {
     return sheets_ ? sheets_->surface.to_mark(sheets_->own.to_bed(mark)) : mark;
   }
 

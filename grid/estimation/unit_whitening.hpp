@@ -18,6 +18,6 @@ inline constexpr int kMostUnitReadings = 4;
 using UnitMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnitReadings, kMostUnitReadings>;
 /// W of (1), of at most kMostUnitReadings readings. \throws std::invalid_argument with more.
-[[nodiscard]] UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance);
+UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance);
 
 }  // namespace chaintrue::grid::estimation

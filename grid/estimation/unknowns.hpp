@@ -22,16 +22,14 @@ struct Unknowns {
   Eigen::Index polynomials = 0;  ///< of each chain's surface
   Eigen::Index penalised = 0;    ///< of each chain's surface
 
-  [[nodiscard]] Eigen::Index scale(model::Side side) const { return of_set + row_of(side); }
-  [[nodiscard]] Eigen::Index polynomial(model::Side side) const {
+  Eigen::Index scale(model::Side side) const { return of_set + row_of(side); }
+  Eigen::Index polynomial(model::Side side) const {
     return of_set + scales + row_of(side) * polynomials;
   }
-  [[nodiscard]] Eigen::Index first_penalised_of(model::Side side) const {
+  Eigen::Index first_penalised_of(model::Side side) const {
     return of_set + scales + 2 * polynomials + row_of(side) * penalised;
   }
-  [[nodiscard]] Eigen::Index total() const {
-    return of_set + scales + 2 * (polynomials + penalised);
-  }
+  Eigen::Index total() const { return of_set + scales + 2 * (polynomials + penalised); }
 };
 
 }  // namespace chaintrue::grid::estimation

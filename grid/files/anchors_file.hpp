@@ -46,21 +46,21 @@ struct FittedAnchors {
 };
 
 /// `file` is the name used in messages. \throws InputError with every problem.
-[[nodiscard]] FittedAnchors parse_anchors(const std::string& text, const std::string& file);
+FittedAnchors parse_anchors(const std::string& text, const std::string& file);
 /// \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_anchors(const FittedAnchors& anchors,
-                                        const std::optional<Provenance>& made_by = std::nullopt);
+std::string write_anchors(const FittedAnchors& anchors,
+                          const std::optional<Provenance>& made_by = std::nullopt);
 
 /// Lines to paste into the machine's terminal, with remarks for the user.
 struct Maslow4Settings {
   std::string text;
   std::vector<std::string> remarks;
 };
-[[nodiscard]] Maslow4Settings write_maslow4_settings(const BeltsFit& fit);
+Maslow4Settings write_maslow4_settings(const BeltsFit& fit);
 /// From a diagnosis of belts: the anchors, with those of its causes that are settings of the machine
 /// applied. \throws std::invalid_argument for a diagnosis of chains.
-[[nodiscard]] Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found);
+Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found);
 /// The machine's settings once the lines are pasted.
-[[nodiscard]] model::BeltMachine machine_as_pasted(const BeltsFit& fit);
+model::BeltMachine machine_as_pasted(const BeltsFit& fit);
 
 }  // namespace chaintrue::grid::files

@@ -21,20 +21,18 @@
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] std::string write_answer(const synthetic::SyntheticAnswer& answer);
+std::string write_answer(const synthetic::SyntheticAnswer& answer);
 /// For holes: `points` are the holes' true positions on the sheet and the lengths that the
 /// controller paid out for them; "bad_distances", indices into the distances, replaces
 /// "bad_points".
-[[nodiscard]] std::string write_answer(const synthetic::SyntheticHoles& made,
-                                       const synthetic::HolesSpec& spec);
+std::string write_answer(const synthetic::SyntheticHoles& made, const synthetic::HolesSpec& spec);
 
 // The catalogue of effects, and the picture of one effect, as JSON for programs.
 
 /// { "file_type": "chaintrue_effects", ..., "effects": [ {"effect", "station", "sides",
 /// "parameters", words ...} ] }
-[[nodiscard]] std::string write_catalogue(
-    const std::vector<const model::effects::Effect*>& effects);
+std::string write_catalogue(const std::vector<const model::effects::Effect*>& effects);
 /// { "file_type": "chaintrue_effect_picture", ..., "effect", "marks", "squares", "strength" }
-[[nodiscard]] std::string write_effect_picture(const synthetic::EffectPicture& picture);
+std::string write_effect_picture(const synthetic::EffectPicture& picture);
 
 }  // namespace chaintrue::grid::files

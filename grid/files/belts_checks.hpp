@@ -19,10 +19,10 @@ struct BeltPlaces {
 };
 
 /// "tl 1811.99, tr 1790.81, bl 1785.26, br 1807.9".
-[[nodiscard]] std::string lengths_in_words(const BeltPoint& point);
+std::string lengths_in_words(const BeltPoint& point);
 /// The machine was read several times at one position without moving: then two readings may be equal to
 /// the last digit.
-[[nodiscard]] bool holds_repeats(const MeasuredBelts& belts);
+bool holds_repeats(const MeasuredBelts& belts);
 
 /// For each place the first one with the same four lengths to the last digit, mostly itself.
 [[nodiscard]] std::vector<std::size_t> first_with_lengths_of(const std::vector<BeltPoint>& points);

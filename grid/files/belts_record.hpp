@@ -14,7 +14,7 @@ namespace chaintrue::grid::files {
 /// Includes the checks of model::problems_of.
 Record<model::BeltMachine> belt_machine_record();
 
-[[nodiscard]] const Record<MeasuredBelts>& belts_record();
+const Record<MeasuredBelts>& belts_record();
 
 template <class V>
 Record<model::PerBelt<V>> per_belt_record(const Value<V>& value) {

@@ -13,16 +13,16 @@
 namespace chaintrue::grid::files {
 
 /// For a compensation map: zeros and elongations by chain, a residual each.
-[[nodiscard]] std::string write_map_check(const Check& check);
+std::string write_map_check(const Check& check);
 /// For anchors: the size of what has changed, a place each.
-[[nodiscard]] std::string write_anchors_check(const Check& check);
+std::string write_anchors_check(const Check& check);
 
 // The report of a fit as JSON, for scripts; the map itself is in its own file. Written only. Same
 // map, same bytes.
 
 /// `wish_mm`: the error of the tool that was wished for.
-[[nodiscard]] std::string write_fit(const CompensationMap& map,
-                                    std::string_view sentence,
-                                    std::optional<double> wish_mm = std::nullopt);
+std::string write_fit(const CompensationMap& map,
+                      std::string_view sentence,
+                      std::optional<double> wish_mm = std::nullopt);
 
 }  // namespace chaintrue::grid::files

@@ -23,7 +23,7 @@ struct NamedSetting {
 
 /// For a Maslow GroundControl's names; for FluidNC's WallPlotter its anchors; for an ideal
 /// controller its machine. `machine` is as it was stated, not as it was calibrated.
-[[nodiscard]] std::vector<NamedSetting> settings_in_force(const model::Machine& machine);
+std::vector<NamedSetting> settings_in_force(const model::Machine& machine);
 
 struct SettingChange {
   std::string name;
@@ -32,14 +32,14 @@ struct SettingChange {
 };
 
 /// By more than the rounding that an export writes; a tilt or a tolerance that is not set is 0.
-[[nodiscard]] std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& before,
-                                                          const std::vector<NamedSetting>& now);
+std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& before,
+                                            const std::vector<NamedSetting>& now);
 
 /// "motorspacingx 2978.4 -> 2982.7791, rotationradius 139.1 -> 138.2759"
-[[nodiscard]] std::string in_words(const std::vector<SettingChange>& changes);
+std::string in_words(const std::vector<SettingChange>& changes);
 
 /// Settings that define the chain per motor turn and the chain's path. Chain lengths measured
 /// before such a change have a different meaning after it.
-[[nodiscard]] std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes);
+std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes);
 
 }  // namespace chaintrue::grid::files

@@ -16,7 +16,7 @@ struct CsvCell {
   std::string text;
   std::size_t line = 0;
   std::size_t column = 0;
-  [[nodiscard]] std::string place() const { return line_and_column(line, column); }
+  std::string place() const { return line_and_column(line, column); }
 };
 
 using CsvRow = std::vector<CsvCell>;
@@ -25,23 +25,21 @@ using CsvRow = std::vector<CsvCell>;
 /// quotes are removed, and numbers are written with a point if the meaning of the file's commas is
 /// certain. A title above the header is a warning.
 /// \throws InputError for a table with more cells than any supported format has
-[[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
-                                            char separator,
-                                            Problems& problems);
+std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& problems);
 /// The header alone.
-[[nodiscard]] CsvRow header_of_csv(std::string_view text);
+CsvRow header_of_csv(std::string_view text);
 
 /// The most frequent of comma, semicolon and tab in the header; a comma if it has none.
-[[nodiscard]] char separator_of(std::string_view text);
+char separator_of(std::string_view text);
 
 // Numbers in the cells of a table, as written by people and by spreadsheets of any country:
 // decimal commas, groups of thousands, long minus signs, spaces that do not break, a dash for no
 // reading. Private to grid/files.
 
 /// A number in one of these ways of writing, a unit behind it or not.
-[[nodiscard]] bool is_like_a_number(std::string_view text);
+bool is_like_a_number(std::string_view text);
 
 /// `-`, `n/a`, `?`: nothing was read.
-[[nodiscard]] bool stands_for_nothing(std::string_view text);
+bool stands_for_nothing(std::string_view text);
 
 }  // namespace chaintrue::grid::files

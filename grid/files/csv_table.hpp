@@ -25,7 +25,7 @@ inline constexpr std::string_view kLengthsBetween =
     "line: -300,0,300,0,604 if 600 was commanded and 604 was cut";
 
 /// The names of the columns, by the header: in small letters, `X (mm)` and `x_in` as x_mm.
-[[nodiscard]] std::vector<std::string> csv_header(std::string_view text);
+std::vector<std::string> csv_header(std::string_view text);
 struct CsvColumn {
   std::string name;
   Range range;
@@ -50,20 +50,18 @@ struct CsvTable {
 
 /// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
 /// problem is added if it is not a number or out of range.
-[[nodiscard]] std::optional<double> number_in_unit(const CsvCell& cell,
-                                                   double unit,
-                                                   std::string_view name,
-                                                   const Range& range,
-                                                   Problems& problems);
+std::optional<double> number_in_unit(const CsvCell& cell,
+                                     double unit,
+                                     std::string_view name,
+                                     const Range& range,
+                                     Problems& problems);
 
 /// Reads rows whose first one, the header, names `columns`, in any order. Every problem is added; all
 /// rows that could be split are returned.
-[[nodiscard]] CsvTable read_table(std::vector<CsvRow> rows,
-                                  const std::vector<CsvColumn>& columns,
-                                  Problems& problems);
+CsvTable read_table(std::vector<CsvRow> rows,
+                    const std::vector<CsvColumn>& columns,
+                    Problems& problems);
 /// The same, of a text that is one table.
-[[nodiscard]] CsvTable read_csv(std::string_view text,
-                                const std::vector<CsvColumn>& columns,
-                                Problems& problems);
+CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns, Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -47,10 +47,9 @@
 namespace chaintrue::grid::files {
 
 /// `file` is the name used in messages. \throws InputError with every problem of the file.
-[[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
-                                                   const std::string& file);
+diagnosis::Diagnosis parse_diagnosis(const std::string& text, const std::string& file);
 /// \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis,
-                                          const std::optional<Provenance>& made_by = std::nullopt);
+std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis,
+                            const std::optional<Provenance>& made_by = std::nullopt);
 
 }  // namespace chaintrue::grid::files

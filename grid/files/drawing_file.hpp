@@ -18,10 +18,10 @@ namespace chaintrue::grid::files {
 
 /// Measures without a value are left out. `file` is the name used in messages. \throws InputError
 /// with every problem.
-[[nodiscard]] TestDrawing parse_drawing(const std::string& text, const std::string& file);
+TestDrawing parse_drawing(const std::string& text, const std::string& file);
 /// \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_drawing(const TestDrawing& drawing);
+std::string write_drawing(const TestDrawing& drawing);
 /// With a null in place of every value, to be filled in.
-[[nodiscard]] std::string write_blank_drawing(const TestDrawing& drawing);
+std::string write_blank_drawing(const TestDrawing& drawing);
 
 }  // namespace chaintrue::grid::files

@@ -19,9 +19,8 @@ namespace chaintrue::grid::files {
 
 /// Parses text; `file` is the name used in messages. A problem of a formula has its line and
 /// column. \throws InputError with every problem.
-[[nodiscard]] model::effects::Declaration parse_effect(const std::string& text,
-                                                       const std::string& file);
-[[nodiscard]] std::string write_effect(const model::effects::Declaration& declaration);
+model::effects::Declaration parse_effect(const std::string& text, const std::string& file);
+std::string write_effect(const model::effects::Declaration& declaration);
 
 /// Reads the files and adds what they declare to the machine, once each; formulas must be finite on
 /// its bed and 0 at null. \throws InputError with every problem of every file.

@@ -19,13 +19,13 @@ struct FileIdentity {
 
 /// The regular file that a path names, symbolic links followed; empty if there is none, or it is a
 /// device, a pipe or a folder.
-[[nodiscard]] std::optional<FileIdentity> identity_of(const std::filesystem::path& path);
+std::optional<FileIdentity> identity_of(const std::filesystem::path& path);
 /// The regular file of an open descriptor (1: standard output).
-[[nodiscard]] std::optional<FileIdentity> identity_of_descriptor(int descriptor);
+std::optional<FileIdentity> identity_of_descriptor(int descriptor);
 
 /// Every regular file that read_whole_file has read in this process, including files named by other
 /// files. Thread safe.
-[[nodiscard]] std::vector<FileIdentity> files_read();
+std::vector<FileIdentity> files_read();
 
 // The list behind files_read(). Private to grid/files.
 

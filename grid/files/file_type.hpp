@@ -30,22 +30,22 @@ enum class FileKind {
 /// JSON by its "file_type"; any other text is CSV, of holes by its first header and of a grid
 /// otherwise. JSON is read only as far as needed. `file` is the name used in messages. \throws
 /// InputError for JSON that ends or is malformed before its type is known.
-[[nodiscard]] FileKind kind_of(const std::string& text, const std::string& file);
+FileKind kind_of(const std::string& text, const std::string& file);
 
 /// "\"chaintrue_grid\" or \"chaintrue_belts\"", as in the "expected" part of messages.
-[[nodiscard]] std::string expected_kinds(const std::vector<FileKind>& kinds);
+std::string expected_kinds(const std::vector<FileKind>& kinds);
 /// What was found: "\"chaintrue_map\"", "a CSV of points"; empty for JSON without a type.
-[[nodiscard]] std::string found_kind(const std::string& text, const std::string& file);
+std::string found_kind(const std::string& text, const std::string& file);
 
 /// "; this is a map; did you mean chaintrue report, query, gcode or export?"; empty for a type that
 /// no verb accepts.
-[[nodiscard]] std::string what_takes(std::string_view file_type);
+std::string what_takes(std::string_view file_type);
 
 /// The value of "file_type" in a JSON object; empty if there is none. \throws InputError for a
 /// text that is not JSON.
-[[nodiscard]] std::string file_type_of(const std::string& text, const std::string& file);
+std::string file_type_of(const std::string& text, const std::string& file);
 
 /// True where the text begins as a JSON object or list does.
-[[nodiscard]] bool is_json(std::string_view text);
+bool is_json(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -19,10 +19,10 @@
 namespace chaintrue::grid::files {
 
 /// machine, grid, holes, map, diagnosis, sweep.
-[[nodiscard]] std::vector<std::string> described_formats();
+std::vector<std::string> described_formats();
 
 /// \throws std::invalid_argument for any other name.
-[[nodiscard]] std::string write_format_schema(std::string_view name);
-[[nodiscard]] std::string write_format_page(std::string_view name);
+std::string write_format_schema(std::string_view name);
+std::string write_format_page(std::string_view name);
 
 }  // namespace chaintrue::grid::files

@@ -26,7 +26,7 @@ struct Format {
   FileKind kind = FileKind::other;
   std::string_view version = "1.0";
 
-  [[nodiscard]] constexpr bool is_result() const { return anew.empty(); }
+  constexpr bool is_result() const { return anew.empty(); }
 };
 
 inline constexpr Format kMachineFormat{"chaintrue_machine",
@@ -118,12 +118,12 @@ inline constexpr std::array<const Format*, 17> kFormats = {&kMachineFormat,
                                                            &kEffectPictureFormat};
 
 /// Null for a type that there is none of.
-[[nodiscard]] const Format* format_of(std::string_view file_type);
+const Format* format_of(std::string_view file_type);
 
 /// The name without chaintrue_: "machine".
-[[nodiscard]] std::string name_of(const Format& format);
+std::string name_of(const Format& format);
 
 /// An object with the type and version of such a file.
-[[nodiscard]] Json headed(const Format& format);
+Json headed(const Format& format);
 
 }  // namespace chaintrue::grid::files

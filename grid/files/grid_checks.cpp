@@ -56,7 +56,7 @@ void check_parts(const StatedPoint& point, const std::string& place, Problems& p
 struct Slope {
   double per_x = 0.0;
   double per_y = 0.0;
-  [[nodiscard]] double steepness() const { return std::hypot(per_x, per_y); }
+  double steepness() const { return std::hypot(per_x, per_y); }
 };
 
 /// Those of the left and of the right chain; empty if fewer than three points have lengths or they do

@@ -52,9 +52,9 @@ void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problem
 
 /// Checks that each point has both lengths or both commands, but not both pairs, and that either
 /// all points have distinct orders or none has one.
-[[nodiscard]] std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
-                                                         const PointPlaces& places,
-                                                         Problems& problems);
+std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
+                                           const PointPlaces& places,
+                                           Problems& problems);
 /// Checks the points together: enough of them, spread over an area, left and right not swapped, in
 /// mm. Call it only if no value had a problem.
 void check_points_together(const MeasuredGrid& grid,

@@ -38,13 +38,13 @@ struct ReadGrid {
 /// mistakes (left and right columns swapped, inches for mm, decimal commas). `file` is the name used
 /// in messages; a "machine_file" is looked for in its folder. \throws InputError with every problem
 /// of the file.
-[[nodiscard]] ReadGrid parse_grid(const std::string& text,
-                                  const std::string& file,
-                                  const MeasuredOptions& options = {});
+ReadGrid parse_grid(const std::string& text,
+                    const std::string& file,
+                    const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_grid(const MeasuredGrid& grid);
+std::string write_grid(const MeasuredGrid& grid);
 /// A sheet to fill in, in the same format: null for both coordinates of a point that has a command,
 /// for both lengths of any other.
-[[nodiscard]] std::string write_grid_sheet(const MeasuredGrid& plan);
+std::string write_grid_sheet(const MeasuredGrid& plan);
 
 }  // namespace chaintrue::grid::files

@@ -50,14 +50,14 @@ enum class Tolerances { are_pitch, unexplained };
 /// `file` is the name used in messages and, without its folder, the machine's. The warnings list
 /// what was assumed. \throws InputError with every problem of the file: missing settings, wrong
 /// types, inches, values out of range.
-[[nodiscard]] ReadMachine parse_groundcontrol(const std::string& text,
-                                              const std::string& file,
-                                              Tolerances tolerances = Tolerances::are_pitch);
+ReadMachine parse_groundcontrol(const std::string& text,
+                                const std::string& file,
+                                Tolerances tolerances = Tolerances::are_pitch);
 
 /// The machine's own measures as settings: motors, ring or sled, sprocket, the sag of the chain's weight where
 /// no import states one; tilt and stretch of the holey firmware alone. They do not include its
 /// effects: map/settings_to_type.hpp finds the numbers for the whole machine.
-[[nodiscard]] model::ControllerSettings measures_as_settings(const model::Machine& machine);
+model::ControllerSettings measures_as_settings(const model::Machine& machine);
 
 struct GroundcontrolText {
   /// `key = value` under GroundControl's sections: changed settings to 0.0001 of their unit, the
@@ -68,16 +68,17 @@ struct GroundcontrolText {
 };
 
 /// For those measures. A setting of the controller that agrees with the machine is unchanged.
-[[nodiscard]] GroundcontrolText write_groundcontrol(const model::Machine& machine);
+GroundcontrolText write_groundcontrol(const model::Machine& machine);
 
 /// Whether anything was measured since the import: false if the machine is what an import of its
 /// settings gives.
-[[nodiscard]] bool says_more_than_its_settings(const model::Machine& machine);
+bool says_more_than_its_settings(const model::Machine& machine);
 
 /// The machine's controller with these settings. `by` is the source of the change: "the 28 points
 /// of map.json".
-[[nodiscard]] GroundcontrolText write_groundcontrol_settings(
-    const model::Machine& machine, const model::ControllerSettings& settings, std::string_view by);
+GroundcontrolText write_groundcontrol_settings(const model::Machine& machine,
+                                               const model::ControllerSettings& settings,
+                                               std::string_view by);
 
 // WebControl's webcontrol.json: GroundControl's settings, each an object with its key and its value
 // in a list for each section:
@@ -89,10 +90,10 @@ struct GroundcontrolText {
 // defaultwebcontrol.json.
 
 /// True for JSON with its two sections. \throws InputError for a text that is not JSON.
-[[nodiscard]] bool is_webcontrol(const std::string& text, const std::string& file);
+bool is_webcontrol(const std::string& text, const std::string& file);
 /// `file` is the name used in messages and, without its folder, the machine's.
 /// \throws InputError with every problem of the file.
-[[nodiscard]] ReadMachine parse_webcontrol(const std::string& text, const std::string& file);
+ReadMachine parse_webcontrol(const std::string& text, const std::string& file);
 
 // FluidNC's config.yaml of a wall plotter: its anchors, and the travel of its axes as the bed.
 //
@@ -113,9 +114,9 @@ struct GroundcontrolText {
 // YAML is read: keys by their indentation, and the value after the colon. Source: bdring/FluidNC,
 // src/Kinematics/WallPlotter.cpp.
 
-[[nodiscard]] bool is_fluidnc(const std::string& text);
+bool is_fluidnc(const std::string& text);
 /// `file` is the name used in messages and, without its folder, the machine's.
 /// \throws InputError with every problem of the file.
-[[nodiscard]] ReadMachine parse_fluidnc(const std::string& text, const std::string& file);
+ReadMachine parse_fluidnc(const std::string& text, const std::string& file);
 
 }  // namespace chaintrue::grid::files

@@ -113,8 +113,6 @@ inline constexpr NumberKey kNumberKeys[] = {
      &ControllerSettings::chain_elongation_per_n}};
 
 /// As in groundcontrol_file.hpp; paths are "maslow settings/bedwidth". \throws InputError with every problem of the file.
-[[nodiscard]] ReadMachine machine_of_settings(SettingTexts texts,
-                                              Tolerances tolerances,
-                                              Problems& problems);
+ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -53,13 +53,13 @@ struct ReadHoles {
 /// Messages name recognised mistakes (inches, a triangle that cannot close, a tape zero offset that
 /// was forgotten). `file` is the name used in messages; a "machine_file" is looked for in its folder.
 /// \throws InputError with every problem.
-[[nodiscard]] ReadHoles parse_holes(const std::string& text,
-                                    const std::string& file,
-                                    const MeasuredOptions& options = {});
+ReadHoles parse_holes(const std::string& text,
+                      const std::string& file,
+                      const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_holes(
-    const MeasuredHoles& holes, const std::optional<model::BeltMachine>& belts = std::nullopt);
+std::string write_holes(const MeasuredHoles& holes,
+                        const std::optional<model::BeltMachine>& belts = std::nullopt);
 /// A sheet to fill in, in the same format: null for every distance.
-[[nodiscard]] std::string write_holes_sheet(const MeasuredHoles& plan);
+std::string write_holes_sheet(const MeasuredHoles& plan);
 
 }  // namespace chaintrue::grid::files

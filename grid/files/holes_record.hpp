@@ -46,11 +46,10 @@ struct HolesPlaces {
 /// Missing names become the holes' numbers; names that repeat or equal an edge's are reported.
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems);
 /// Reports ends that are neither a hole nor an edge, and distances from a hole to itself.
-[[nodiscard]] std::vector<HoleDistance> resolved_distances(
-    const std::vector<StatedDistance>& stated,
-    const std::vector<Hole>& holes,
-    const HolesPlaces& places,
-    Problems& problems);
+std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& stated,
+                                             const std::vector<Hole>& holes,
+                                             const HolesPlaces& places,
+                                             Problems& problems);
 /// Warns of distances that equal the commanded ones exactly.
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems);
 /// Units, triangles, a forgotten zero offset of the tape, and too few distances. A doubtful stated
@@ -71,7 +70,7 @@ struct StatedHoles : MeasuredHoles {
   std::vector<StatedDistance> lines;
 };
 
-[[nodiscard]] const Record<StatedHoles>& holes_record();
+const Record<StatedHoles>& holes_record();
 
 /// The content of a CSV with its places: `places` refer to `rows`, which they share.
 struct HolesTables {
@@ -79,8 +78,6 @@ struct HolesTables {
   HolesPlaces places;
 };
 /// \throws InputError with every problem.
-[[nodiscard]] HolesTables read_holes_tables(const std::string& text,
-                                            double tape_unit,
-                                            Problems& problems);
+HolesTables read_holes_tables(const std::string& text, double tape_unit, Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -27,9 +27,9 @@ struct InputProblem {
   std::string sentence = {};
   ProblemKind kind = ProblemKind::unexpected;
   /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
-  [[nodiscard]] std::string message() const;
+  std::string message() const;
   /// The name of its kind; "missing" if nothing was found.
-  [[nodiscard]] std::string_view name() const;
+  std::string_view name() const;
 };
 
 /// A problem that does not stop the reading; the caller prints it.
@@ -42,7 +42,7 @@ struct Warning {
   /// The kind of a recognised mistake; empty for information.
   std::optional<ProblemKind> kind = std::nullopt;
   /// `grid.json: /points/3: ...`
-  [[nodiscard]] std::string message() const;
+  std::string message() const;
 };
 
 /// Thrown once, with all problems; the command turns it into exit code 3.
@@ -68,6 +68,6 @@ class InputError : public std::runtime_error {
                          ProblemKind kind = ProblemKind::unexpected);
 
 /// The system's message for an error number, in English in every locale.
-[[nodiscard]] std::string system_words(int error_number);
+std::string system_words(int error_number);
 
 }  // namespace chaintrue::grid::files

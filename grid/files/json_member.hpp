@@ -28,9 +28,9 @@ inline constexpr OptionalAccess kOptionalAccess = {
     }};
 
 /// For a std::optional, or for a member at this offset of what it holds; null if it is empty.
-[[nodiscard]] std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                                          const OptionalAccess& access,
-                                                          std::size_t offset = 0);
+std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
+                                            const OptionalAccess& access,
+                                            std::size_t offset = 0);
 
 /// What a member holds, which may be a std::optional.
 template <class V>
@@ -49,7 +49,7 @@ template <class T, class V>
 struct MemberPath {
   using Type = typename Held<V>::Type;
   static constexpr bool kIsOptional = Held<V>::kIsOptional;
-  [[nodiscard]] std::shared_ptr<const Codec> codec_for(const Value<Type>& value) const {
+  std::shared_ptr<const Codec> codec_for(const Value<Type>& value) const {
     if constexpr (kIsOptional) return optional_codec(value.codec, kOptionalAccess<Type>);
     return value.codec;
   }
@@ -57,17 +57,17 @@ struct MemberPath {
 };
 /// T itself has the member, or a base of it.
 template <class T, class B, class V>
-[[nodiscard]] MemberPath<T, V> path_in(V B::*member) {
+MemberPath<T, V> path_in(V B::*member) {
   static const T object{};
   return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
                                    reinterpret_cast<const std::byte*>(&object))};
 }
 template <class T, class V>
-[[nodiscard]] MemberPath<T, V> path_in(MemberPath<T, V> member) {
+MemberPath<T, V> path_in(MemberPath<T, V> member) {
   return member;
 }
 template <class T, class M, class V>
-[[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {
+MemberPath<T, V> path(M T::*outer, V M::*inner) {
   return {path_in<T>(outer).offset + path_in<M>(inner).offset};
 }
 
@@ -76,18 +76,18 @@ template <class T, class M, class V>
 struct OptionalPath {
   using Type = V;
   static constexpr bool kIsOptional = true;
-  [[nodiscard]] std::shared_ptr<const Codec> codec_for(const Value<V>& value) const {
+  std::shared_ptr<const Codec> codec_for(const Value<V>& value) const {
     return optional_codec(value.codec, kOptionalAccess<M>, inner);
   }
   std::size_t offset = 0;  ///< of the std::optional
   std::size_t inner = 0;
 };
 template <class T, class M, class V>
-[[nodiscard]] OptionalPath<T, M, V> path(std::optional<M> T::*outer, V M::*inner) {
+OptionalPath<T, M, V> path(std::optional<M> T::*outer, V M::*inner) {
   return {path_in<T>(outer).offset, path_in<M>(inner).offset};
 }
 template <class T, class M, class V>
-[[nodiscard]] OptionalPath<T, M, V> path_in(OptionalPath<T, M, V> member) {
+OptionalPath<T, M, V> path_in(OptionalPath<T, M, V> member) {
   return member;
 }
 

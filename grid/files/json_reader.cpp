@@ -23,12 +23,12 @@ class OptionalCodec : public Codec {
     if (was_empty && !is_read) access_.reset(member);
     return is_read;
   }
-  [[nodiscard]] Json write(const void* member) const override {
+  Json write(const void* member) const override {
     return access_.value(member) == nullptr ? kLeftOut : value_->write(place(member));
   }
 
  private:
-  [[nodiscard]] const std::byte* place(const void* member) const {
+  const std::byte* place(const void* member) const {
     return static_cast<const std::byte*>(access_.value(member)) + offset_;
   }
 
@@ -46,7 +46,7 @@ class ObjectCodec : public Codec {
   bool read(const Cursor& at, void* value) const override {
     return record_.read_fields(at, value, false, reset_);
   }
-  [[nodiscard]] Json write(const void* value) const override { return record_.write_fields(value); }
+  Json write(const void* value) const override { return record_.write_fields(value); }
 
  private:
   RecordTable record_;

@@ -82,11 +82,11 @@ class RecordTable {
  public:
   RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
 
-  [[nodiscard]] const std::string& noun() const { return noun_; }
+  const std::string& noun() const { return noun_; }
   /// The schema of an object; for a file's record, a reference to that file's schema.
-  [[nodiscard]] Expected expected() const;
+  Expected expected() const;
   /// Schema of the object itself, also for a file's record.
-  [[nodiscard]] Json schema() const;
+  Json schema() const;
 
  protected:
   struct Field {
@@ -105,7 +105,7 @@ class RecordTable {
 
   /// Adds to the field what its codec expects.
   Field& add(Field field, std::shared_ptr<const Codec> codec);
-  [[nodiscard]] Field& last() { return fields_.back(); }
+  Field& last() { return fields_.back(); }
   /// The default becomes part of the schema.
   static void state_default(Field& field, Make make);
   /// The default is not written.
@@ -119,16 +119,16 @@ class RecordTable {
                    void* object,
                    bool is_root,
                    void (*reset)(void*) = nullptr) const;
-  [[nodiscard]] Json write_fields(const void* object) const;
+  Json write_fields(const void* object) const;
 
  private:
   /// False, and reported, if this is not an object or is a file of another type or version.
-  [[nodiscard]] bool open(const Cursor& at, bool is_root) const;
+  bool open(const Cursor& at, bool is_root) const;
   /// Reports unknown keys; returns the known keys for which one of them is probably a typing error.
-  [[nodiscard]] std::vector<std::string> report_unknown_keys(const Cursor& at) const;
-  [[nodiscard]] bool has_key(const std::string& key) const;
-  [[nodiscard]] std::vector<std::string> keys() const;
-  [[nodiscard]] Json schema_of_keys() const;
+  std::vector<std::string> report_unknown_keys(const Cursor& at) const;
+  bool has_key(const std::string& key) const;
+  std::vector<std::string> keys() const;
+  Json schema_of_keys() const;
 
   std::string noun_;
   const Format* format_;
@@ -139,11 +139,10 @@ class RecordTable {
 
 /// `reset` makes a new object of the old before it is read; null keeps it. The codec has the record's
 /// table for itself.
-[[nodiscard]] std::shared_ptr<const Codec> object_codec(const RecordTable& record,
-                                                        void (*reset)(void*));
+std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*));
 
 template <class T>
-class [[nodiscard]] Record : public RecordTable {
+class Record : public RecordTable {
   using Text = std::string_view;
   /// Only the member determines the type, so a range or a record may be given for its value.
   template <class M>
@@ -290,13 +289,13 @@ class [[nodiscard]] Record : public RecordTable {
   }
 
   /// Empty if this is not an object; otherwise the object, with what could be read.
-  [[nodiscard]] std::optional<T> read(const Cursor& at, bool is_root = false) const {
+  std::optional<T> read(const Cursor& at, bool is_root = false) const {
     T object{};
     if (!read_fields(at, &object, is_root)) return std::nullopt;
     return object;
   }
 
-  [[nodiscard]] Json write(const T& object) const { return write_fields(&object); }
+  Json write(const T& object) const { return write_fields(&object); }
 
   operator Value<T>() const { return object(*this); }  // NOLINT: tables name the record alone
   operator Value<std::vector<T>>() const { return list(*this); }  // NOLINT
@@ -344,24 +343,20 @@ Value<std::vector<T>> list(const Record<T>& record, std::size_t fewest = 0) {
 /// `problems` has the file's name and receives the warnings. \throws InputError with every problem
 /// of the text.
 template <class T>
-[[nodiscard]] T read_document(const Record<T>& record,
-                              const std::string& text,
-                              Problems& problems) {
+T read_document(const Record<T>& record, const std::string& text, Problems& problems) {
   const Json json = parse_json(text, problems);
   std::optional<T> object = record.read(Cursor(json, problems), true);
   problems.throw_if_any();
   return std::move(object.value());
 }
 template <class T>
-[[nodiscard]] T read_document(const Record<T>& record,
-                              const std::string& text,
-                              const std::string& file) {
+T read_document(const Record<T>& record, const std::string& text, const std::string& file) {
   Problems problems(file);
   return read_document(record, text, problems);
 }
 
 template <class T>
-[[nodiscard]] std::string write_document(const Record<T>& record, const T& object) {
+std::string write_document(const Record<T>& record, const T& object) {
   return print_json(record.write(object));
 }
 

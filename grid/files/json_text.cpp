@@ -34,7 +34,7 @@ struct QuotedText {
   std::string text;
   std::vector<std::size_t> quotes;
 
-  [[nodiscard]] std::size_t original_offset(std::size_t offset) const {
+  std::size_t original_offset(std::size_t offset) const {
     return offset - static_cast<std::size_t>(
                         std::lower_bound(quotes.begin(), quotes.end(), offset) - quotes.begin());
   }
@@ -185,7 +185,7 @@ class Builder : public nlohmann::json_sax<Json> {
   };
 
   /// The place of the value that comes next.
-  [[nodiscard]] std::string pointer() const {
+  std::string pointer() const {
     std::string text;
     for (const Level& level : open_) {
       text += '/';
@@ -225,7 +225,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return &members.back().second;
   }
 
-  [[nodiscard]] bool has_room() {
+  bool has_room() {
     const bool is_full = !open_.empty() && open_.back().value->is_object() &&
                          open_.back().value->size() >= kMostMembers;
     if (++values_ <= kMostValues && !is_full) return true;

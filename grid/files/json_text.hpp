@@ -20,24 +20,24 @@ using Json = nlohmann::ordered_json;
 
 /// Duplicate keys are added to `problems` by pointer. \throws InputError immediately, with line and
 /// column, for text that is not JSON.
-[[nodiscard]] Json parse_json(const std::string& text, Problems& problems);
+Json parse_json(const std::string& text, Problems& problems);
 
 /// Two blanks per level, lines of at most 100 characters where the values allow, a line break at
 /// the end. \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string print_json(const Json& value);
+std::string print_json(const Json& value);
 
 /// A value on one line, for messages.
-[[nodiscard]] std::string compact_json(const Json& value);
+std::string compact_json(const Json& value);
 
 /// A list with what `each` makes of every element.
 template <class Range, class Each>
-[[nodiscard]] Json json_list(const Range& range, const Each& each) {
+Json json_list(const Range& range, const Each& each) {
   Json list = Json::array();
   for (const auto& element : range) list.push_back(each(element));
   return list;
 }
 
 /// `key` as one token of a JSON pointer.
-[[nodiscard]] std::string pointer_token(std::string_view key);
+std::string pointer_token(std::string_view key);
 
 }  // namespace chaintrue::grid::files

@@ -72,7 +72,7 @@ class ChoiceCodec : public Codec {
     std::memcpy(value, known->value.data(), size_);
     return true;
   }
-  [[nodiscard]] Json write(const void* value) const override {
+  Json write(const void* value) const override {
     for (const NamedBytes& known : names_) {
       if (std::memcmp(known.value.data(), value, size_) == 0) return known.name;
     }
@@ -112,7 +112,7 @@ class ListCodec : public Codec {
       at.report(fmt::format("{} of them", count), ProblemKind::wrong_count, expected().words);
     return true;
   }
-  [[nodiscard]] Json write(const void* list) const override {
+  Json write(const void* list) const override {
     Json array = Json::array();
     for (std::size_t i = 0; i < access_.size(list); ++i)
       array.push_back(element_->write(access_.element(list, i)));

@@ -30,19 +30,17 @@ class Cursor {
  public:
   Cursor(const Json& root, Problems& problems) : json_(&root), problems_(&problems) {}
 
-  [[nodiscard]] const Json& json() const { return *json_; }
-  [[nodiscard]] std::string pointer() const;
+  const Json& json() const { return *json_; }
+  std::string pointer() const;
   [[nodiscard]] Problems& problems() const { return *problems_; }
   /// The whole document.
-  [[nodiscard]] const Json& root() const { return parent_ == nullptr ? *json_ : parent_->root(); }
+  const Json& root() const { return parent_ == nullptr ? *json_ : parent_->root(); }
   /// A key that is absent reads as null.
-  [[nodiscard]] Cursor child(std::string_view key) const;
-  [[nodiscard]] Cursor element(std::size_t index) const;
-  [[nodiscard]] bool has(std::string_view key) const;
+  Cursor child(std::string_view key) const;
+  Cursor element(std::size_t index) const;
+  bool has(std::string_view key) const;
   /// Nothing was reported here or below so far.
-  [[nodiscard]] bool clean() const {
-    return !problems_->any() || !problems_->at_or_below(pointer());
-  }
+  bool clean() const { return !problems_->any() || !problems_->at_or_below(pointer()); }
 
   /// Reports that this value is not the expected one; `missing` reports that it is absent.
   void expect(std::string expected, ProblemKind kind = ProblemKind::unexpected) const;
@@ -88,11 +86,11 @@ class Codec {
   Codec(const Codec&) = delete;
   Codec& operator=(const Codec&) = delete;
 
-  [[nodiscard]] const Expected& expected() const { return expected_; }
+  const Expected& expected() const { return expected_; }
   /// False, and reported, if the value is wrong; the memory is then unchanged.
   virtual bool read(const Cursor& at, void* value) const = 0;
   /// A discarded value omits a field's key.
-  [[nodiscard]] virtual Json write(const void* value) const = 0;
+  virtual Json write(const void* value) const = 0;
 
  private:
   Expected expected_;
@@ -111,9 +109,7 @@ class FunctionCodec : public Codec {
   bool read(const Cursor& at, void* value) const override {
     return read_(at, *static_cast<V*>(value));
   }
-  [[nodiscard]] Json write(const void* value) const override {
-    return write_(*static_cast<const V*>(value));
-  }
+  Json write(const void* value) const override { return write_(*static_cast<const V*>(value)); }
 
  private:
   Read read_;
@@ -121,7 +117,7 @@ class FunctionCodec : public Codec {
 };
 
 template <class V>
-struct [[nodiscard]] Value;
+struct Value;
 Value<double> number(Range range);
 Value<bool> boolean();
 Value<std::string> text();
@@ -131,7 +127,7 @@ Value<std::uint64_t> seed_number();
 /// A codec with its type. `expected` may be replaced for a custom field. Ranges and records
 /// (json_reader.hpp) may be given for the values that they describe.
 template <class V>
-struct [[nodiscard]] Value {
+struct Value {
   Value(const Range& range)  // NOLINT: tables name the range alone
       requires std::is_same_v<V, double> : Value(number(range)) {}
   Value(std::string_view unit, double least, double most) requires std::is_same_v<V, double>
@@ -151,11 +147,11 @@ struct [[nodiscard]] Value {
             },
             std::move(write))) {}
 
-  [[nodiscard]] std::optional<V> read(const Cursor& at) const {
+  std::optional<V> read(const Cursor& at) const {
     V value{};
     return codec->read(at, &value) ? std::optional<V>(std::move(value)) : std::nullopt;
   }
-  [[nodiscard]] Json write(const V& value) const { return codec->write(&value); }
+  Json write(const V& value) const { return codec->write(&value); }
 
   std::shared_ptr<const Codec> codec;
   Expected expected;
@@ -211,7 +207,7 @@ Value<V> value_of_type() {
 /// Texts have no default.
 [[nodiscard]] Json with_default(Json schema, const Json& value);
 /// Schema of a number in its range.
-[[nodiscard]] Json number_schema(const Range& range);
+Json number_schema(const Range& range);
 
 Value<int> integer(int least, int most);
 Value<std::string> one_of(const std::vector<std::string>& names);
@@ -221,8 +217,7 @@ struct NamedBytes {
   std::string name;
   std::array<std::byte, 8> value{};
 };
-[[nodiscard]] std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names,
-                                                        std::size_t size);
+std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size);
 
 /// A value by its name, such as an enum.
 template <class E>
@@ -271,12 +266,12 @@ inline constexpr ListAccess kListAccess = {
     [](const void* list, std::size_t index) -> const void* {
       return static_cast<const std::vector<V>*>(list)->data() + index;
     }};
-[[nodiscard]] std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
-                                                      const ListAccess& access,
-                                                      std::size_t fewest);
+std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
+                                        const ListAccess& access,
+                                        std::size_t fewest);
 
 /// Schema of a list of such elements.
-[[nodiscard]] Json list_schema(const Json& element, std::size_t fewest);
+Json list_schema(const Json& element, std::size_t fewest);
 
 /// `fewest` elements at least.
 template <class V>
@@ -288,10 +283,10 @@ inline Value<std::vector<double>> list(const Range& range, std::size_t fewest = 
 }
 
 /// The schema, with null allowed.
-[[nodiscard]] Json schema_or_null(Json schema);
+Json schema_or_null(Json schema);
 
 /// Schema of an object whose keys are not known in advance.
-[[nodiscard]] Json dictionary_schema(const Json& element);
+Json dictionary_schema(const Json& element);
 
 /// Numbers whose keys are not known in advance.
 Value<std::map<std::string, double>> dictionary(const Value<double>& element);

@@ -38,16 +38,16 @@ struct LengthTable {
   /// enough.
   double largest_error_mm = 0.0;
 
-  [[nodiscard]] double step_x() const { return (area.x_max - area.x_min) / (columns - 1); }
-  [[nodiscard]] double step_y() const { return (area.y_max - area.y_min) / (rows - 1); }
-  [[nodiscard]] double x(double column) const { return area.x_min + column * step_x(); }
-  [[nodiscard]] double y(double row) const { return area.y_min + row * step_y(); }
+  double step_x() const { return (area.x_max - area.x_min) / (columns - 1); }
+  double step_y() const { return (area.y_max - area.y_min) / (rows - 1); }
+  double x(double column) const { return area.x_min + column * step_x(); }
+  double y(double row) const { return area.y_min + row * step_y(); }
   /// The larger distance of neighbours.
-  [[nodiscard]] double spacing_mm() const;
+  double spacing_mm() const;
   /// side: 0 left, 1 right. One row or column beyond an edge it is continued (Keys, eq. 25).
-  [[nodiscard]] double node(int row, int column, std::size_t side) const;
+  double node(int row, int column, std::size_t side) const;
   /// All nodes as text, four to a line; each row and each node is between `open` and `close`.
-  [[nodiscard]] std::string nodes_as_text(std::string_view open, std::string_view close) const;
+  std::string nodes_as_text(std::string_view open, std::string_view close) const;
 };
 
 /// A kinematics module that interpolates in a table.
@@ -58,7 +58,7 @@ struct TableModule {
   double spacing_mm = 0.0;        ///< the larger of both
   double largest_error_mm = 0.0;  ///< as the table's
 };
-[[nodiscard]] TableModule module_of(const LengthTable& table, std::string source);
+TableModule module_of(const LengthTable& table, std::string source);
 
 /// The text with the table's {columns}, {rows}, {x}, {y}, {step_x} and {step_y}, the {module}'s name
 /// and, for a comment, the map's {name}, and whatever `more` names.

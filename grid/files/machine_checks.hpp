@@ -15,7 +15,7 @@ void check_geometry(const model::Machine& machine, Problems& problems);
 
 /// The longest chain that any place of the bed needs, from the sprocket to the sled. \pre a machine
 /// without problems.
-[[nodiscard]] double longest_chain_mm(const model::Machine& machine);
+double longest_chain_mm(const model::Machine& machine);
 
 /// How to give a machine that runs LinuxCNC or Klipper, where `text` is such a program's settings;
 /// reports it.
@@ -29,7 +29,7 @@ struct OtherUnit {
 };
 /// A bed of 4 to 12 feet is 48 to 144 inches wide, or 122 to 366 centimetres; the smaller of two
 /// beds that are as wide in both is taken for one in inches.
-[[nodiscard]] inline OtherUnit other_unit(double bed_width) {
+inline OtherUnit other_unit(double bed_width) {
   constexpr double kWidestInInches = 145.0;
   return bed_width <= kWidestInInches ? OtherUnit{"inches", 25.4} : OtherUnit{"centimetres", 10.0};
 }

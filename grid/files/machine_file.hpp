@@ -23,10 +23,10 @@ struct ReadMachine {
 };
 
 /// `file` is the name used in messages. \throws InputError with every problem of the file.
-[[nodiscard]] ReadMachine parse_machine(const std::string& text, const std::string& file);
+ReadMachine parse_machine(const std::string& text, const std::string& file);
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number of the machine is not finite.
-[[nodiscard]] std::string write_machine(const model::Machine& machine,
-                                        const std::vector<std::string>& comments = {});
+std::string write_machine(const model::Machine& machine,
+                          const std::vector<std::string>& comments = {});
 
 }  // namespace chaintrue::grid::files

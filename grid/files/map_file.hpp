@@ -21,8 +21,8 @@
 namespace chaintrue::grid::files {
 
 /// `file` is the name used in messages. \throws InputError with every problem of the file.
-[[nodiscard]] CompensationMap parse_map(const std::string& text, const std::string& file);
-[[nodiscard]] std::string write_map(const CompensationMap& map,
-                                    const std::optional<Provenance>& made_by = std::nullopt);
+CompensationMap parse_map(const std::string& text, const std::string& file);
+std::string write_map(const CompensationMap& map,
+                      const std::optional<Provenance>& made_by = std::nullopt);
 
 }  // namespace chaintrue::grid::files

@@ -113,11 +113,11 @@ class Defines {
     }
   }
 
-  [[nodiscard]] bool is_defined(const std::string& name) const {
+  bool is_defined(const std::string& name) const {
     const auto own = defined_.find(name);
     return own != defined_.end() && !own->second.in_force.empty();
   }
-  [[nodiscard]] Truth condition(std::string_view text) const {
+  Truth condition(std::string_view text) const {
     return truth_of(
         text,
         [this](const std::string& name) {

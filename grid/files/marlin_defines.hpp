@@ -30,9 +30,9 @@
 namespace chaintrue::grid::files {
 
 /// The names that are defined. Values that are not numbers are reported with their lines.
-[[nodiscard]] SettingTexts marlin_texts(const std::string& text,
-                                        const std::vector<std::string>& names,
-                                        Problems& problems);
+SettingTexts marlin_texts(const std::string& text,
+                          const std::vector<std::string>& names,
+                          Problems& problems);
 
 /// The lines without comments.
 [[nodiscard]] std::string without_comments(std::string_view text);

@@ -92,7 +92,7 @@ class CFormula {
                                             : std::numeric_limits<double>::quiet_NaN();
   }
   /// A quotient of whole numbers that is not whole.
-  [[nodiscard]] std::optional<double> cut() const { return cut_; }
+  std::optional<double> cut() const { return cut_; }
 
  private:
   CNumber sum() {

@@ -42,7 +42,7 @@ struct CodeReader {
     rest.remove_prefix(end);
     return own;
   }
-  [[nodiscard]] bool is_at_end() const { return trimmed(rest).empty(); }
+  bool is_at_end() const { return trimmed(rest).empty(); }
 };
 
 /// Empty if the file does not state it.
@@ -56,14 +56,14 @@ inline Truth both_hold(Truth a, Truth b) {
 inline Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
 
 /// Evaluates the condition of an #if.
-[[nodiscard]] Truth truth_of(std::string_view condition,
-                             std::function<bool(const std::string& name)> is_enabled,
-                             std::function<bool(const std::string& name)> is_defined);
+Truth truth_of(std::string_view condition,
+               std::function<bool(const std::string& name)> is_enabled,
+               std::function<bool(const std::string& name)> is_defined);
 
 struct FormulaValue {
   double value = 0.0;         ///< NaN if the text is not a formula
   std::optional<double> cut;  ///< a quotient of whole numbers that is not whole
 };
-[[nodiscard]] FormulaValue value_of_formula(std::string_view text);
+FormulaValue value_of_formula(std::string_view text);
 
 }  // namespace chaintrue::grid::files

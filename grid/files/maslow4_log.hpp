@@ -53,7 +53,7 @@ struct LogPart {
   std::optional<PointRange> points = std::nullopt;
 };
 /// "2", "1,2" or "0:98". \throws InputError otherwise.
-[[nodiscard]] std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option);
+std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option);
 
 struct Maslow4Options {
   std::optional<std::string> settings;  ///< text of maslow.yaml
@@ -85,9 +85,9 @@ struct Maslow4Import {
 
 /// `file` is the name used in messages. \throws InputError with every problem: where fewer than five
 /// readings can be read though others are there, or where they contradict each other as a whole.
-[[nodiscard]] Maslow4Import parse_maslow4(const std::string& text,
-                                          const std::string& file,
-                                          const Maslow4Options& options = {});
+Maslow4Import parse_maslow4(const std::string& text,
+                            const std::string& file,
+                            const Maslow4Options& options = {});
 
 // Several runs of a Maslow 4's calibration as one session: the same machine, each run with its own
 // pull. Visits are numbered on from run to run.
@@ -101,13 +101,12 @@ struct Maslow4Import {
 // \endcode
 
 /// "1,1.6" relative, "1300mA,1900mA" or "150N,240N"; one unit. \throws InputError otherwise.
-[[nodiscard]] std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option);
+std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option);
 
 /// `pulls`: one for each run; empty: as in the logs. A single run is returned itself, with its
 /// pull.
 /// \throws InputError if runs have different frames, or if the pull of each is unknown.
 /// \throws std::logic_error without runs.
-[[nodiscard]] Maslow4Import one_session(std::vector<Maslow4Import> runs,
-                                        const std::vector<BeltPull>& pulls);
+Maslow4Import one_session(std::vector<Maslow4Import> runs, const std::vector<BeltPull>& pulls);
 
 }  // namespace chaintrue::grid::files

@@ -41,7 +41,7 @@ class Settings {
     if (!take(keys, value)) assumed_.push_back(fmt::format("{} of {:g} mm", what, value));
   }
 
-  [[nodiscard]] SettingReader& reader() { return reader_; }
+  SettingReader& reader() { return reader_; }
   [[nodiscard]] Problems& problems() { return problems_; }
 
  private:

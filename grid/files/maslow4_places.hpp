@@ -21,9 +21,9 @@ struct PlacesOfLog {
 };
 
 /// The runs with places, each of one frame.
-[[nodiscard]] std::vector<ScannedRun> runs_of(ScannedLog& log,
-                                              const model::BeltMachine& machine,
-                                              Problems& problems);
+std::vector<ScannedRun> runs_of(ScannedLog& log,
+                                const model::BeltMachine& machine,
+                                Problems& problems);
 /// Appends the readable places of a run, within the range of its points.
 void take_places(const ScannedRun& run,
                  PointRange within,

@@ -50,15 +50,15 @@ struct SettingsRefused {
   std::size_t line = 0;
   std::string said;
 };
-[[nodiscard]] bool is_setting_refused(std::string_view line);
-[[nodiscard]] std::string words_of(const SettingsRefused& refused);
+bool is_setting_refused(std::string_view line);
+std::string words_of(const SettingsRefused& refused);
 
 /// Empty for a line that does not indicate a failure.
-[[nodiscard]] std::optional<StopKind> stop_of(std::string_view line);
+std::optional<StopKind> stop_of(std::string_view line);
 
 /// The answer. `belts` are the places that were rebuilt, with the settings in force where these are
 /// known.
-[[nodiscard]] std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts);
+std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts);
 
 // Readings `{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}` in a log's lines. One that a serial line
 // or a clipboard damaged is reported with the others; it keeps its place in the list. Private to
@@ -82,15 +82,15 @@ class ReadingReader {
     std::vector<ScannedReading> readings;
     bool list_ends = false;  ///< a "]" outside of readings
   };
-  [[nodiscard]] Found take(std::string_view line, std::size_t number);
+  Found take(std::string_view line, std::size_t number);
   /// A reading has begun that has not ended.
-  [[nodiscard]] bool is_open() const { return open_; }
+  bool is_open() const { return open_; }
   /// Ends such a reading: as one that is not readable, if it looks like one.
-  [[nodiscard]] std::optional<ScannedReading> give_up();
+  std::optional<ScannedReading> give_up();
 
  private:
   enum class End { closed, lost };
-  [[nodiscard]] std::optional<ScannedReading> read(const std::string& text, End end) const;
+  std::optional<ScannedReading> read(const std::string& text, End end) const;
   void begin(std::size_t number, std::size_t column);
 
   std::string file_;
@@ -128,6 +128,6 @@ struct ScannedLog {
   bool list_has_end = true;                      ///< false: the log ends in the middle of a list
 };
 /// `file` is the name used in messages.
-[[nodiscard]] ScannedLog scan_maslow4(const std::string& text, const std::string& file);
+ScannedLog scan_maslow4(const std::string& text, const std::string& file);
 
 }  // namespace chaintrue::grid::files

@@ -17,16 +17,16 @@ struct LogLine {
   std::size_t number = 0;  ///< in the file, from 1; of a message over two lines the first
 };
 /// Without blanks and quotation marks at either end.
-[[nodiscard]] std::string_view unquoted(std::string_view text);
+std::string_view unquoted(std::string_view text);
 /// True for a line that the machine or a terminal prints between others: a message, a status report,
 /// an answer to a command.
-[[nodiscard]] bool is_other_output(std::string_view line);
+bool is_other_output(std::string_view line);
 /// "Run 2:", "// run three", but not "More runs:" or a sentence that runs on.
-[[nodiscard]] bool is_heading(std::string_view line);
-[[nodiscard]] std::vector<LogLine> log_lines(const std::string& text);
+bool is_heading(std::string_view line);
+std::vector<LogLine> log_lines(const std::string& text);
 /// The number that follows a word, blanks skipped; empty if there is none.
-[[nodiscard]] std::optional<double> number_after(std::string_view line, std::string_view word);
+std::optional<double> number_after(std::string_view line, std::string_view word);
 /// The number of a waypoint; empty if a line that looks like a message contains none.
-[[nodiscard]] std::optional<int> waypoint_of(std::optional<double> number);
+std::optional<int> waypoint_of(std::optional<double> number);
 
 }  // namespace chaintrue::grid::files

@@ -22,7 +22,7 @@ namespace chaintrue::grid::files {
 using PlaceOf = std::function<std::string(std::size_t index, std::string_view field)>;
 
 /// For a list in JSON: "/points", "/points/3", "/points/3/x_mm".
-[[nodiscard]] PlaceOf place_in_json(std::string list);
+PlaceOf place_in_json(std::string list);
 
 /// Fills in the machine: that of the options instead of any that the file states; otherwise its own, that of
 /// the file that it names, or the options' other one. Problems and warnings of that file are added.
@@ -56,15 +56,15 @@ struct EntryWords {
 
 /// Reports entries that were left blank, by their names (empty: not blank), and returns the others.
 /// \throws InputError if every one is blank.
-[[nodiscard]] std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                                 const EntryWords& words,
-                                                 const std::string& place,
-                                                 Problems& problems);
+std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
+                                   const EntryWords& words,
+                                   const std::string& place,
+                                   Problems& problems);
 
 /// "all 28 points", "3 of 28 points (4, 7, 9)".
-[[nodiscard]] std::string how_many(const std::vector<std::string>& named,
-                                   std::size_t count,
-                                   std::string_view entries);
+std::string how_many(const std::vector<std::string>& named,
+                     std::size_t count,
+                     std::string_view entries);
 
 /// The number of an entry's visit; that of an entry with a wrong value is ignored.
 struct StatedOrder {

@@ -56,7 +56,7 @@ inline constexpr Named<VisitingOrder> kVisitingOrders[] = {
     {"serpentine_columns", {.rows = false, .serpentine = true}}};
 
 template <class E, std::size_t n>
-[[nodiscard]] std::optional<E> named(const Named<E> (&names)[n], std::string_view word) {
+std::optional<E> named(const Named<E> (&names)[n], std::string_view word) {
   for (const auto& [name, value] : names) {
     if (name == word) return value;
   }
@@ -64,7 +64,7 @@ template <class E, std::size_t n>
 }
 
 template <class E, std::size_t n>
-[[nodiscard]] std::vector<std::string> words_of(const Named<E> (&names)[n]) {
+std::vector<std::string> words_of(const Named<E> (&names)[n]) {
   std::vector<std::string> words;
   for (const auto& [name, value] : names) words.emplace_back(name);
   return words;

@@ -19,42 +19,39 @@ struct Range {
   std::string_view unit;
   double least = 0.0;
   double most = 0.0;
-  [[nodiscard]] bool holds(double value) const { return value >= least && value <= most; }
-  [[nodiscard]] std::string expected() const;
+  bool holds(double value) const { return value >= least && value <= most; }
+  std::string expected() const;
 };
 
 /// The finite number that the whole text denotes. A leading plus sign is allowed; a number nearer
 /// to zero than the smallest double is zero; numbers beyond the largest, NaN and infinity are
 /// rejected.
-[[nodiscard]] std::optional<double> number_of(std::string_view text);
+std::optional<double> number_of(std::string_view text);
 
 /// A whole number in this range; empty for any other text.
-[[nodiscard]] std::optional<int> whole_number_of(std::string_view text, int least, int most);
+std::optional<int> whole_number_of(std::string_view text, int least, int most);
 
 /// "7x4" for 'x': two whole numbers from `least` to `most`; empty for any other text.
-[[nodiscard]] std::optional<std::array<int, 2>> pair_of(std::string_view text,
-                                                        char between,
-                                                        int least,
-                                                        int most);
+std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least, int most);
 
 /// "7,12" as "7" and "12"; an empty text is one empty part.
-[[nodiscard]] std::vector<std::string> parts_at_commas(std::string_view text);
+std::vector<std::string> parts_at_commas(std::string_view text);
 
 /// True for a number outside a double's range: 1e999, NaN, Infinity.
-[[nodiscard]] bool is_beyond_double(std::string_view text);
+bool is_beyond_double(std::string_view text);
 
 /// True for `12,5` and `-1.200,5`: a number written with a decimal comma.
-[[nodiscard]] bool looks_like_decimal_comma(std::string_view text);
+bool looks_like_decimal_comma(std::string_view text);
 /// For a text in place of a number within a range.
 [[nodiscard]] ProblemKind kind_of_bad_number(std::string_view text);
 
 /// The number in its range; otherwise reports it at `place` and returns nothing. `name` is the name
 /// of the value in the message.
-[[nodiscard]] std::optional<double> checked_number(std::string_view text,
-                                                   const std::string& place,
-                                                   std::string_view name,
-                                                   const Range& range,
-                                                   Problems& problems);
+std::optional<double> checked_number(std::string_view text,
+                                     const std::string& place,
+                                     std::string_view name,
+                                     const Range& range,
+                                     Problems& problems);
 
 // Lengths as people write them into a table or behind an option: with a unit, or as the fraction
 // that an inch rule shows. Private to grid/files.
@@ -72,6 +69,6 @@ struct Range {
 
 /// The fraction that a spreadsheet turned into a date: `Jan-32` was 1/32, `16-Mar` 3/16. Empty if
 /// the text is not such a date.
-[[nodiscard]] std::optional<std::string> fraction_of_date(std::string_view text);
+std::optional<std::string> fraction_of_date(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -38,8 +38,8 @@ struct ReadOptical {
 
 /// `file` is the name used in messages and, without its folder, the grid's. \throws InputError with
 /// every problem of the file, or if the machine has no controller.
-[[nodiscard]] ReadOptical parse_optical(const std::string& text,
-                                        const std::string& file,
-                                        const OpticalOptions& options);
+ReadOptical parse_optical(const std::string& text,
+                          const std::string& file,
+                          const OpticalOptions& options);
 
 }  // namespace chaintrue::grid::files

@@ -27,7 +27,7 @@ enum class Origin {
   anchors,
   measured,  ///< chaintrue_grid, chaintrue_holes, chaintrue_belts or chaintrue_drawing
   machine,   ///< chaintrue_machine or chaintrue_plotter
-  answer,  ///< the truth of a simulation
+  answer,    ///< the truth of a simulation
   check,
   page,         ///< HTML
   drawing,      ///< SVG
@@ -38,9 +38,9 @@ enum class Origin {
 };
 
 /// Never fails: unrecognised texts are foreign.
-[[nodiscard]] Origin origin_of(std::string_view text);
+Origin origin_of(std::string_view text);
 
 /// The text to be written: with the signature if the kind has one.
-[[nodiscard]] std::string signed_text(const std::string& text, Origin kind);
+std::string signed_text(const std::string& text, Origin kind);
 
 }  // namespace chaintrue::grid::files

@@ -16,7 +16,7 @@ struct ParsedDouble {
   std::errc error;
 };
 
-[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// As std::from_chars: no locale, no plus sign, no blanks in front; `fixed` stops before an
 /// exponent. Correctly rounded.

@@ -39,8 +39,8 @@ class PendingFile {
   void write(std::string_view bytes);
   /// A file with what was written so far, before it takes its place; empty if the output is held in
   /// memory.
-  [[nodiscard]] std::string flushed();
-  [[nodiscard]] const std::string& held() const { return held_; }
+  std::string flushed();
+  const std::string& held() const { return held_; }
 
  private:
   friend void take_places(const std::vector<PendingFile*>& files);
@@ -68,7 +68,7 @@ void take_places(const std::vector<PendingFile*>& files);
 /// The reader of standard output or of a pipe has closed it: not an error.
 class ReaderGone : public std::exception {
  public:
-  [[nodiscard]] const char* what() const noexcept override { return "the output was closed by its reader"; }
+  const char* what() const noexcept override { return "the output was closed by its reader"; }
 };
 
 /// After this call SIGINT, SIGTERM, SIGHUP and SIGPIPE remove pending files and then end the

@@ -20,11 +20,11 @@
 namespace chaintrue::grid::files {
 
 /// `file` is the name used in messages. \throws InputError with every problem.
-[[nodiscard]] KnownPlotter parse_plotter(const std::string& text, const std::string& file);
+KnownPlotter parse_plotter(const std::string& text, const std::string& file);
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_plotter(const KnownPlotter& plotter,
-                                        const std::vector<std::string>& comments = {},
-                                        const std::optional<Provenance>& made_by = std::nullopt);
+std::string write_plotter(const KnownPlotter& plotter,
+                          const std::vector<std::string>& comments = {},
+                          const std::optional<Provenance>& made_by = std::nullopt);
 
 }  // namespace chaintrue::grid::files

@@ -14,9 +14,7 @@ inline constexpr Range kPositive{"", 1e-6, 1e6};
 inline constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
 
 /// For a required key; 0 if it is missing and reported.
-[[nodiscard]] inline double needed(SettingReader& settings,
-                                   const std::string& key,
-                                   const Range& range) {
+inline double needed(SettingReader& settings, const std::string& key, const Range& range) {
   return settings.need(key, range).value_or(0.0);
 }
 
@@ -24,6 +22,6 @@ inline constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
 void warn_of_gondola(const model::PlotterMachine& machine, Problems& problems);
 
 /// Reads M665 and M92 from a log, or the settings from a Configuration.h.
-[[nodiscard]] SetPlotter plotter_of_marlin(const std::string& text, Problems& problems);
+SetPlotter plotter_of_marlin(const std::string& text, Problems& problems);
 
 }  // namespace chaintrue::grid::files

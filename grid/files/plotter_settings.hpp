@@ -29,9 +29,9 @@ struct ReadPlotter {
 };
 
 /// `file` is the name used in messages. \throws InputError with every problem.
-[[nodiscard]] ReadPlotter parse_plotter_settings(const std::string& text, const std::string& file);
+ReadPlotter parse_plotter_settings(const std::string& text, const std::string& file);
 
 /// Settings that only a V-plotter has: all of the above but FluidNC's, which may run a router.
-[[nodiscard]] bool is_of_a_plotter_alone(const std::string& text);
+bool is_of_a_plotter_alone(const std::string& text);
 
 }  // namespace chaintrue::grid::files

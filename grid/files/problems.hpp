@@ -59,11 +59,11 @@ class Problems {
   void add_all(const InputError& error);
   void add_warnings(const std::vector<Warning>& warnings);
   /// True if something was reported at this JSON pointer or below it.
-  [[nodiscard]] bool at_or_below(std::string_view pointer) const;
-  [[nodiscard]] bool any() const { return !list_.empty(); }
-  [[nodiscard]] const std::string& file() const { return file_; }
+  bool at_or_below(std::string_view pointer) const;
+  bool any() const { return !list_.empty(); }
+  const std::string& file() const { return file_; }
   [[nodiscard]] const std::vector<InputProblem>& list() const { return list_; }
-  [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
+  const std::vector<Warning>& warnings() const { return warnings_; }
   /// \throws InputError with everything collected; beyond kMostOfAKind with the same expectation,
   /// and beyond kMostProblems in all, the rest is counted, not listed.
   void throw_if_any() const;
@@ -78,17 +78,16 @@ class Problems {
 };
 
 /// At most 60 characters, on one line, without control characters; cut between UTF-8 characters.
-[[nodiscard]] std::string shortened(std::string_view text);
+std::string shortened(std::string_view text);
 /// `line 4`
-[[nodiscard]] std::string line_place(std::size_t line);
+std::string line_place(std::size_t line);
 /// `line 4, column 12`, both from 1; the column counts bytes.
-[[nodiscard]] std::string line_and_column(std::size_t line, std::size_t column);
-[[nodiscard]] std::string line_and_column_of(std::string_view text, std::size_t offset);
+std::string line_and_column(std::size_t line, std::size_t column);
+std::string line_and_column_of(std::string_view text, std::size_t offset);
 /// The candidate with the smallest edit distance, or the word with the unit that it lacks; empty if
 /// none is near.
-[[nodiscard]] std::string nearest(std::string_view word,
-                                  const std::vector<std::string>& candidates);
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 /// `a, b, c`
-[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+std::string joined(const std::vector<std::string>& words);
 
 }  // namespace chaintrue::grid::files

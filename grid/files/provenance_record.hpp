@@ -31,7 +31,7 @@ Record<T>& add_made_by_key(Record<T>& record) {
 // It detects mistakes and damage, not tampering.
 
 /// 64 hexadecimal digits. The root's "content_hash" and "comment" keys anywhere are left out.
-[[nodiscard]] std::string content_hash(const Json& document);
+std::string content_hash(const Json& document);
 
 /// The text of the document with the hash of its content as its last key.
 [[nodiscard]] std::string print_with_hash(Json document);

@@ -22,22 +22,21 @@ Json machine_schema(), grid_schema(), holes_schema(), belts_schema(), drawing_sc
     sweep_schema();
 
 /// Includes the checks of model::problems_of; warns of uncertainties that are assumed.
-[[nodiscard]] const Record<model::Machine>& machine_record();
+const Record<model::Machine>& machine_record();
 /// An effect with its side and parameters; whether it exists is checked by the catalogue.
 Record<model::AppliedEffect> effect_record();
 /// By GroundControl's own names.
 Record<model::ControllerSettings> controller_settings_record();
 
 /// A chaintrue_effect, without the checks of model::effects::problems_of.
-[[nodiscard]] const Record<model::effects::Declaration>& declaration_record();
+const Record<model::effects::Declaration>& declaration_record();
 /// A machine's "declared_effects": each is read, checked and declared.
 Value<std::vector<const model::effects::Effect*>> declared_value();
 /// Whether a machine's declared effects are finite on its bed and 0 at null.
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine);
 /// The effect of this name that the document's own machine declares, for a record that is read
 /// before or without that machine; null if there is none.
-[[nodiscard]] const model::effects::Effect* declared_in_document(const Cursor& at,
-                                                                 std::string_view id);
+const model::effects::Effect* declared_in_document(const Cursor& at, std::string_view id);
 
 /// `readings` of the machine itself in a file of points or of holes.
 Record<ExtraReading> reading_record();

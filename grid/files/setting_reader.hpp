@@ -35,7 +35,7 @@ class SettingReader {
   SettingReader(SettingTexts texts, Problems& problems, std::vector<std::string> folders = {});
 
   /// Null if it is missing.
-  [[nodiscard]] const SettingText* look(const std::string& key);
+  const SettingText* look(const std::string& key);
   /// Empty if it is missing or reported.
   std::optional<double> find(const std::string& key, const Range& range);
   /// As above; a missing one is reported.
@@ -49,7 +49,7 @@ class SettingReader {
   /// folder only the folder is listed.
   void warn_of_others(std::string_view says_what);
 
-  [[nodiscard]] bool empty() const { return texts_.empty(); }
+  bool empty() const { return texts_.empty(); }
 
  private:
   SettingTexts texts_;
@@ -61,18 +61,16 @@ class SettingReader {
 
 /// The part of YAML that FluidNC's settings use: keys by their indentation, and the value after the
 /// colon. "kinematics/WallPlotter/left_anchor_x". Reports keys that occur twice at one place.
-[[nodiscard]] SettingTexts yaml_texts(const std::string& text, Problems& problems);
+SettingTexts yaml_texts(const std::string& text, Problems& problems);
 
 /// Settings, one a line, "key=12", "key: 12 mm"; `before` is the text before a key;
 /// other lines are ignored.
-[[nodiscard]] SettingTexts line_texts(const std::string& text,
-                                      char separator,
-                                      std::string_view before = "");
+SettingTexts line_texts(const std::string& text, char separator, std::string_view before = "");
 
 /// An ini file, "section/key" in lower case. Lines that begin with ; or # are comments. Reports lines
 /// that are neither a section, an entry, a comment nor blank, and keys that occur twice in a section.
-[[nodiscard]] SettingTexts ini_texts(std::string_view text, Problems& problems);
+SettingTexts ini_texts(std::string_view text, Problems& problems);
 
-[[nodiscard]] std::string in_small_letters(std::string_view text);
+std::string in_small_letters(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -21,7 +21,7 @@ class Sha256 {
  public:
   void add(std::string_view bytes);
   /// 64 hexadecimal digits, of what was added so far.
-  [[nodiscard]] std::string text() const;
+  std::string text() const;
 
  private:
   static constexpr std::size_t kBlockBytes = 64;

@@ -18,13 +18,13 @@
 namespace chaintrue::grid::files {
 
 /// For this program: "0.1.0".
-[[nodiscard]] std::string_view version();
+std::string_view version();
 
 /// A name without folders; "standard input" for "-".
 [[nodiscard]] std::string name_without_folders(const std::filesystem::path& path);
 
 /// What read_whole_file() has read on this thread, in that order, each file once for each content.
-[[nodiscard]] std::vector<SourceFile> sources_read();
+std::vector<SourceFile> sources_read();
 /// For a file that is read in another way.
 void note_source(SourceFile source);
 /// Starts again, on a thread that does several pieces of work; files_read() is empty then, too.
@@ -35,11 +35,9 @@ void state_sources(std::vector<SourceFile> sources);
 
 /// The provenance in a map's, diagnosis' or anchors' file; empty if it has none. For a file that
 /// was read.
-[[nodiscard]] std::optional<Provenance> made_by_of(const std::string& text,
-                                                   const std::string& file);
+std::optional<Provenance> made_by_of(const std::string& text, const std::string& file);
 
 /// The inputs with the same name as one of `now` but another content.
-[[nodiscard]] std::vector<std::string> changed_since(const Provenance& then,
-                                                     const std::vector<SourceFile>& now);
+std::vector<std::string> changed_since(const Provenance& then, const std::vector<SourceFile>& now);
 
 }  // namespace chaintrue::grid::files

@@ -35,7 +35,7 @@ struct ReadSweep {
 
 /// `effects` are chaintrue_effect files; what they declare may act on every machine of the sweep.
 /// \throws InputError with every problem of the file, of those it names and of these.
-[[nodiscard]] ReadSweep read_sweep(const std::filesystem::path& path,
-                                   const std::vector<std::string>& effects = {});
+ReadSweep read_sweep(const std::filesystem::path& path,
+                     const std::vector<std::string>& effects = {});
 
 }  // namespace chaintrue::grid::files

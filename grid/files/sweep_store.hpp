@@ -34,13 +34,13 @@ using FinishedCells = std::vector<std::optional<sweep::CellResult>>;
 
 /// Those of every part of the folder; a folder that is not there has none. \throws InputError for parts of
 /// another specification.
-[[nodiscard]] FinishedCells finished_cells(const std::filesystem::path& directory, const ReadSweep& read);
+FinishedCells finished_cells(const std::filesystem::path& directory, const ReadSweep& read);
 
 /// The store of a folder for run_sweep: its parts, and a part of the share's own to append to.
 /// \throws InputError as finished_cells(), or if it cannot be written.
-[[nodiscard]] sweep::CellStore cells_kept_in(const std::filesystem::path& directory,
-                                             const ReadSweep& read,
-                                             const sweep::Share& share);
+sweep::CellStore cells_kept_in(const std::filesystem::path& directory,
+                               const ReadSweep& read,
+                               const sweep::Share& share);
 
 /// A point of the report's lines: error for one factor's level at one number of points, over all
 /// other factors and repetitions.

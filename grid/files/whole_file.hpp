@@ -13,20 +13,20 @@
 namespace chaintrue::grid::files {
 
 /// A path's name in messages: itself, or "standard input" for "-".
-[[nodiscard]] std::string name_in_messages(const std::filesystem::path& path);
+std::string name_in_messages(const std::filesystem::path& path);
 /// \throws InputError if the path cannot be opened, is a directory, or reading fails half-way.
-[[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
+std::string read_whole_file(const std::filesystem::path& path);
 /// The file by one of the functions that parse a text: read(parse_grid, "grid.json", {.few = true}).
 /// "-" is standard input.
 template <class T>
-[[nodiscard]] T read(T (*parse)(const std::string& text, const std::string& file),
-                     const std::filesystem::path& path) {
+T read(T (*parse)(const std::string& text, const std::string& file),
+       const std::filesystem::path& path) {
   return parse(read_whole_file(path), name_in_messages(path));
 }
 template <class T, class Options>
-[[nodiscard]] T read(T (*parse)(const std::string& text, const std::string& file, Options options),
-                     const std::filesystem::path& path,
-                     std::type_identity_t<Options> options = {}) {
+T read(T (*parse)(const std::string& text, const std::string& file, Options options),
+       const std::filesystem::path& path,
+       std::type_identity_t<Options> options = {}) {
   return parse(read_whole_file(path), name_in_messages(path), options);
 }
 /// \throws InputError if the path is a directory, its directory is missing, or it cannot be

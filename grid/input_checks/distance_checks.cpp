@@ -112,7 +112,9 @@ void add_units(HoleTransformations& list, Written written) {
                     "holes by {:g}",
                     unit.word,
                     factor),
-        [=](model::BedPoint p) { return model::BedPoint{p.x_mm * factor, p.y_mm * factor}; });
+        [=](model::BedPoint p) {
+          return model::BedPoint{p.x_mm * factor, p.y_mm * factor};
+        });
   }
 }
 
@@ -123,19 +125,29 @@ void add_axes(HoleTransformations& list) {
   using model::BedPoint;
   add("the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
       "counts to the right",
-      [](BedPoint p) { return BedPoint{-p.x_mm, p.y_mm}; });
+      [](BedPoint p) {
+        return BedPoint{-p.x_mm, p.y_mm};
+      });
   add("the sign of the holes' y_mm looks reversed, or the top and bottom edges exchanged: y_mm "
       "counts up the sheet",
-      [](BedPoint p) { return BedPoint{p.x_mm, -p.y_mm}; });
+      [](BedPoint p) {
+        return BedPoint{p.x_mm, -p.y_mm};
+      });
   add("the signs of the holes' x_mm and y_mm look reversed, or opposite edges exchanged: they "
       "count to the right and up the sheet",
-      [](BedPoint p) { return BedPoint{-p.x_mm, -p.y_mm}; });
+      [](BedPoint p) {
+        return BedPoint{-p.x_mm, -p.y_mm};
+      });
   add("the holes' two columns look swapped: x_mm counts to the right, y_mm up the sheet",
-      [](BedPoint p) { return BedPoint{p.y_mm, p.x_mm}; });
+      [](BedPoint p) {
+        return BedPoint{p.y_mm, p.x_mm};
+      });
 }
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
-void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, HoleTransformations& list) {
+void add_holes(const MeasuredHoles& set,
+               const std::vector<bool>& is_gross,
+               HoleTransformations& list) {
   for (std::size_t h = 0; h < set.holes.size(); ++h) {
     std::size_t of_it = 0;
     for (std::size_t i = 0; i < set.distances.size(); ++i) {
@@ -202,18 +214,16 @@ struct DistanceRows {
   const MeasuredHoles& set;
   const RobustTrend& trend;
 
-  [[nodiscard]] double residual_mm(std::size_t row) const {
-    return trend.residual_mm[as_index(row)];
-  }
-  [[nodiscard]] bool is_gross(std::size_t row) const {
+  double residual_mm(std::size_t row) const { return trend.residual_mm[as_index(row)]; }
+  bool is_gross(std::size_t row) const {
     return residual_mm(row) > std::max(kGrossMm, kGrossScales * trend.scale_mm);
   }
-  [[nodiscard]] double off_of(const HoleDistance& meant) const {
+  double off_of(const HoleDistance& meant) const {
     return std::abs(length_of(set, meant) - commanded_mm(set, meant) -
                     (basis_of(set, meant) * trend.coefficients)(0, 0));
   }
 
-  [[nodiscard]] std::string question_of(std::size_t row) const {
+  std::string question_of(std::size_t row) const {
     const HoleDistance& written = set.distances[row];
     std::string best;
     double most = log_density_of(residual_mm(row), trend.scale_mm, 1) + kThreeTimes;
@@ -263,7 +273,7 @@ struct DistanceRows {
     }
   }
 
-  [[nodiscard]] std::vector<RowFinding> findings() const {
+  std::vector<RowFinding> findings() const {
     std::vector<RowFinding> found;
     for (std::size_t row = 0; row < set.distances.size(); ++row) {
       if (!is_gross(row)) continue;
@@ -290,8 +300,8 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   std::vector<bool> is_gross;
   for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
   const double median_mm = trend.median_residual_mm();
-  const bool is_odd = trend.prior_chi_square > kOddDistances || median_mm > kSoundMm ||
-                      contains(is_gross, true);
+  const bool is_odd =
+      trend.prior_chi_square > kOddDistances || median_mm > kSoundMm || contains(is_gross, true);
   if (!is_odd) return {};
   HoleTransformations list(set, distance_rows);
   add_units(list, written);

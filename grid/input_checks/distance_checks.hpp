@@ -11,7 +11,6 @@
 namespace chaintrue::grid::input_checks {
 
 /// Rows are distances.
-[[nodiscard]] Findings check_distances(const MeasuredHoles& set,
-                                       Written written = Written::in_json);
+Findings check_distances(const MeasuredHoles& set, Written written = Written::in_json);
 
 }  // namespace chaintrue::grid::input_checks

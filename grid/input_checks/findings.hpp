@@ -15,7 +15,7 @@ namespace chaintrue::grid::input_checks {
 /// How the checked numbers were written: --inches applies to a table.
 enum class Written { in_json, in_table };
 /// The end of a question about inches.
-[[nodiscard]] std::string_view or_say_inches(Written written);
+std::string_view or_say_inches(Written written);
 
 /// A finding about the whole file, or about all rows from one on.
 struct WholeFinding {
@@ -31,7 +31,7 @@ struct WholeFinding {
   ProblemKind kind = ProblemKind::other_sheet;
 
   /// "x_mm and y_mm look like inches: ... (half of the marks are ... off as it stands; ...)"
-  [[nodiscard]] std::string sentence() const;
+  std::string sentence() const;
 };
 
 /// A finding about one row.
@@ -77,13 +77,13 @@ inline constexpr double kThreeTimes = 1.099;
 
 /// The likeliest candidate, if it makes the file sound and a hundred times likelier for each of the
 /// `tried`; and the next one, if nearly as good.
-[[nodiscard]] std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
-                                                        const Account& plain,
-                                                        std::size_t tried,
-                                                        double odd_trend,
-                                                        std::string found);
+std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
+                                          const Account& plain,
+                                          std::size_t tried,
+                                          double odd_trend,
+                                          std::string found);
 
 /// "312 mm", "2.2 m"
-[[nodiscard]] std::string length_in_words(double mm);
+std::string length_in_words(double mm);
 
 }  // namespace chaintrue::grid::input_checks

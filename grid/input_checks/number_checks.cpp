@@ -12,13 +12,13 @@ namespace {
 
 // Logarithms of the number of alternative values, for one of four numbers of four or five digits in
 // a row.
-constexpr double kSign = 2.1;            // 2 numbers and their exchange, by 4 ways to go wrong
-constexpr double kTapeMark = 3.0;        // two lengths, either way, 4 numbers
-constexpr double kExchanged = 2.8;       // 4 pairs of digits, 4 numbers
-constexpr double kPoint = 1.0;           // 4 places of the point; more often lost than a digit
-constexpr double kDoubled = 3.0;         // 5 digits to take away, 4 numbers
-constexpr double kWrong = 5.2;           // 5 digits of 9, 4 numbers
-constexpr double kDropped = 5.5;         // 6 places for 10 digits, 4 numbers
+constexpr double kSign = 2.1;       // 2 numbers and their exchange, by 4 ways to go wrong
+constexpr double kTapeMark = 3.0;   // two lengths, either way, 4 numbers
+constexpr double kExchanged = 2.8;  // 4 pairs of digits, 4 numbers
+constexpr double kPoint = 1.0;      // 4 places of the point; more often lost than a digit
+constexpr double kDoubled = 3.0;    // 5 digits to take away, 4 numbers
+constexpr double kWrong = 5.2;      // 5 digits of 9, 4 numbers
+constexpr double kDropped = 5.5;    // 6 places for 10 digits, 4 numbers
 
 class Slips {
  public:
@@ -36,7 +36,7 @@ class Slips {
     const double value = std::signbit(written_) ? -size : size;
     add(value, rather(value), penalty);
   }
-  [[nodiscard]] std::string rather(double value) const {
+  std::string rather(double value) const {
     return fmt::format("is it {} rather than {}?", digits_of(value), digits_of(written_));
   }
   [[nodiscard]] std::vector<NumberError> take() { return std::move(slips_); }
@@ -86,16 +86,16 @@ std::string digits_of(double value) { return fmt::format("{:.10g}", value); }
 std::vector<NumberError> number_errors(double written, bool is_signed) {
   Slips slips(written);
   if (is_signed) {
-    slips.add(-written,
-              written > 0.0 ? "is the minus missing?" : "is there a minus too many?",
-              kSign);
+    slips.add(
+        -written, written > 0.0 ? "is the minus missing?" : "is there a minus too many?", kSign);
   }
   const auto tape = [&](double by_mm, const char* why) {
     for (const double value : {written + by_mm, written - by_mm}) {
       if (is_signed || value > 0.0) {
-        slips.add(value,
-                  fmt::format("is it {} rather than {} ({})?", digits_of(value), digits_of(written), why),
-                  kTapeMark);
+        slips.add(
+            value,
+            fmt::format("is it {} rather than {} ({})?", digits_of(value), digits_of(written), why),
+            kTapeMark);
       }
     }
   };

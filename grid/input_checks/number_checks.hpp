@@ -33,6 +33,6 @@ struct NumberError {
 [[nodiscard]] std::vector<NumberError> number_errors(double written, bool is_signed);
 
 /// The shortest decimal text of a number.
-[[nodiscard]] std::string digits_of(double value);
+std::string digits_of(double value);
 
 }  // namespace chaintrue::grid::input_checks

@@ -40,7 +40,7 @@ class PointAccounts {
         controller_(model::make_controller_kinematics(*grid.machine)) {}
 
   /// The tool's position by its lengths or its command; empty if no pose has them.
-  [[nodiscard]] Place place_of(const MeasuredPoint& point) const {
+  Place place_of(const MeasuredPoint& point) const {
     model::ChainLengths lengths;
     if (point.lengths) {
       lengths = *point.lengths;
@@ -58,18 +58,18 @@ class PointAccounts {
   }
 
   /// True if the stated machine can hold the sled there.
-  [[nodiscard]] bool can_hold(model::MarkPoint mark) const {
+  bool can_hold(model::MarkPoint mark) const {
     return kinematics_->inverse(model::identity_placement(mark)).has_value();
   }
 
-  [[nodiscard]] PlacedPoints placed(const std::vector<MeasuredPoint>& points) const {
+  PlacedPoints placed(const std::vector<MeasuredPoint>& points) const {
     PlacedPoints placed{points, {}};
     for (const MeasuredPoint& point : points) placed.places.push_back(place_of(point));
     return placed;
   }
 
   /// Marks relative to places, for a second-degree trend. A missing place is a missing row.
-  [[nodiscard]] TrendRows rows(const PlacedPoints& placed) const {
+  TrendRows rows(const PlacedPoints& placed) const {
     const auto& [points, places] = placed;
     const auto n = as_index(points.size());
     TrendRows rows{Eigen::MatrixXd::Zero(n, kPointBasis),
@@ -84,16 +84,16 @@ class PointAccounts {
     return rows;
   }
 
-  [[nodiscard]] const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
+  const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
   /// The trend's rotation of the marks to the left about the bed's middle.
-  [[nodiscard]] double turn_rad(const RobustTrend& trend) const {
+  double turn_rad(const RobustTrend& trend) const {
     const double up_along_x = trend.coefficients(1, 1) / half_width_mm_;
     const double right_along_y = trend.coefficients(2, 0) / half_height_mm_;
     return 0.5 * (up_along_x - right_along_y);
   }
 
   /// The largest of its relative stretches along x and y and its skew.
-  [[nodiscard]] double strain(const RobustTrend& trend) const {
+  double strain(const RobustTrend& trend) const {
     const Eigen::MatrixXd& c = trend.coefficients;
     const double skew = 0.5 * (c(1, 1) / half_width_mm_ + c(2, 0) / half_height_mm_);
     return std::max(
@@ -101,11 +101,10 @@ class PointAccounts {
   }
 
   /// Residual of a mark at a place from a trend.
-  [[nodiscard]] Eigen::Vector2d off(const RobustTrend& trend,
-                                    model::MarkPoint mark,
-                                    model::BedPoint place) const {
-    return difference(mark, place) -
-           (basis_at(place) * trend.coefficients).transpose();
+  Eigen::Vector2d off(const RobustTrend& trend,
+                      model::MarkPoint mark,
+                      model::BedPoint place) const {
+    return difference(mark, place) - (basis_at(place) * trend.coefficients).transpose();
   }
 
  private:
@@ -123,7 +122,7 @@ class PointAccounts {
     return sigma;
   }
 
-  [[nodiscard]] Eigen::RowVectorXd basis_at(model::BedPoint place) const {
+  Eigen::RowVectorXd basis_at(model::BedPoint place) const {
     // Wrong lengths may end anywhere: the second-degree trend is kept constant beyond the bed.
     const double u = std::clamp(place.x_mm / half_width_mm_, -1.5, 1.5);
     const double v = std::clamp(place.y_mm / half_height_mm_, -1.5, 1.5);

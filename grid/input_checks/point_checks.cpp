@@ -114,8 +114,9 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
       "marks and readings do not belong together, and no usual typing error explains it; are they "
       "from another sheet, another list or another machine?",
       std::isfinite(plain.median_mm)
-          ? fmt::format("half of the points are more than {:.0f} mm from where the machine puts them",
-                        plain.median_mm)
+          ? fmt::format(
+                "half of the points are more than {:.0f} mm from where the machine puts them",
+                plain.median_mm)
           : std::string("no machine can have these readings"),
       false};
 }
@@ -226,15 +227,13 @@ struct PointRows {
   const PlacedPoints& placed;
   const RobustTrend& trend;
 
-  [[nodiscard]] double off_of(const RowError& slip, std::size_t row) const {
+  double off_of(const RowError& slip, std::size_t row) const {
     const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : placed.places[row];
     if (!place) return std::numeric_limits<double>::infinity();
     return accounts.off(trend, slip.meant.mark, *place).norm();
   }
-  [[nodiscard]] double residual_mm(std::size_t row) const {
-    return trend.residual_mm[as_index(row)];
-  }
-  [[nodiscard]] bool is_gross(std::size_t row) const {
+  double residual_mm(std::size_t row) const { return trend.residual_mm[as_index(row)]; }
+  bool is_gross(std::size_t row) const {
     // If the stated machine is off by decimetres the trend is only a first guess.
     constexpr double kGrossOfOddMm = 100.0;
     const double least_mm = trend.prior_chi_square < kOddPoints ? kGrossMm : kGrossOfOddMm;
@@ -256,8 +255,8 @@ struct PointRows {
     return best;
   }
   /// Another row with a gross error such that the readings of the two fit each other's marks.
-  [[nodiscard]] std::optional<std::size_t> exchanged_with(
-      std::size_t row, const std::vector<std::size_t>& gross) const {
+  std::optional<std::size_t> exchanged_with(std::size_t row,
+                                            const std::vector<std::size_t>& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {
       return placed.places[reading] &&
              accounts.off(trend, grid.points[mark].mark, *placed.places[reading]).norm() <
@@ -269,7 +268,7 @@ struct PointRows {
     return std::nullopt;
   }
 
-  [[nodiscard]] RowFinding words_of(std::size_t row, const RowError& slip) const {
+  RowFinding words_of(std::size_t row, const RowError& slip) const {
     const std::string number = number_of(grid, row);
     const model::MarkPoint mark = grid.points[row].mark;
     const auto& motors = grid.machine->motors;
@@ -295,7 +294,7 @@ struct PointRows {
     return {row, fmt::format("Mark {} {}. {}", number, what, question), false};
   }
 
-  [[nodiscard]] std::vector<RowFinding> findings() const {
+  std::vector<RowFinding> findings() const {
     constexpr std::size_t kMostNamed = 200;
     std::vector<std::size_t> gross;
     for (std::size_t row = 0; row < grid.points.size(); ++row) {

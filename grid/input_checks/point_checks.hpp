@@ -14,6 +14,6 @@
 namespace chaintrue::grid::input_checks {
 
 /// No findings for a grid without a possible machine.
-[[nodiscard]] Findings check_points(const MeasuredGrid& grid, Written written = Written::in_json);
+Findings check_points(const MeasuredGrid& grid, Written written = Written::in_json);
 
 }  // namespace chaintrue::grid::input_checks

@@ -43,7 +43,8 @@ std::vector<double> gains(const TrendRows& plain,
     return log_density_of(std::isfinite(off_mm) ? off_mm : kMissingMm, scale_mm, components);
   };
   std::vector<double> gain;
-  for (Index i = 0; i < plain.off_mm.rows(); ++i) gain.push_back(density(mended, i) - density(plain, i));
+  for (Index i = 0; i < plain.off_mm.rows(); ++i)
+    gain.push_back(density(mended, i) - density(plain, i));
   return gain;
 }
 
@@ -90,10 +91,8 @@ class Search {
   }
 
  private:
-  [[nodiscard]] std::size_t count() const { return as_size(plain_.off_mm.rows()); }
-  [[nodiscard]] RobustTrend trend_of(const TrendRows& rows) const {
-    return robust_trend(rows, sigma_mm_);
-  }
+  std::size_t count() const { return as_size(plain_.off_mm.rows()); }
+  RobustTrend trend_of(const TrendRows& rows) const { return robust_trend(rows, sigma_mm_); }
 
   void add(const Transformation& own,
            const RobustTrend& trend,
@@ -113,14 +112,15 @@ class Search {
   }
 
   /// Tail, head and single rows, if their total gain suffices for a finding.
-  [[nodiscard]] std::vector<Part> parts_of(const Transformation& own,
-                                           const std::vector<double>& gain) const {
+  std::vector<Part> parts_of(const Transformation& own, const std::vector<double>& gain) const {
     std::vector<Part> parts;
-    const auto offer = [&](RowSet rows, std::optional<std::size_t> from, std::string words, double penalty) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < rows.size(); ++i) sum += rows[i] ? gain[i] : 0.0;
-      if (sum > kHundredTimes) parts.push_back({std::move(rows), from, std::move(words), penalty});
-    };
+    const auto offer =
+        [&](RowSet rows, std::optional<std::size_t> from, std::string words, double penalty) {
+          double sum = 0.0;
+          for (std::size_t i = 0; i < rows.size(); ++i) sum += rows[i] ? gain[i] : 0.0;
+          if (sum > kHundredTimes)
+            parts.push_back({std::move(rows), from, std::move(words), penalty});
+        };
     const std::size_t n = count();
     const double cuts = std::log(as_double(n));
     const std::size_t from = tail_of(gain);
@@ -132,7 +132,8 @@ class Search {
     RowSet head(n, false);
     std::fill(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(before), true);
     if (is_part(before))
-      offer(std::move(head), 0, fmt::format("from here to row {} ", name_of_row_(before - 1)), cuts);
+      offer(
+          std::move(head), 0, fmt::format("from here to row {} ", name_of_row_(before - 1)), cuts);
     RowSet some(n, false);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < n; ++i) {
@@ -154,9 +155,7 @@ class Search {
     return parts;
   }
 
-  [[nodiscard]] bool is_part(std::size_t taken) const {
-    return taken >= kFewestRows && taken < count();
-  }
+  bool is_part(std::size_t taken) const { return taken >= kFewestRows && taken < count(); }
 
   /// The part's account; also that of the rows selected by its own trend, if they differ.
   void refine(const Transformation& own,

@@ -67,7 +67,7 @@ class Transformations {
     list_.push_back({kind, std::move(sentence), mended});
     return list_.back();
   }
-  [[nodiscard]] std::vector<Transformation> take() { return std::move(list_); }
+  std::vector<Transformation> take() { return std::move(list_); }
 
  private:
   const Data& written_;
@@ -75,14 +75,13 @@ class Transformations {
   std::vector<Transformation> list_;
 };
 
-[[nodiscard]] Account account_of(const RobustTrend& trend);
+Account account_of(const RobustTrend& trend);
 
 /// An account for each transformation of all rows, and for the likeliest part of them if it is much
 /// likelier than no row. `name_of_row` is the row's own number.
-[[nodiscard]] std::vector<Candidate> searched(
-    const Eigen::VectorXd& prior_sigma_mm,
-    const TrendRows& as_written,
-    const std::vector<Transformation>& transformations,
-    const std::function<std::string(std::size_t)>& name_of_row);
+std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm,
+                                const TrendRows& as_written,
+                                const std::vector<Transformation>& transformations,
+                                const std::function<std::string(std::size_t)>& name_of_row);
 
 }  // namespace chaintrue::grid::input_checks

@@ -12,13 +12,13 @@
 namespace chaintrue::grid::input_checks {
 
 /// The errors possible for such points on `grid`'s machine. All three must outlive the result.
-[[nodiscard]] std::vector<Transformation> point_transformations(const PointAccounts& accounts,
-                                                                const MeasuredGrid& grid,
-                                                                const PlacedPoints& written,
-                                                                Written as);
+std::vector<Transformation> point_transformations(const PointAccounts& accounts,
+                                                  const MeasuredGrid& grid,
+                                                  const PlacedPoints& written,
+                                                  Written as);
 
 /// Errors of slipped lines, which need neighbours in the file.
-[[nodiscard]] std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
-                                                               const PlacedPoints& written);
+std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
+                                                 const PlacedPoints& written);
 
 }  // namespace chaintrue::grid::input_checks

@@ -16,7 +16,7 @@
 namespace chaintrue::grid {
 
 enum class CheckVerdict { valid, valid_after_rezeroing, measure_again };
-[[nodiscard]] std::string_view name(CheckVerdict verdict);
+std::string_view name(CheckVerdict verdict);
 
 /// Prior sigmas of a smooth change that no hypothesis covers, and of a wrong reading.
 inline constexpr double kUnknownSigmaMm = 3.0;
@@ -44,10 +44,10 @@ struct CheckHypothesis {
 
   /// Excess of a length's reading with its sigma, and its relative growth; 0 if the hypothesis has
   /// none.
-  [[nodiscard]] QuantityFound added(std::size_t length) const;
-  [[nodiscard]] QuantityFound elongation(std::size_t length) const;
+  QuantityFound added(std::size_t length) const;
+  QuantityFound elongation(std::size_t length) const;
   /// For the only quantity, or the root of the sum of squares.
-  [[nodiscard]] double size() const;
+  double size() const;
 };
 
 /// The deviation of one new reading from the calibration.
@@ -59,12 +59,12 @@ struct CheckResidual {
 
 /// Residuals that are good or bad together.
 struct CheckUnit {
-  std::string name;          ///< "point 3"
-  std::size_t index = 0;     ///< into the file's points or distances
+  std::string name;           ///< "point 3"
+  std::size_t index = 0;      ///< into the file's points or distances
   std::size_t first_row = 0;  ///< into the residuals
   std::size_t rows = 1;
-  [[nodiscard]] double rms_mm(const std::vector<CheckResidual>& residuals) const;
-  [[nodiscard]] double sigma_mm(const std::vector<CheckResidual>& residuals) const;
+  double rms_mm(const std::vector<CheckResidual>& residuals) const;
+  double sigma_mm(const std::vector<CheckResidual>& residuals) const;
 };
 
 struct Check {
@@ -85,7 +85,7 @@ struct Check {
   std::vector<std::string> notes;
   /// The result is for the map with other settings than its own (check_settings.hpp).
   bool settings_have_changed = false;
-  [[nodiscard]] bool is_valid_as_it_is() const {
+  bool is_valid_as_it_is() const {
     return decided && verdict == CheckVerdict::valid && !settings_have_changed;
   }
 };

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -110,8 +110,7 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
     if (unit == unit_of[as_size(conditioned.back().first)]) {
       const auto first = as_index(readings.units[unit].first_row);
       for (const auto& [i, by_i] : conditioned) {
-        for (const auto& [j, by_j] : conditioned)
-          k.own[unit](i - first, j - first) += by_i * by_j;
+        for (const auto& [j, by_j] : conditioned) k.own[unit](i - first, j - first) += by_i * by_j;
       }
       continue;
     }
@@ -142,7 +141,7 @@ class Evidence {
         precision_(nothing_.precision_of_units()) {}
 
   /// Stores the posterior of q; `unit` is the bad one, if that is the hypothesis.
-  [[nodiscard]] double weigh(Proposal& proposal, std::size_t unit) const {
+  double weigh(Proposal& proposal, std::size_t unit) const {
     const double prior = std::log(proposal.prior);
     if (proposal.hypothesis.what == model::Change::unknown) return prior + of_unknown();
     if (proposal.hypothesis.what == model::Change::bad_point) return prior + of_bad_unit(unit);
@@ -151,7 +150,7 @@ class Evidence {
 
  private:
   /// The log evidence (2) or (3), from log|V|^1/2 and r' V^-1 r.
-  [[nodiscard]] double log_density(double log_root, double square) const {
+  double log_density(double log_root, double square) const {
     const double nu = readings_.noise_dof;
     if (!std::isfinite(nu)) return -log_root - 0.5 * square;
     const auto n = as_double(readings_.residual_mm.size());
@@ -159,13 +158,13 @@ class Evidence {
   }
 
   /// Every place may have changed independently.
-  [[nodiscard]] double of_unknown() const {
+  double of_unknown() const {
     const FactoredCovariance all(with_unknown(readings_));
     return log_density(all.log_root_det(), all.conditioned(readings_.residual_mm).squaredNorm());
   }
 
   /// A bad unit: kOutlierSigmaMm is added to its noise.
-  [[nodiscard]] double of_bad_unit(std::size_t unit) const {
+  double of_bad_unit(std::size_t unit) const {
     const Eigen::MatrixXd& precision = precision_[unit];
     Eigen::MatrixXd m = kOutlierSigmaMm * kOutlierSigmaMm * precision;
     m.diagonal().array() += 1.0;
@@ -177,10 +176,11 @@ class Evidence {
                        residual_.squaredNorm() - conditioned.dot(factor.solve(conditioned)));
   }
 
-  [[nodiscard]] double of_change(Proposal& proposal) const {
-    const Eigen::VectorXd y = proposal.mean.size() == 0
-                                  ? residual_
-                                  : Eigen::VectorXd(residual_ - nothing_.conditioned(proposal.mean));
+  double of_change(Proposal& proposal) const {
+    const Eigen::VectorXd y =
+        proposal.mean.size() == 0
+            ? residual_
+            : Eigen::VectorXd(residual_ - nothing_.conditioned(proposal.mean));
     if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
     const Eigen::MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
     const linear::Cholesky factor(linear::one_plus_gram(u));
@@ -189,9 +189,8 @@ class Evidence {
     const double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                                      y.squaredNorm() - by_y.dot(taken));
     const Eigen::VectorXd q = proposal.sigma.cwiseProduct(taken);
-    const Eigen::MatrixXd covariance = proposal.sigma.asDiagonal() *
-                                       factor.inverse() *
-                                       proposal.sigma.asDiagonal();
+    const Eigen::MatrixXd covariance =
+        proposal.sigma.asDiagonal() * factor.inverse() * proposal.sigma.asDiagonal();
     return value + take_posterior(proposal, q, covariance);
   }
 

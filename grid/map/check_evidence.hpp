@@ -53,6 +53,6 @@ struct CheckReadings {
 };
 
 /// In this order: nothing, the mechanism's changes, an unknown change, and each unit as a single bad one.
-[[nodiscard]] std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings);
+std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings);
 
 }  // namespace chaintrue::grid

@@ -277,7 +277,7 @@ class Gathered {
     }
   }
 
-  [[nodiscard]] CheckReadings readings() && {
+  CheckReadings readings() && {
     const auto rows = std::ssize(residual_mm_);
     const auto places = std::ssize(at_.lengths);
     readings_.residual_mm = Eigen::Map<const Eigen::VectorXd>(residual_mm_.data(), rows);
@@ -295,7 +295,7 @@ class Gathered {
   }
 
  private:
-  [[nodiscard]] Eigen::Index row() const { return std::ssize(residual_mm_); }
+  Eigen::Index row() const { return std::ssize(residual_mm_); }
 
   /// The rows that were named last are good or bad together.
   void add_unit(std::string name, Eigen::MatrixXd covariance) {
@@ -366,8 +366,7 @@ class Gathered {
         const Eigen::RowVector2d by_length =
             -geometry.by_mark.block<1, 2>(k, column) * at_.by_mark[first + hole].inverse();
         for (const Eigen::Index axis : {0, 1})
-          by_length_.emplace_back(
-              before + k, 2 * as_index(first) + column + axis, by_length[axis]);
+          by_length_.emplace_back(before + k, 2 * as_index(first) + column + axis, by_length[axis]);
         if (at_.covariance.empty()) continue;
         const Eigen::Matrix2d root =
             Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
@@ -432,7 +431,8 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
       map.machine() != nullptr ? map.machine()->chain_zero : model::ChainLengths{};
   readings.zero_mm = {zero.left_mm, zero.right_mm};
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    for (const std::string& note : parts[k].notes) readings.notes.push_back(head_of(files[k]) + note);
+    for (const std::string& note : parts[k].notes)
+      readings.notes.push_back(head_of(files[k]) + note);
   }
   return readings;
 }

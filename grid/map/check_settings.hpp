@@ -26,16 +26,16 @@ inline constexpr double kFarBetter = 18.4;
 struct ChangedSettings {
   Check check;  ///< of the map for `in_force`, against the points
   model::ControllerSettings in_force;
-  bool all = false;  ///< all numbers are the other ones
+  bool all = false;          ///< all numbers are the other ones
   double as_it_is_mm = 0.0;  ///< rms of the residuals, settings of the map
   double with_these_mm = 0.0;
 };
 
 /// `found` is the check of `map` against `measured`. Empty if its own settings fit, if no others
 /// explain the points, or if no point gives a command.
-[[nodiscard]] std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
-                                                              const Measured& measured,
-                                                              const model::ControllerSettings& others,
-                                                              const Check& found);
+std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
+                                                const Measured& measured,
+                                                const model::ControllerSettings& others,
+                                                const Check& found);
 
 }  // namespace chaintrue::grid

@@ -24,6 +24,6 @@ struct CheckWords {
   std::function<std::string(const Check&)> what_to_set = {};
 };
 
-[[nodiscard]] Check judged(const CheckReadings& readings, const CheckWords& words);
+Check judged(const CheckReadings& readings, const CheckWords& words);
 
 }  // namespace chaintrue::grid

@@ -60,7 +60,7 @@ class CompensationMap {
     map.contents_.sigma_factor_beyond = factor;
     return map;
   }
-  [[nodiscard]] const MapContents& contents() const { return contents_; }
+  const MapContents& contents() const { return contents_; }
 
   [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const {
     const auto found = with_spread(mark);
@@ -107,8 +107,7 @@ class CompensationMap {
       if (move.norm() >= kConvergedMm) continue;
       // On the domain's edge the last step may end outside by the tolerance.
       const model::MarkPoint inside = within(mark, 0.0);
-      if (distance_mm(inside, mark) < kConvergedMm)
-        mark = inside;
+      if (distance_mm(inside, mark) < kConvergedMm) mark = inside;
       if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
       return mark;
     }
@@ -122,7 +121,7 @@ class CompensationMap {
     return refused ? MapStatus::outside : status;
   }
   /// As in LengthMap; no columns where lengths() has no answer.
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const {
+  Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const {
     const auto found = with_spread(mark);
     if (!found) return Eigen::Matrix2Xd(2, 0);
     // A length that is truly longer leaves the tool short of the mark.
@@ -130,34 +129,30 @@ class CompensationMap {
            found->spread_mm;
   }
   /// The same place in the other frame; a direct map knows only one.
-  [[nodiscard]] model::MarkPoint to_mark(model::BedPoint bed) const {
-    return field_->sheet().to_mark(bed);
-  }
-  [[nodiscard]] model::BedPoint to_bed(model::MarkPoint mark) const {
-    return field_->sheet().to_bed(mark);
-  }
+  model::MarkPoint to_mark(model::BedPoint bed) const { return field_->sheet().to_mark(bed); }
+  model::BedPoint to_bed(model::MarkPoint mark) const { return field_->sheet().to_bed(mark); }
   /// Null for a direct map.
-  [[nodiscard]] const model::Machine* machine() const {
+  const model::Machine* machine() const {
     const auto* surface = std::get_if<ModelSurface>(&contents_.surface);
     return surface == nullptr ? nullptr : &surface->machine;
   }
 
  private:
-  [[nodiscard]] bool answers_at(model::MarkPoint mark) const {
+  bool answers_at(model::MarkPoint mark) const {
     if (!contents_.domain.contains(mark.x_mm, mark.y_mm)) return false;
     return contents_.outside.way != Outside::refuse || status(mark) != MapStatus::outside;
   }
-  [[nodiscard]] double spread_factor(MapStatus status) const {
+  double spread_factor(MapStatus status) const {
     return status == MapStatus::extrapolated ? contents_.sigma_factor_beyond : 1.0;
   }
   /// The nearest place that is no farther than this off the domain.
-  [[nodiscard]] model::MarkPoint within(model::MarkPoint mark, double beyond_mm) const {
+  model::MarkPoint within(model::MarkPoint mark, double beyond_mm) const {
     const interp::Rectangle& domain = contents_.domain;
     return {std::clamp(mark.x_mm, domain.x_min - beyond_mm, domain.x_max + beyond_mm),
             std::clamp(mark.y_mm, domain.y_min - beyond_mm, domain.y_max + beyond_mm)};
   }
   /// Constant lengths beyond the points stop a search, so it uses the surface's own continuation.
-  [[nodiscard]] std::shared_ptr<const MapField> field_to_search() const {
+  std::shared_ptr<const MapField> field_to_search() const {
     if (contents_.outside.way != Outside::clamp || machine() != nullptr) return field_;
     return with_outside({Outside::linear}).field_;
   }
@@ -169,6 +164,6 @@ class CompensationMap {
 
 /// The controller's machine unless a file states another: the map's, with the settings as they were
 /// stated, not as they were calibrated. Empty for a map without a machine.
-[[nodiscard]] std::optional<model::Machine> stated_machine(const CompensationMap& map);
+std::optional<model::Machine> stated_machine(const CompensationMap& map);
 
 }  // namespace chaintrue::grid

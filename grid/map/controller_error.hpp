@@ -45,30 +45,30 @@ struct MeasuredPlace {
 
 /// Within a convex hull 25 columns and 13 rows, closer than any wave of a map between a few dozen
 /// points, and its edge at the same spacing. Places that the map does not answer are left out.
-[[nodiscard]] std::vector<MeasuredPlace> measured_places(const LengthMap& map,
-                                                         const std::vector<model::BedPoint>& hull);
+std::vector<MeasuredPlace> measured_places(const LengthMap& map,
+                                           const std::vector<model::BedPoint>& hull);
 /// `frame` states what the controller's commands refer to: the numbers of the marks, or places on
 /// the bed.
-[[nodiscard]] std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame);
+std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame);
 
 /// The lengths that a controller pays out for a command; empty if it cannot go there.
 using PaidOut = std::function<std::optional<model::ChainLengths>(model::BedPoint)>;
-[[nodiscard]] PaidOut paid_out_by(const model::Machine& machine);
+PaidOut paid_out_by(const model::Machine& machine);
 
 /// The first part of (1) at every place, x and y one below the other; empty if the controller
 /// cannot go to one.
-[[nodiscard]] std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
-                                                               const std::vector<MeasuredPlace>& places);
+std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
+                                                 const std::vector<MeasuredPlace>& places);
 
 /// For (1) with such a first part. \pre There is a place within the hull.
-[[nodiscard]] ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
-                                             const Eigen::VectorXd& errors_mm);
+ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
+                               const Eigen::VectorXd& errors_mm);
 
 /// The machine's error as used today: the controller with its settings in force is sent to the
 /// marks' numbers, the sheet being where it was. Empty for a map without a machine, for an ideal
 /// controller whose machine a diagnosis has extended, or if the controller cannot go to a measured
 /// place.
-[[nodiscard]] std::optional<ErrorSummary> error_in_use(const CompensationMap& map);
+std::optional<ErrorSummary> error_in_use(const CompensationMap& map);
 
 /// Adds to the map's statements (1) for a tool sent by the map.
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy);

@@ -26,7 +26,7 @@ class DistancesPart final : public FitPart {
     fewest_good = kFewestHoleDistances;
   }
 
-  [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
+  std::string few_good(std::size_t bad, std::size_t all) const override {
     std::string sentence = fmt::format(
         "{} of {} distances contradict the others or the machine file; check the machine's "
         "measures, the controller's settings, and which holes the distances join",
@@ -64,7 +64,7 @@ class DistancesPart final : public FitPart {
   }
 
  private:
-  [[nodiscard]] const MeasuredHoles& set() const { return distances_->set(); }
+  const MeasuredHoles& set() const { return distances_->set(); }
 
   /// For sets of holes alone the points are the holes, and errors are those of distances.
   void add_holes(MapDraft& draft, const Fitting& fitting, const FittedDistances& fit) const {

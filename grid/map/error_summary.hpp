@@ -15,7 +15,7 @@ struct ErrorSummary {
   double rms_mm = 0.0;
   double maximum_mm = 0.0;
 };
-[[nodiscard]] inline ErrorSummary summary_of(const std::vector<double>& errors_mm) {
+inline ErrorSummary summary_of(const std::vector<double>& errors_mm) {
   double largest = 0.0;
   for (const double error : errors_mm) largest = std::max(largest, std::abs(error));
   return {rms(errors_mm), largest};

@@ -24,7 +24,7 @@ struct Fitting {
   /// The estimate of `input`.
   [[nodiscard]] static tl::expected<Fitting, FitFailure> of(estimation::EstimationInput input);
   /// A place on a file's sheet in the frame of the first file's marks.
-  [[nodiscard]] model::MarkPoint in_frame(std::size_t file, model::MarkPoint mark) const;
+  model::MarkPoint in_frame(std::size_t file, model::MarkPoint mark) const;
 };
 
 /// Collects the files' parts of a map.
@@ -65,7 +65,7 @@ class FitPart {
   /// States the noise found from this file alone.
   virtual void take_noise(const Fitting& /*alone*/) {}
   /// Why a single file has too few good units.
-  [[nodiscard]] virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;
+  virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;
   /// Puts the file, `file` by its number, into the map. `name` is empty if it is the only one.
   virtual void add_to(MapDraft& draft,
                       const Fitting& fitting,

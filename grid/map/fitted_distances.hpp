@@ -24,7 +24,7 @@ struct FittedDistance {
   double left_out_mm = 0.0;
   double left_out_sigma_mm = 0.0;
   bool rejected = false;
-  [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
+  double sigmas() const { return left_out_mm / left_out_sigma_mm; }
 };
 
 /// The common excess of a file's readings, if the tape's zero offset was not known exactly.
@@ -47,23 +47,21 @@ struct FittedDistances {
   std::vector<FittedHole> holes;
   std::optional<FoundTapeZero> tape_zero;
 };
-[[nodiscard]] FittedDistances fitted_distances(const observation::TapeDistances& distances,
-                                               const estimation::Estimate& estimate,
-                                               std::size_t observation);
+FittedDistances fitted_distances(const observation::TapeDistances& distances,
+                                 const estimation::Estimate& estimate,
+                                 std::size_t observation);
 
 /// A hole as a point of a map.
-[[nodiscard]] MapPoint map_point(const FittedHole& hole);
+MapPoint map_point(const FittedHole& hole);
 /// The input of a map of holes.
-[[nodiscard]] DistancesUsed distances_used(const std::vector<FittedDistance>& distances,
-                                           double tape_sigma_mm);
+DistancesUsed distances_used(const std::vector<FittedDistance>& distances, double tape_sigma_mm);
 /// Sentences: which readings were rejected, and errors common to all of them.
-[[nodiscard]] std::vector<std::string> distance_notes(const MeasuredHoles& set,
-                                                      const FittedDistances& fit);
+std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit);
 
 /// The surface's intervals: some twenty distances can show only a bend of the whole bed.
 inline constexpr int kHolesIntervalsX = 4;
 inline constexpr int kHolesIntervalsY = 3;
 /// The bed, as far as a sheet may reach beyond it.
-[[nodiscard]] interp::Rectangle holes_domain(const model::Bed& bed);
+interp::Rectangle holes_domain(const model::Bed& bed);
 
 }  // namespace chaintrue::grid

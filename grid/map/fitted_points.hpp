@@ -19,17 +19,17 @@ struct FittedPoint : estimation::UnitEstimate {
 };
 
 /// The points that are the estimate's observation of that number.
-[[nodiscard]] std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
-                                                     const estimation::Estimate& estimate,
-                                                     std::size_t observation);
+std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
+                                       const estimation::Estimate& estimate,
+                                       std::size_t observation);
 
 /// Points, and blocks of them, left out; without bad ones.
-[[nodiscard]] MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points);
+MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points);
 
 /// Each point of the map alongside the grid's machine as stated.
-[[nodiscard]] std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
-                                               const MeasuredGrid& grid,
-                                               const observation::PointNoise& noise);
+std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
+                                 const MeasuredGrid& grid,
+                                 const observation::PointNoise& noise);
 
 struct LatticeFit {
   LatticeResidual residual;
@@ -41,7 +41,7 @@ struct LatticeFit {
 /// single nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, the
 /// readings are free of noise (with noise the fit has clearly fewer effective parameters than
 /// readings), and the lines predict left-out points nearly as well.
-[[nodiscard]] std::optional<LatticeFit> fit_lattice(
-    const estimation::Estimate& estimate, const std::vector<FittedPoint>& points);
+std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
+                                      const std::vector<FittedPoint>& points);
 
 }  // namespace chaintrue::grid

@@ -55,15 +55,15 @@ class LargestError {
   /// \throws std::invalid_argument if the number of columns of `spread_mm` changes.
   void add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2Xd& spread_mm);
   /// 0 without places.
-  [[nodiscard]] double bound_mm() const;
+  double bound_mm() const;
 
  private:
   /// Of each draw, with the places that wait.
-  [[nodiscard]] Eigen::RowVectorXd largest_mm2() const;
-  Eigen::MatrixXd draws_;           ///< of z, a column each
-  Eigen::RowVectorXd taken_mm2_;    ///< largest of each draw without those
-  Eigen::VectorXd expected_mm_;     ///< m of places that wait, so that their products are one
-  Eigen::MatrixXd spread_mm_;       ///< S, the same
+  Eigen::RowVectorXd largest_mm2() const;
+  Eigen::MatrixXd draws_;         ///< of z, a column each
+  Eigen::RowVectorXd taken_mm2_;  ///< largest of each draw without those
+  Eigen::VectorXd expected_mm_;   ///< m of places that wait, so that their products are one
+  Eigen::MatrixXd spread_mm_;     ///< S, the same
   Eigen::Index waiting_ = 0;
 };
 

@@ -39,6 +39,6 @@ struct LatticeNodes {
   std::vector<std::array<Eigen::Index, 2>> of_mark;
   Eigen::MatrixXi visits;  ///< marks at each node, (ix, iy)
 };
-[[nodiscard]] LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks);
+LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks);
 
 }  // namespace chaintrue::grid

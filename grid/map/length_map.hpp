@@ -19,8 +19,8 @@
 #include <tl/expected.hpp>
 
 #include "grid/map/measured_area.hpp"
-#include "model/failure.hpp"
 #include "interp/surface.hpp"
+#include "model/failure.hpp"
 #include "model/kinematics.hpp"
 #include "model/mechanism.hpp"
 
@@ -31,7 +31,7 @@ enum class MapReason {
   unreachable,    ///< the machine cannot hold the tool there
   not_converged,  ///< the inverse found no point
 };
-[[nodiscard]] std::string_view sentence_of(MapReason reason);
+std::string_view sentence_of(MapReason reason);
 /// Set for `unreachable`.
 using MapFailure = Failure<MapReason>;
 [[nodiscard]] MapFailure unreachable(const model::MechanismFailure& why);
@@ -49,7 +49,7 @@ class LengthMap {
  public:
   virtual ~LengthMap() = default;
   /// Words for the lengths: left, right.
-  [[nodiscard]] virtual std::span<const std::string_view> length_names() const = 0;
+  virtual std::span<const std::string_view> length_names() const = 0;
   [[nodiscard]] virtual tl::expected<LengthsAnswer, MapFailure> query(
       model::BedPoint point) const = 0;
   /// Only the first two, several times faster: for points of a path between its corners.
@@ -62,11 +62,11 @@ class LengthMap {
   /// Uncertainty of the tool sent to a point which lengths() answers: x and y, mm, one column for
   /// one sigma of each direction of the posterior, the same directions everywhere. No columns if
   /// nothing is uncertain.
-  [[nodiscard]] virtual Eigen::Matrix2Xd tool_spread(model::BedPoint /*point*/) const {
+  virtual Eigen::Matrix2Xd tool_spread(model::BedPoint /*point*/) const {
     return Eigen::Matrix2Xd(2, 0);
   }
   /// Where lengths() may answer.
-  [[nodiscard]] virtual const interp::Rectangle& domain() const = 0;
+  virtual const interp::Rectangle& domain() const = 0;
 
  protected:
   LengthMap() = default;

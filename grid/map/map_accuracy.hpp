@@ -21,10 +21,10 @@ struct HeldOutResidual {
 
 /// The accuracy of one reading: at the tool, both axes together, rms over the good points. Reported
 /// on every page.
-[[nodiscard]] double noise_at_tool_mm(const CompensationMap& map);
+double noise_at_tool_mm(const CompensationMap& map);
 
 /// R at (x, y) against L at (-x, y), over the good points whose mirror image lies on the measured
 /// part.
-[[nodiscard]] MirrorTest test_mirror(const CompensationMap& map);
+MirrorTest test_mirror(const CompensationMap& map);
 
 }  // namespace chaintrue::grid

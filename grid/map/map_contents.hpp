@@ -57,7 +57,7 @@ enum class NoiseSource {
   assumed,  ///< for a direct map if none is stated
 };
 /// As in files.
-[[nodiscard]] std::string_view name(NoiseSource source);
+std::string_view name(NoiseSource source);
 
 /// The noise that the fit assumed.
 struct MapNoise {

@@ -21,10 +21,10 @@ class SplineSurface final : public interp::Surface {
  public:
   SplineSurface(const interp::BsplineBasis& basis, Eigen::VectorXd coefficients)
       : basis_(basis), coefficients_(std::move(coefficients)) {}
-  [[nodiscard]] interp::ValueGradient at(double x, double y) const override {
+  interp::ValueGradient at(double x, double y) const override {
     return basis_.evaluate(coefficients_, x, y);
   }
-  [[nodiscard]] interp::Rectangle domain() const override { return basis_.rectangle(); }
+  interp::Rectangle domain() const override { return basis_.rectangle(); }
 
  private:
   interp::BsplineBasis basis_;
@@ -135,8 +135,7 @@ MapField::MapField(const MapContents& contents) {
     const auto left = spline(direct->lengths_mm.left);
     surfaces_ = {left, spline(direct->lengths_mm.right)};
     const Eigen::MatrixXd no_doubt = Eigen::MatrixXd::Zero(std::ssize(x), std::ssize(y));
-    spread_at_ =
-        NodeSpread{*left, no_doubt, direct->interpolation_sigma_mm, 0.0, contents.noise};
+    spread_at_ = NodeSpread{*left, no_doubt, direct->interpolation_sigma_mm, 0.0, contents.noise};
   } else {
     const auto& surface = std::get<ModelSurface>(contents.surface);
     sheet_ = surface.sheet;
@@ -159,8 +158,8 @@ MapField::MapField(const MapContents& contents) {
   }
   const OutsideRule& rule = contents.outside;
   if (rule.way == Outside::continued) return;
-  beyond_.emplace(Beyond{
-      hull_of(contents.hull), {policy_of(rule.way), contents.edge_mm, rule.fade_width_mm}});
+  beyond_.emplace(
+      Beyond{hull_of(contents.hull), {policy_of(rule.way), contents.edge_mm, rule.fade_width_mm}});
 }
 
 tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) const {
@@ -181,7 +180,8 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
     here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
     slope = slope * (1.0 + scale_[side]) + Eigen::RowVector2d(own.dx, own.dy);
   }
-  if (asked == Asked::spread) answer.spread_mm = spread_at_(mark, here, reading ? &*reading : nullptr);
+  if (asked == Asked::spread)
+    answer.spread_mm = spread_at_(mark, here, reading ? &*reading : nullptr);
   if (!beyond_) return answer;
   const Eigen::Vector2d change = add_change(mark, here);
   if (asked == Asked::lengths) return answer;
@@ -196,8 +196,8 @@ Eigen::Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
   for (const Side side : model::kSides) {
     const Eigen::Index row = row_of(side);
     const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
-    const interp::ValueGradient reply = interp::evaluate(
-        *surfaces_[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
+    const interp::ValueGradient reply =
+        interp::evaluate(*surfaces_[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
     change[row] = reply.value - own.value;
     here.lengths[side] += change[row];
     here.mark_jacobian.row(row) += Eigen::RowVector2d(reply.dx - own.dx, reply.dy - own.dy);

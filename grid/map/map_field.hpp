@@ -22,9 +22,9 @@ namespace chaintrue::grid {
 
 /// The slopes at the edges for `clamped` ends: those of the parabola through the outermost three
 /// nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
-[[nodiscard]] interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
-                                                 const std::vector<double>& y_nodes_mm,
-                                                 const Eigen::MatrixXd& values);
+interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
+                                   const std::vector<double>& y_nodes_mm,
+                                   const Eigen::MatrixXd& values);
 
 /// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 ///
@@ -42,7 +42,7 @@ class MapField {
                                                        Asked asked = Asked::lengths) const;
 
   /// The marks' sheet on the bed.
-  [[nodiscard]] const model::SheetPlacement& sheet() const { return sheet_; }
+  const model::SheetPlacement& sheet() const { return sheet_; }
 
   /// The uncertainty of an answer; what the machine reads at the mark is null for a map without one.
   using SpreadAt = std::function<Eigen::Matrix2Xd(

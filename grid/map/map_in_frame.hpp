@@ -20,7 +20,7 @@ class MapInFrame final : public LengthMap {
   explicit MapInFrame(const CompensationMap& map, MapFrame frame = MapFrame::marks)
       : map_(map), frame_(frame) {}
 
-  [[nodiscard]] std::span<const std::string_view> length_names() const override {
+  std::span<const std::string_view> length_names() const override {
     static constexpr std::array<std::string_view, 2> kNames = {"left", "right"};
     return kNames;
   }
@@ -29,10 +29,8 @@ class MapInFrame final : public LengthMap {
       model::BedPoint point) const override {
     const auto found = map_.query(mark_of(point));
     if (!found) return tl::unexpected(found.error());
-    return LengthsAnswer{vector_of(found->lengths),
-                         found->sigma,
-                         found->tool_sigma_mm,
-                         found->status};
+    return LengthsAnswer{
+        vector_of(found->lengths), found->sigma, found->tool_sigma_mm, found->status};
   }
 
   [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
@@ -53,14 +51,14 @@ class MapInFrame final : public LengthMap {
     return map_.status(mark_of(point));
   }
   /// In directions of the marks' axes.
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override {
+  Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override {
     return map_.tool_spread(mark_of(point));
   }
 
-  [[nodiscard]] const interp::Rectangle& domain() const override { return map_.contents().domain; }
+  const interp::Rectangle& domain() const override { return map_.contents().domain; }
 
  private:
-  [[nodiscard]] model::MarkPoint mark_of(model::BedPoint point) const {
+  model::MarkPoint mark_of(model::BedPoint point) const {
     return frame_ == MapFrame::bed ? map_.to_mark(point) : model::identity_placement(point);
   }
 

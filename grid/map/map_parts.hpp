@@ -12,9 +12,9 @@ namespace chaintrue::grid {
 
 /// F of C = F F', lower triangular; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it
 /// be factorised.
-[[nodiscard]] Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance);
+Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance);
 /// The estimate's machine, its surface and their covariance.
-[[nodiscard]] ModelSurface model_surface(const estimation::Estimate& estimate);
+ModelSurface model_surface(const estimation::Estimate& estimate);
 /// `stated` is the machine that the estimate started from, `sheet` the prior of the first sheet:
 /// without one its placement is exact.
 [[nodiscard]] std::vector<SettingResult> setting_results(
@@ -22,8 +22,7 @@ namespace chaintrue::grid {
     const estimation::Estimate& estimate,
     const std::optional<SheetUncertainty>& sheet);
 /// A sentence for each setting that is off.
-void note_settings_off(const std::vector<SettingResult>& settings,
-                       std::vector<std::string>& notes);
+void note_settings_off(const std::vector<SettingResult>& settings, std::vector<std::string>& notes);
 /// The map with its statements of its error, computed from the map.
 [[nodiscard]] CompensationMap with_expected_error(MapContents contents);
 

@@ -20,7 +20,7 @@ enum class MapStatus {
   outside,       ///< off the bed, or where the chains cannot hold the sled: no lengths
 };
 
-[[nodiscard]] constexpr std::string_view name(MapStatus status) {
+constexpr std::string_view name(MapStatus status) {
   constexpr std::string_view kNames[] = {"inside", "edge", "extrapolated", "outside"};
   return kNames[static_cast<std::size_t>(status)];
 }
@@ -48,14 +48,14 @@ class MeasuredArea {
     return beyond_mm <= edge_mm_ ? MapStatus::edge : MapStatus::extrapolated;
   }
   /// Corners, counter-clockwise.
-  [[nodiscard]] std::vector<model::MarkPoint> hull() const {
+  std::vector<model::MarkPoint> hull() const {
     std::vector<model::MarkPoint> corners;
     for (const interp::PlanePoint& corner : hull_.corners())
       corners.push_back({corner.x, corner.y});
     return corners;
   }
-  [[nodiscard]] double edge_mm() const { return edge_mm_; }
-  [[nodiscard]] const interp::Rectangle& domain() const { return domain_; }
+  double edge_mm() const { return edge_mm_; }
+  const interp::Rectangle& domain() const { return domain_; }
 
  private:
   interp::ConvexHull hull_;

@@ -43,17 +43,17 @@ struct SheetInFrame {
   /// d; null: none.
   std::shared_ptr<const ToolDisplacement> displacement = nullptr;
 
-  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const;
-  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const;
+  model::ToolPosition in_frame(model::BedPoint sheet) const;
+  model::BedPoint on_sheet(model::ToolPosition position) const;
   /// On each axis, besides the fit's covariance.
-  [[nodiscard]] double own_variance_mm2(model::BedPoint sheet) const {
+  double own_variance_mm2(model::BedPoint sheet) const {
     return displacement ? displacement->own_variance_mm2(laid.to_mark(sheet)) : 0.0;
   }
 };
 
 /// The shift and turn that lay `from` on `to`, by least squares.
-[[nodiscard]] model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
-                                            const std::vector<model::BedPoint>& to);
+model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
+                              const std::vector<model::BedPoint>& to);
 
 struct PlacedMechanism {
   std::shared_ptr<const model::Mechanism> mechanism;
@@ -66,9 +66,9 @@ struct MechanismSpread {
   std::vector<PlacedMechanism> others;
 };
 using PlacedAt = std::function<PlacedMechanism(const Eigen::VectorXd& values)>;
-[[nodiscard]] MechanismSpread spread_about(const Eigen::VectorXd& values,
-                                           const Eigen::MatrixXd& covariance,
-                                           const PlacedAt& placed);
+MechanismSpread spread_about(const Eigen::VectorXd& values,
+                             const Eigen::MatrixXd& covariance,
+                             const PlacedAt& placed);
 
 class MechanismMap : public LengthMap {
  public:
@@ -76,10 +76,10 @@ class MechanismMap : public LengthMap {
       : fitted_(std::move(fitted)), spread_(std::move(spread)), area_(std::move(area)) {}
   /// In the mechanism's own frame, over its extent. \throws std::invalid_argument for fewer than
   /// three points.
-  [[nodiscard]] static MechanismMap of(const FittedMechanism& fitted,
-                                       const std::vector<model::BedPoint>& measured);
+  static MechanismMap of(const FittedMechanism& fitted,
+                         const std::vector<model::BedPoint>& measured);
 
-  [[nodiscard]] std::span<const std::string_view> length_names() const override {
+  std::span<const std::string_view> length_names() const override {
     return fitted_.mechanism->lengths();
   }
 
@@ -95,14 +95,14 @@ class MechanismMap : public LengthMap {
     return area_.status(model::identity_placement(point));
   }
 
-  [[nodiscard]] const interp::Rectangle& domain() const override { return area_.domain(); }
+  const interp::Rectangle& domain() const override { return area_.domain(); }
   /// One sigma of the first two lengths; a point that lengths() answers.
-  [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const;
+  model::ChainLengths sigma(model::BedPoint point) const;
 
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
+  Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
 
   /// Corners of what was measured.
-  [[nodiscard]] std::vector<model::BedPoint> hull() const;
+  std::vector<model::BedPoint> hull() const;
 
  private:
   static tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(

@@ -18,9 +18,9 @@
 namespace chaintrue::grid {
 
 /// Of the marks of points that give a command, and for the lengths of those that give lengths.
-[[nodiscard]] observation::PointNoise rounding_noise(const MeasuredGrid& grid);
+observation::PointNoise rounding_noise(const MeasuredGrid& grid);
 /// The stated noise, but not below this floor.
-[[nodiscard]] StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid);
+StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid);
 
 struct RepeatNoise {
   double factor = 1.0;  ///< the noise, as a multiple of the one that the fit assumed
@@ -30,10 +30,9 @@ struct RepeatNoise {
 /// From the scatter of a fit's residuals within each group of repeats, not below what rounding
 /// leaves; outliers do not count. Empty with fewer than four degrees of freedom (two repeats),
 /// which is too few, and if repeats with all digits agree exactly.
-[[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(
-    const std::vector<FittedPoint>& points,
-    const observation::PointNoise& noise,
-    const observation::PointNoise& rounding);
+std::optional<RepeatNoise> noise_from_repeats(const std::vector<FittedPoint>& points,
+                                              const observation::PointNoise& noise,
+                                              const observation::PointNoise& rounding);
 
 /// The scatter of whitened residuals within groups of repeats, gathered point by point.
 class RepeatScatter {
@@ -58,7 +57,7 @@ class RepeatScatter {
     group_.clear();
   }
 
-  [[nodiscard]] std::optional<RepeatNoise> noise() const {
+  std::optional<RepeatNoise> noise() const {
     constexpr double kFewestDof = 4.0;
     // For the noise that residuals are whitened by: repeats that agree so well are copies.
     constexpr double kNothing = 1e-6;

@@ -121,7 +121,7 @@ class PointsPart final : public FitPart {
     observe();
   }
 
-  [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
+  std::string few_good(std::size_t bad, std::size_t all) const override {
     return fmt::format(
         "{} of {} points contradict the others or the machine file; check the machine's measures, "
         "the order of the columns and the units",
@@ -171,8 +171,7 @@ class PointsPart final : public FitPart {
         chain_length_readings(points_, noise_, noise.degrees_of_freedom, grid_.sheet));
   }
 
-  [[nodiscard]] std::vector<FittedPoint> points_of(const Fitting& fitting,
-                                                   std::size_t file = 0) const {
+  std::vector<FittedPoint> points_of(const Fitting& fitting, std::size_t file = 0) const {
     return fitted_points(points_, fitting.estimate, file);
   }
 

@@ -34,8 +34,8 @@ struct ReadingCovariance {
   Eigen::SparseMatrix<double> shared;
   Eigen::MatrixXd of_map;
 
-  [[nodiscard]] Eigen::Index rows() const { return of_map.rows(); }
-  [[nodiscard]] Eigen::VectorXd diagonal() const {
+  Eigen::Index rows() const { return of_map.rows(); }
+  Eigen::VectorXd diagonal() const {
     Eigen::VectorXd sum = of_map.rowwise().squaredNorm();
     for (Eigen::Index column = 0; column < shared.outerSize(); ++column) {
       for (Eigen::SparseMatrix<double>::InnerIterator at(shared, column); at; ++at)
@@ -50,7 +50,7 @@ struct ReadingCovariance {
   }
 
   /// n x n.
-  [[nodiscard]] Eigen::MatrixXd dense() const {
+  Eigen::MatrixXd dense() const {
     Eigen::MatrixXd sum = linear::outer(of_map);
     sum += Eigen::MatrixXd(shared * shared.transpose());
     Eigen::Index row = 0;
@@ -63,7 +63,7 @@ struct ReadingCovariance {
 };
 
 /// F F' with no more columns than rows.
-[[nodiscard]] inline Eigen::MatrixXd narrowed(const Eigen::MatrixXd& f) {
+inline Eigen::MatrixXd narrowed(const Eigen::MatrixXd& f) {
   if (f.cols() <= f.rows()) return f;
   return linear::covariance_root(linear::outer(f));
 }
@@ -100,7 +100,7 @@ class FactoredCovariance {
   }
 
   /// Y of (2), for each column of y (n x any).
-  [[nodiscard]] Eigen::MatrixXd conditioned(const Eigen::MatrixXd& y) const {
+  Eigen::MatrixXd conditioned(const Eigen::MatrixXd& y) const {
     const Eigen::MatrixXd white = white_ * y;
     const Eigen::MatrixXd z = factor_.solve(by_columns(white));
     Eigen::MatrixXd result(white.rows() + z.rows(), y.cols());
@@ -111,14 +111,14 @@ class FactoredCovariance {
   }
 
   /// log |K|^1/2
-  [[nodiscard]] double log_root_det() const { return log_root_det_; }
+  double log_root_det() const { return log_root_det_; }
   /// K^-1 y from one Y.
-  [[nodiscard]] Eigen::VectorXd pulled(const Eigen::VectorXd& conditioned) const {
+  Eigen::VectorXd pulled(const Eigen::VectorXd& conditioned) const {
     return white_.transpose() * conditioned.head(white_.rows());
   }
 
   /// The diagonal blocks of K^-1, by units.
-  [[nodiscard]] std::vector<Eigen::MatrixXd> precision_of_units() const {
+  std::vector<Eigen::MatrixXd> precision_of_units() const {
     // Enough rows for a fast solve, few enough for little memory.
     constexpr std::size_t kUnits = 256;
     std::vector<Eigen::MatrixXd> result;
@@ -162,8 +162,8 @@ class FactoredCovariance {
     return factor.half_solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
   }
 
-  [[nodiscard]] Eigen::Index columns() const { return shared_.cols() + of_map_.cols(); }
-  [[nodiscard]] Eigen::MatrixXd gram() const {
+  Eigen::Index columns() const { return shared_.cols() + of_map_.cols(); }
+  Eigen::MatrixXd gram() const {
     const Eigen::Index k = shared_.cols();
     const Eigen::Index m = of_map_.cols();
     Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(k + m, k + m);
@@ -175,7 +175,7 @@ class FactoredCovariance {
     return gram;
   }
 
-  [[nodiscard]] Eigen::MatrixXd by_columns(const Eigen::MatrixXd& white) const {
+  Eigen::MatrixXd by_columns(const Eigen::MatrixXd& white) const {
     Eigen::MatrixXd result(columns(), white.cols());
     result.topRows(shared_.cols()) = shared_.transpose() * white;
     result.bottomRows(of_map_.cols()) = linear::product(linear::transposed(of_map_), white);

@@ -39,11 +39,11 @@ struct StraightSettings {
 };
 
 enum class StraightReason {
-  no_machine,     ///< a map of splines through the lengths
-  no_origin,      ///< the map has no answer at 0, 0
+  no_machine,  ///< a map of splines through the lengths
+  no_origin,   ///< the map has no answer at 0, 0
   not_converged,
 };
-[[nodiscard]] std::string_view sentence_of(StraightReason reason);
+std::string_view sentence_of(StraightReason reason);
 using StraightFailure = Failure<StraightReason>;
 
 [[nodiscard]] tl::expected<StraightSettings, StraightFailure> straight_settings(

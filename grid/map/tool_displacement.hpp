@@ -37,9 +37,9 @@ struct DisplacementParts {
 };
 
 /// (1) between all of two lists.
-[[nodiscard]] Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                                                  const std::vector<model::MarkPoint>& to,
-                                                  double reach_mm);
+Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
+                                    const std::vector<model::MarkPoint>& to,
+                                    double reach_mm);
 
 /// Immutable, thread safe.
 class ToolDisplacement {
@@ -62,17 +62,17 @@ class ToolDisplacement {
     weights_mm_ = inverse_ * at;
   }
 
-  [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const {
+  Eigen::Vector2d at(model::MarkPoint mark) const {
     return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
   }
 
   /// For each axis, in addition to the uncertainty at the places.
-  [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const {
+  double own_variance_mm2(model::MarkPoint mark) const {
     const Eigen::RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
     return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
   }
 
-  [[nodiscard]] const DisplacementParts& parts() const { return parts_; }
+  const DisplacementParts& parts() const { return parts_; }
 
  private:
   DisplacementParts parts_;

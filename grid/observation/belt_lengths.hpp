@@ -58,10 +58,10 @@ struct LengthsAtPlace {
   /// they do not depend on a nearby q. Empty: q of (1).
   std::optional<model::ToolPosition> about = std::nullopt;
 
-  [[nodiscard]] bool counts(Eigen::Index length) const {
+  bool counts(Eigen::Index length) const {
     return counting.empty() || counting.at(as_size(length));
   }
-  [[nodiscard]] Eigen::Index counted() const {
+  Eigen::Index counted() const {
     Eigen::Index count = 0;
     for (Eigen::Index i = 0; i < lengths_mm.size(); ++i) count += counts(i) ? 1 : 0;
     return count;
@@ -101,24 +101,24 @@ class BeltLengthReadings final : public Observation {
     std::vector<std::size_t> distances;
   };
 
-  [[nodiscard]] const Kind& kind() const override { return belt_lengths; }
+  const Kind& kind() const override { return belt_lengths; }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
-  [[nodiscard]] std::string name_of(std::size_t unit) const override;
-  [[nodiscard]] std::shared_ptr<const Observation> about_others(
+  std::string name_of(std::size_t unit) const override;
+  std::shared_ptr<const Observation> about_others(
       const std::vector<UnitReading>& rejected) const override;
 
   /// Every place with two counted lengths, and every distance that ends at no place, once.
-  [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
-  [[nodiscard]] const std::vector<TapedDistance>& distances() const { return distances_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+  const std::vector<TapedDistance>& distances() const { return distances_; }
   [[nodiscard]] tl::expected<BlockLine, Unreachable> block_line(const View& view,
                                                                 const Block& block,
                                                                 bool with_parameters) const;
 
   /// In the order of places().
-  [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }
+  const std::vector<LengthsAtPlace>& readings() const { return readings_; }
   /// The unit's place; for a block of several its first.
-  [[nodiscard]] std::size_t place_of(std::size_t unit) const { return place_of_unit_.at(unit); }
+  std::size_t place_of(std::size_t unit) const { return place_of_unit_.at(unit); }
 
  private:
   /// Rows about a view: f, A and C of one block's units together.
@@ -133,7 +133,7 @@ class BeltLengthReadings final : public Observation {
                                                              bool with_parameters) const;
 
   /// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
-  [[nodiscard]] BlockRows rows_of_four(const BlockLine& line) const;
+  BlockRows rows_of_four(const BlockLine& line) const;
 
   void join_places();
   void number_rows(const Block& block, std::vector<double>& measured);

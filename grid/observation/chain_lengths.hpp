@@ -26,8 +26,7 @@ struct PointNoise {
 };
 
 /// C_i of (1).
-[[nodiscard]] Eigen::Matrix2d covariance_of(const PointNoise& noise,
-                                            const Eigen::Matrix2d& by_mark);
+Eigen::Matrix2d covariance_of(const PointNoise& noise, const Eigen::Matrix2d& by_mark);
 
 class ChainLengthReadings final : public Observation {
  public:
@@ -46,17 +45,17 @@ class ChainLengthReadings final : public Observation {
     take(std::move(places));
   }
   /// As above, in the order of `places`.
-  [[nodiscard]] static ChainLengthReadings in_given_order(std::vector<Place> places,
-                                                          bool ordered,
-                                                          PointNoise noise,
-                                                          double noise_dof,
-                                                          std::optional<SheetPrior> sheet) {
+  static ChainLengthReadings in_given_order(std::vector<Place> places,
+                                            bool ordered,
+                                            PointNoise noise,
+                                            double noise_dof,
+                                            std::optional<SheetPrior> sheet) {
     ChainLengthReadings readings({}, ordered, noise, noise_dof, sheet);
     readings.take(std::move(places));
     return readings;
   }
 
-  [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
+  const Kind& kind() const override { return chain_lengths; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override {
     const model::MarkFrame frame(view.chains().machine());
@@ -112,13 +111,13 @@ class ChainLengthReadings final : public Observation {
     return line;
   }
 
-  [[nodiscard]] std::string name_of(std::size_t unit) const override {
+  std::string name_of(std::size_t unit) const override {
     const Place& place = places_.at(unit);
     return fmt::format(
         "point {} at ({:.1f}, {:.1f}) mm", place.name, place.mark.x_mm, place.mark.y_mm);
   }
 
-  [[nodiscard]] const PointNoise& noise() const { return noise_; }
+  const PointNoise& noise() const { return noise_; }
 
  private:
   void take(std::vector<Place> places) {

@@ -57,10 +57,10 @@ struct MeasureRow {
   double value_mm = 0.0;
   Eigen::RowVector2d by_from, by_to, by_middle;
 };
-[[nodiscard]] MeasureRow measure_row(DrawnMeasure::Kind kind,
-                                     const Eigen::Vector2d& from,
-                                     const Eigen::Vector2d& to,
-                                     const Eigen::Vector2d& middle);
+MeasureRow measure_row(DrawnMeasure::Kind kind,
+                       const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& to,
+                       const Eigen::Vector2d& middle);
 
 class DrawnMeasures final : public Observation {
  public:
@@ -93,7 +93,7 @@ class DrawnMeasures final : public Observation {
     }
   }
 
-  [[nodiscard]] const Kind& kind() const override { return drawn_measures; }
+  const Kind& kind() const override { return drawn_measures; }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
     const auto at = located(view, columns.parameters);
@@ -116,14 +116,14 @@ class DrawnMeasures final : public Observation {
     return line;
   }
 
-  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
-                                       model::effects::EffectSide) const override {
+  std::string untestable(const model::effects::Effect& effect,
+                         model::effects::EffectSide) const override {
     if (effect.needs != model::effects::DataNeed::order) return "";
     return fmt::format("a drawing does not show the order of its lines, which {} needs", effect.id);
   }
 
   /// "the length A-B", "the bow of A-B".
-  [[nodiscard]] std::string name_of(std::size_t unit) const override {
+  std::string name_of(std::size_t unit) const override {
     const DrawnMeasure& m = measures_.at(unit);
     return fmt::format("the {} {}-{}",
                        m.kind == DrawnMeasure::Kind::length ? "length" : "bow of",
@@ -131,9 +131,9 @@ class DrawnMeasures final : public Observation {
                        points_[m.to].name);
   }
 
-  [[nodiscard]] const std::vector<DrawnPoint>& points() const { return points_; }
+  const std::vector<DrawnPoint>& points() const { return points_; }
   /// In the order of the rows.
-  [[nodiscard]] const std::vector<DrawnMeasure>& measures() const { return measures_; }
+  const std::vector<DrawnMeasure>& measures() const { return measures_; }
 
  private:
   /// A point with its derivative by the parameters, 2 x p or 2 x 0.

@@ -30,7 +30,7 @@ struct LengthPoint {
     const MeasuredGrid& grid);
 
 /// Points as an observation, in their order.
-[[nodiscard]] observation::ChainLengthReadings chain_length_readings(
+observation::ChainLengthReadings chain_length_readings(
     const std::vector<LengthPoint>& points,
     observation::PointNoise noise,
     double noise_dof,
@@ -40,8 +40,7 @@ struct LengthPoint {
 inline constexpr double kRepeatDistanceMm = 25.0;
 
 /// Groups of two or more points at one place, as positions in `points`.
-[[nodiscard]] std::vector<std::vector<std::size_t>> repeat_groups(
-    const std::vector<LengthPoint>& points);
+std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points);
 
 /// Readings that replace a part of the stated machine: sled_mass_kg and chain_mass_kg_per_m replace
 /// it, ring_radius_mm is combined with the stated one by their sigmas, link_pitch_mm becomes a
@@ -50,6 +49,6 @@ inline constexpr double kRepeatDistanceMm = 25.0;
                                            const std::vector<ExtraReading>& readings);
 
 /// The readings that the settings predict: motor_spacing_mm and beam_rise_mm.
-[[nodiscard]] std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings);
+std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings);
 
 }  // namespace chaintrue::grid

@@ -25,10 +25,10 @@ struct MeasuredFile {
   std::string name;  ///< in messages
   std::variant<MeasuredGrid, MeasuredHoles> measured;
 
-  [[nodiscard]] const MeasuredGrid* grid() const { return std::get_if<MeasuredGrid>(&measured); }
-  [[nodiscard]] const MeasuredHoles* holes() const { return std::get_if<MeasuredHoles>(&measured); }
+  const MeasuredGrid* grid() const { return std::get_if<MeasuredGrid>(&measured); }
+  const MeasuredHoles* holes() const { return std::get_if<MeasuredHoles>(&measured); }
   /// The machine that the file states, if any.
-  [[nodiscard]] const std::optional<model::Machine>& machine() const {
+  const std::optional<model::Machine>& machine() const {
     return std::visit(
         [](const auto& own) -> const auto& { return own.machine; }, measured);
   }
@@ -54,12 +54,12 @@ class Measured {
 
   void add(MeasuredFile file) { files_.push_back(std::move(file)); }
 
-  [[nodiscard]] const std::vector<MeasuredFile>& files() const { return files_; }
+  const std::vector<MeasuredFile>& files() const { return files_; }
   /// Those of one kind, in their order.
-  [[nodiscard]] std::vector<const MeasuredGrid*> grids() const { return of_kind<MeasuredGrid>(); }
-  [[nodiscard]] std::vector<const MeasuredHoles*> holes() const { return of_kind<MeasuredHoles>(); }
+  std::vector<const MeasuredGrid*> grids() const { return of_kind<MeasuredGrid>(); }
+  std::vector<const MeasuredHoles*> holes() const { return of_kind<MeasuredHoles>(); }
   /// Null if there is none.
-  [[nodiscard]] MeasuredGrid* first_grid() {
+  MeasuredGrid* first_grid() {
     for (MeasuredFile& file : files_) {
       if (auto* own = std::get_if<MeasuredGrid>(&file.measured)) return own;
     }
@@ -67,19 +67,19 @@ class Measured {
   }
 
   /// The name in the first file; empty if there is none.
-  [[nodiscard]] std::string name() const {
+  std::string name() const {
     if (files_.empty()) return {};
     return std::visit([](const auto& own) { return own.name; }, files_.front().measured);
   }
 
   /// The machine that the first file states.
-  [[nodiscard]] std::optional<model::Machine> machine() const {
+  std::optional<model::Machine> machine() const {
     return files_.empty() ? std::nullopt : files_.front().machine();
   }
 
  private:
   template <class Kind>
-  [[nodiscard]] std::vector<const Kind*> of_kind() const {
+  std::vector<const Kind*> of_kind() const {
     std::vector<const Kind*> result;
     for (const MeasuredFile& file : files_) {
       if (const auto* own = std::get_if<Kind>(&file.measured)) result.push_back(own);
@@ -92,11 +92,10 @@ class Measured {
 
 /// Whether two files hold the same readings at the same marks to the last digit: a copy, since two
 /// sessions always differ by tenths of a millimetre.
-[[nodiscard]] bool same_readings(const MeasuredFile& one, const MeasuredFile& other);
+bool same_readings(const MeasuredFile& one, const MeasuredFile& other);
 
 /// The first setting that differs between two machines, in terms of the second file; empty if all
 /// agree.
-[[nodiscard]] std::string difference_of_settings(const model::Machine& first,
-                                                 const model::Machine& other);
+std::string difference_of_settings(const model::Machine& first, const model::Machine& other);
 
 }  // namespace chaintrue::grid

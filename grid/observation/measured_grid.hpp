@@ -46,7 +46,7 @@ enum class ReadingOf {
   tape_error,     ///< mm per m
 };
 /// As in files, with its unit: "beam_rise_mm".
-[[nodiscard]] std::string_view name(ReadingOf what);
+std::string_view name(ReadingOf what);
 
 struct ExtraReading {
   ReadingOf what = ReadingOf::motor_spacing;

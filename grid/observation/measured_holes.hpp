@@ -29,7 +29,7 @@ enum class SheetEdge { left, right, top, bottom };
 inline constexpr std::array kSheetEdges = {
     SheetEdge::left, SheetEdge::right, SheetEdge::top, SheetEdge::bottom};
 /// The word in files: left, right, top, bottom.
-[[nodiscard]] std::string_view name(SheetEdge edge);
+std::string_view name(SheetEdge edge);
 
 struct Hole {
   std::string name;
@@ -63,7 +63,7 @@ struct Tape {
 /// edge of two holes it is a bit's width, 3.2 or 6.35 mm.
 inline constexpr double kAssumedTapeZeroMm = 3.0;
 /// A fit always estimates one for all distances of a file. Zero if it is stated as exact.
-[[nodiscard]] inline double tape_zero_sigma_mm(const Tape& tape) {
+inline double tape_zero_sigma_mm(const Tape& tape) {
   return tape.tape_zero_offset_sigma_mm.value_or(kAssumedTapeZeroMm);
 }
 
@@ -91,25 +91,25 @@ struct MeasuredHoles {
 };
 
 /// One sigma of a reading.
-[[nodiscard]] double sigma_of(const MeasuredHoles& set, const HoleDistance& distance);
+double sigma_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// The distance without the tape's zero offset.
-[[nodiscard]] double length_of(const MeasuredHoles& set, const HoleDistance& distance);
+double length_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// "A-B", "A to the top edge".
-[[nodiscard]] std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
+std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// A place is 0.5 size + sign times its coordinate away from an edge.
 struct EdgeLine {
   double size_mm;     ///< of the sheet, square to the edge
   Eigen::Index axis;  ///< 0: x, of a left or right edge; 1: y
   double sign;
 };
-[[nodiscard]] EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge);
+EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge);
 /// The commanded distance, on a sheet aligned with the bed.
-[[nodiscard]] double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance);
+double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance);
 
 /// The amount by which nearly all distances are longer than commanded, equally for short and long
 /// ones; empty if not above 8 mm. It suggests a zero offset that was not stated (or, if negative,
 /// stated twice).
-[[nodiscard]] std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set);
+std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set);
 
 /// Distances alone determine the motors' spacing, both chain zeros and both chains' scales; with
 /// fewer distances the result depends on the stated values.

@@ -80,11 +80,9 @@ struct SheetPrior {
   bool knows_y = true;
   bool knows_rotation = true;
   /// For x, y and the rotation.
-  [[nodiscard]] Eigen::Vector3d sigma() const {
-    return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad};
-  }
+  Eigen::Vector3d sigma() const { return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad}; }
   /// True for a setting that is not the sheet's.
-  [[nodiscard]] bool knows(model::Setting setting) const {
+  bool knows(model::Setting setting) const {
     if (setting == model::Setting::sheet_x_mm) return knows_x;
     if (setting == model::Setting::sheet_y_mm) return knows_y;
     return setting != model::Setting::sheet_rotation_rad || knows_rotation;
@@ -102,9 +100,9 @@ class LengthCorrection {
     Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
-  [[nodiscard]] virtual At at(model::MarkPoint mark,
-                              model::ChainLengths lengths,
-                              const Eigen::Matrix2d& by_mark) const = 0;
+  virtual At at(model::MarkPoint mark,
+                model::ChainLengths lengths,
+                const Eigen::Matrix2d& by_mark) const = 0;
 };
 
 /// The point of linearisation: a mechanism, the placement of the marks' sheet, and a correction of
@@ -126,7 +124,7 @@ struct View {
 
   /// The two-chain model, for kinds that read only chains. \throws std::logic_error for another
   /// mechanism.
-  [[nodiscard]] const model::ReadingModel& chains() const {
+  const model::ReadingModel& chains() const {
     const auto* own = dynamic_cast<const model::ReadingModel*>(mechanism.get());
     if (own == nullptr) {
       throw std::logic_error("readings of two chains for a mechanism with " +
@@ -196,31 +194,31 @@ struct UnitReading {
 class Observation {
  public:
   virtual ~Observation() = default;
-  [[nodiscard]] virtual const Kind& kind() const = 0;
+  virtual const Kind& kind() const = 0;
 
-  [[nodiscard]] Eigen::Index rows() const { return measured_.size(); }
-  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
+  Eigen::Index rows() const { return measured_.size(); }
+  const std::vector<Place>& places() const { return places_; }
   /// In the order of their rows, which they cover without a gap.
-  [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
+  const std::vector<Unit>& units() const { return units_; }
   /// y: the readings after exact corrections.
-  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
+  const Eigen::VectorXd& measured() const { return measured_; }
   /// One sigma of each nuisance.
-  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const { return nuisance_sigma_; }
+  const Eigen::VectorXd& nuisance_sigma() const { return nuisance_sigma_; }
   /// Number of nuisances, the last ones, that belong to the noise: the noise factor scales them
   /// too. Those before them have their stated sigmas.
-  [[nodiscard]] virtual Eigen::Index nuisances_of_noise() const { return 0; }
+  virtual Eigen::Index nuisances_of_noise() const { return 0; }
   /// Absent: the marks' frame is the bed's.
-  [[nodiscard]] const std::optional<SheetPrior>& sheet() const { return sheet_; }
+  const std::optional<SheetPrior>& sheet() const { return sheet_; }
   /// The visits' order is known.
-  [[nodiscard]] bool ordered() const { return ordered_; }
+  bool ordered() const { return ordered_; }
   /// Degrees of freedom of the noise.
-  [[nodiscard]] double noise_dof() const { return noise_dof_; }
+  double noise_dof() const { return noise_dof_; }
   /// Whether units may be outliers; false for careful single measurements with a stated sigma.
-  [[nodiscard]] bool may_be_outlier() const { return may_be_outlier_; }
+  bool may_be_outlier() const { return may_be_outlier_; }
 
   /// The same rows, linearised without these readings: a position is estimated from the others
   /// alone. Null for a kind whose units are outliers as a whole.
-  [[nodiscard]] virtual std::shared_ptr<const Observation> about_others(
+  virtual std::shared_ptr<const Observation> about_others(
       const std::vector<UnitReading>& /*rejected*/) const {
     return nullptr;
   }
@@ -236,14 +234,14 @@ class Observation {
 
   /// Why this kind cannot show the effect; empty if it can. By default it shows all but those that
   /// need an unknown order.
-  [[nodiscard]] virtual std::string untestable(const model::effects::Effect& effect,
-                                               model::effects::EffectSide /*side*/) const {
+  virtual std::string untestable(const model::effects::Effect& effect,
+                                 model::effects::EffectSide /*side*/) const {
     const bool needs_order = effect.needs == model::effects::DataNeed::order;
     return needs_order && !ordered_ ? "the order in which the points were visited is not known"
                                     : "";
   }
   /// Words for a unit: "point 3 at (-900, 400) mm", "the distance A-B".
-  [[nodiscard]] virtual std::string name_of(std::size_t unit) const = 0;
+  virtual std::string name_of(std::size_t unit) const = 0;
 
  protected:
   Observation(bool ordered, double noise_dof, bool may_be_outlier = true)
@@ -254,7 +252,7 @@ class Observation {
   Observation& operator=(Observation&&) = default;
 
   /// Zeros for so many settings, without places and units.
-  [[nodiscard]] Linearisation blank(Eigen::Index settings) const {
+  Linearisation blank(Eigen::Index settings) const {
     return {Eigen::VectorXd::Zero(rows()),
             Eigen::MatrixXd::Zero(rows(), settings),
             Eigen::MatrixXd::Zero(rows(), nuisance_sigma_.size()),
@@ -275,26 +273,26 @@ class Observation {
 using Observations = std::vector<std::shared_ptr<const Observation>>;
 
 /// The mechanism's parameters, and the sheet's where the observation has one.
-[[nodiscard]] Columns columns_of(const Observation& observation);
+Columns columns_of(const Observation& observation);
 /// The same columns for two chains, by their settings' names.
-[[nodiscard]] std::vector<model::Setting> settings_in(const Columns& columns);
+std::vector<model::Setting> settings_in(const Columns& columns);
 
 /// Every kind, in the order of kinds.def.
-[[nodiscard]] const std::vector<const Kind*>& kinds();
+const std::vector<const Kind*>& kinds();
 
 #define CHAINTRUE_OBSERVATION(id) extern const Kind id;
 #include "grid/observation/kinds.def"
 #undef CHAINTRUE_OBSERVATION
 
 /// C of all units and, separately, B diag(sigma^2) B'.
-[[nodiscard]] Eigen::MatrixXd marginal_covariance(const Linearisation& line,
-                                                  const Eigen::VectorXd& nuisance_sigma);
+Eigen::MatrixXd marginal_covariance(const Linearisation& line,
+                                    const Eigen::VectorXd& nuisance_sigma);
 
 /// How settings of two chains move the lengths at a place, 2 x p; `place` is the requested place on
 /// the sheet, with the machine's effects of the paper removed.
-[[nodiscard]] Eigen::Matrix2Xd lengths_by_setting(const View& view,
-                                                  const model::PointReading& reading,
-                                                  model::MarkPoint place,
-                                                  const std::vector<model::Setting>& settings);
+Eigen::Matrix2Xd lengths_by_setting(const View& view,
+                                    const model::PointReading& reading,
+                                    model::MarkPoint place,
+                                    const std::vector<model::Setting>& settings);
 
 }  // namespace chaintrue::grid::observation

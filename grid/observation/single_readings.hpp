@@ -20,11 +20,11 @@ namespace chaintrue::grid::observation {
 
 /// A machine predicts it: motor_spacing_mm, beam_rise_mm, ring_radius_mm (on a ring), link_pitch_mm,
 /// chain_mass_kg_per_m, tape_error_mm_per_m.
-[[nodiscard]] bool is_predictable(const model::Machine& machine, const ExtraReading& reading);
+bool is_predictable(const model::Machine& machine, const ExtraReading& reading);
 
 /// The machine's prediction, with its effects, of what one would measure.
 /// \throws std::out_of_range for a reading that no machine predicts.
-[[nodiscard]] double predicted_reading(const model::Machine& machine, const ExtraReading& reading);
+double predicted_reading(const model::Machine& machine, const ExtraReading& reading);
 
 class SingleReadings final : public Observation {
  public:
@@ -47,7 +47,7 @@ class SingleReadings final : public Observation {
     }
   }
 
-  [[nodiscard]] const Kind& kind() const override { return single_readings; }
+  const Kind& kind() const override { return single_readings; }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
     const std::vector<model::Setting> settings = settings_in(columns);
@@ -70,19 +70,19 @@ class SingleReadings final : public Observation {
     return line;
   }
 
-  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
-                                       model::effects::EffectSide) const override {
+  std::string untestable(const model::effects::Effect& effect,
+                         model::effects::EffectSide) const override {
     return fmt::format("readings of the machine's parts alone do not show {}", effect.id);
   }
 
-  [[nodiscard]] std::string name_of(std::size_t unit) const override {
+  std::string name_of(std::size_t unit) const override {
     const ExtraReading& reading = readings_.at(unit);
     return reading.side.empty()
                ? fmt::format("the reading of {}", name(reading.what))
                : fmt::format("the reading of {} ({})", name(reading.what), reading.side);
   }
 
-  [[nodiscard]] const std::vector<ExtraReading>& readings() const { return readings_; }
+  const std::vector<ExtraReading>& readings() const { return readings_; }
 
  private:
   std::vector<ExtraReading> readings_;

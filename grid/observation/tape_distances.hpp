@@ -42,8 +42,8 @@ struct DistanceGeometry {
   Eigen::MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
   Eigen::MatrixXd by_size;       ///< n x 2, by the sheet's excess width and height
 };
-[[nodiscard]] DistanceGeometry distance_geometry(const MeasuredHoles& set,
-                                                 const std::vector<model::MarkPoint>& marks);
+DistanceGeometry distance_geometry(const MeasuredHoles& set,
+                                   const std::vector<model::MarkPoint>& marks);
 
 /// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
 /// of the zero offset.
@@ -53,14 +53,12 @@ struct DistanceNoise {
   Eigen::MatrixXd size_mm2;
   Eigen::MatrixXd tape_zero_mm2;
 };
-[[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
-                                           const DistanceGeometry& geometry);
+DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry);
 
 /// The one effect of the paper that a tape can have: its scale.
-[[nodiscard]] bool is_of_tape(const model::effects::Effect& effect,
-                              model::effects::EffectSide side);
+bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side);
 /// Read over true length, if the machine's effects include a tape error.
-[[nodiscard]] double tape_factor(const model::Machine& machine);
+double tape_factor(const model::Machine& machine);
 
 /// Sigma of exactly stated values, mm: no workshop reading is more accurate.
 inline constexpr double kKnownNuisanceMm = 1e-6;
@@ -69,7 +67,7 @@ inline constexpr double kKnownNuisanceMm = 1e-6;
 inline constexpr SheetPrior kSheetByEdges{50.0, 0.03};
 
 /// Directions in which the measured edges determine the sheet's placement.
-[[nodiscard]] SheetPrior sheet_measured(const MeasuredHoles& set);
+SheetPrior sheet_measured(const MeasuredHoles& set);
 
 /// Offsets of a set's holes and distances among those of several sets.
 struct NumberedFrom {
@@ -81,15 +79,14 @@ class TapeDistances final : public Observation {
  public:
   /// Sorts holes by place and distances by their holes. Fails with a sentence where a command is out
   /// of the controller's reach. \throws std::invalid_argument for a set without a machine.
-  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(
-      const MeasuredHoles& set, NumberedFrom first = {});
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(const MeasuredHoles& set,
+                                                                   NumberedFrom first = {});
   /// The same in the order of the set.
-  [[nodiscard]] static tl::expected<TapeDistances, std::string> in_given_order(
-      MeasuredHoles set);
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> in_given_order(MeasuredHoles set);
 
-  [[nodiscard]] const Kind& kind() const override { return tape_distances; }
+  const Kind& kind() const override { return tape_distances; }
   /// measured() are the readings less the zero offset.
-  [[nodiscard]] Eigen::Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
+  Eigen::Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
     const std::vector<model::Setting> settings = settings_in(columns);
@@ -125,8 +122,8 @@ class TapeDistances final : public Observation {
     return line;
   }
 
-  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
-                                       model::effects::EffectSide side) const override {
+  std::string untestable(const model::effects::Effect& effect,
+                         model::effects::EffectSide side) const override {
     if (effect.needs == model::effects::DataNeed::order) {
       return "the order in which the holes were cut is not in the file, and no chain was read";
     }
@@ -137,12 +134,12 @@ class TapeDistances final : public Observation {
     return "";
   }
 
-  [[nodiscard]] std::string name_of(std::size_t unit) const override {
+  std::string name_of(std::size_t unit) const override {
     return "the distance " + words_of(set_, set_.distances.at(unit));
   }
 
   /// In the order of places() and units().
-  [[nodiscard]] const MeasuredHoles& set() const { return set_; }
+  const MeasuredHoles& set() const { return set_; }
   /// The holes' positions for a view, with the lengths paid out for them.
   [[nodiscard]] tl::expected<std::vector<ChainPlaceState>, Unreachable> placed(
       const View& view) const {
@@ -194,8 +191,7 @@ class TapeDistances final : public Observation {
     const Eigen::Index of_holes = 2 * std::ssize(set_.holes);
     nuisance_sigma_.resize(3 + of_holes);
     nuisance_sigma_ << set_.sheet.size_sigma_mm, set_.sheet.size_sigma_mm,
-        tape_zero_sigma_mm(set_.tape),
-        Eigen::VectorXd::Constant(of_holes, set_.hole_sigma_mm);
+        tape_zero_sigma_mm(set_.tape), Eigen::VectorXd::Constant(of_holes, set_.hole_sigma_mm);
     nuisance_sigma_ = nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
   }
 

@@ -27,7 +27,7 @@ struct VisitingOrder {
 };
 
 /// All sixteen.
-[[nodiscard]] std::vector<VisitingOrder> line_by_line_orders();
+std::vector<VisitingOrder> line_by_line_orders();
 
 /// The number of each point's visit, from 0, in the order of `points`; marks measured again (within
 /// kRepeatDistanceMm of an earlier point) come last, in that order. Fails with a description of the
@@ -37,6 +37,6 @@ struct VisitingOrder {
     const std::vector<MeasuredPoint>& points, const VisitingOrder& order);
 
 /// "row by row, in alternating directions, from the bottom right".
-[[nodiscard]] std::string in_words(const VisitingOrder& order);
+std::string in_words(const VisitingOrder& order);
 
 }  // namespace chaintrue::grid

@@ -39,8 +39,7 @@ class Separation {
       : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
-  [[nodiscard]] model::PerSide<double> squared_sigmas(
-      const std::vector<std::size_t>& points) const {
+  model::PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
     std::vector<Eigen::Index> rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * as_index(point));
@@ -60,7 +59,7 @@ class Separation {
   }
 
   /// Harmonic mean of both chains': near the smaller one, and increased by either.
-  [[nodiscard]] double together(const std::vector<std::size_t>& points) const {
+  double together(const std::vector<std::size_t>& points) const {
     const model::PerSide<double> answer = squared_sigmas(points);
     return 2.0 / (1.0 / answer.left + 1.0 / answer.right);
   }

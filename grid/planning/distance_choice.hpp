@@ -63,7 +63,7 @@ class DistanceChooser {
     double variance_mm2 = 0.0;  ///< trace(C S)
   };
   /// Adds distances one by one, each time the one that lowers the variance most.
-  [[nodiscard]] Choice greedy(const Holes& holes) const {
+  Choice greedy(const Holes& holes) const {
     // Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many
     // updates; the first one is kept.
     constexpr double kBetterChoice = 1.0 + 1e-6;
@@ -95,7 +95,7 @@ class DistanceChooser {
   }
 
   /// Exchanges single distances as long as an exchange is an improvement.
-  [[nodiscard]] Choice exchange(const Holes& holes, Choice choice) const {
+  Choice exchange(const Holes& holes, Choice choice) const {
     constexpr int kSweeps = 5;
     constexpr double kWorthwhile = 1e-6;
     const Measurable all = measurable(holes, in_reach(holes));
@@ -134,8 +134,7 @@ class DistanceChooser {
   }
 
   /// S after these measurements.
-  [[nodiscard]] Eigen::MatrixXd covariance(const Holes& holes,
-                                           const std::vector<HoleDistance>& distances) const {
+  Eigen::MatrixXd covariance(const Holes& holes, const std::vector<HoleDistance>& distances) const {
     const Measurable measured = measurable(holes, distances);
     Eigen::MatrixXd k = measured.known;
     k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
@@ -151,8 +150,7 @@ class DistanceChooser {
     Eigen::MatrixXd known;       ///< K without the tape's part
     Eigen::MatrixXd pull;        ///< b
   };
-  [[nodiscard]] Measurable measurable(const Holes& holes,
-                                      std::vector<HoleDistance> distances) const {
+  Measurable measurable(const Holes& holes, std::vector<HoleDistance> distances) const {
     MeasuredHoles set = frame_;
     set.distances = std::move(distances);
     std::vector<model::MarkPoint> marks;
@@ -172,7 +170,7 @@ class DistanceChooser {
     return all;
   }
 
-  [[nodiscard]] std::vector<HoleDistance> in_reach(const Holes& holes) const {
+  std::vector<HoleDistance> in_reach(const Holes& holes) const {
     std::vector<HoleDistance> distances;
     for (std::size_t a = 0; a < holes.size(); ++a) {
       for (std::size_t b = a + 1; b < holes.size(); ++b) {
@@ -200,8 +198,7 @@ class DistanceChooser {
   }
 
   /// trace(C S) after measuring those with these numbers.
-  [[nodiscard]] double variance_mm2(const Measurable& all,
-                                    const std::vector<std::size_t>& chosen) const {
+  double variance_mm2(const Measurable& all, const std::vector<std::size_t>& chosen) const {
     Eigen::MatrixXd k = all.known(chosen, chosen);
     k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
     const Eigen::MatrixXd pull = all.pull(Eigen::all, chosen);

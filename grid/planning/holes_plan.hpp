@@ -47,11 +47,11 @@ struct HolesPlanRequest {
   double longest_mm = 5000.0;
   Progress progress{};
 };
-[[nodiscard]] int distances_of(const HolesPlanRequest& request);
+int distances_of(const HolesPlanRequest& request);
 /// The number of unknowns that they determine: the machine's, and the sheet's placement.
-[[nodiscard]] int fewest_distances(bool edges);
+int fewest_distances(bool edges);
 /// Between that many holes, and from each to one edge.
-[[nodiscard]] int most_distances(int holes, bool edges);
+int most_distances(int holes, bool edges);
 
 /// One result of the set: a combination of settings and scales, before and after.
 struct PlannedKnowledge {
@@ -89,8 +89,7 @@ struct HolesPlan {
 
 /// Root mean square over the bed of the tool's sigma for a covariance of the machine's unknowns,
 /// for the best placement of the sheet.
-[[nodiscard]] double tool_sigma_mm(const model::Machine& machine,
-                                   const Eigen::MatrixXd& covariance);
+double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance);
 
 // The catalogue's effects as observed by a set of distances: the size of each after projection on
 // the settings, and which of them are collinear. Secants at the nominal strength, whitened by K =
@@ -99,6 +98,6 @@ struct HolesPlan {
 /// Largest first. Effects of the paper, and those that depend on the visit, are left out: distances
 /// between holes do not depend on either. \throws std::invalid_argument for a set without a
 /// machine.
-[[nodiscard]] std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set);
+std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set);
 
 }  // namespace chaintrue::grid

@@ -53,7 +53,8 @@ class Planner {
                                   mark.y_mm,
                                   reading.error().sentence()));
       }
-      const model::ChainLengths disturbance = synthetic::unmodelled(model::identity_placement(mark));
+      const model::ChainLengths disturbance =
+          synthetic::unmodelled(model::identity_placement(mark));
       grid.points.push_back(
           {mark,
            model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,
@@ -67,8 +68,8 @@ class Planner {
   }
 
   /// The cell of the raster with the largest expected error where a mark is allowed.
-  [[nodiscard]] std::optional<MarkPoint> worst_free(const CompensationMap& map,
-                                                    const std::vector<MarkPoint>& marks) const {
+  std::optional<MarkPoint> worst_free(const CompensationMap& map,
+                                      const std::vector<MarkPoint>& marks) const {
     const model::Bed& bed = machine_.bed;
     const interp::Rectangle allowed = area_of(bed, -request_.margin_mm);
     const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
@@ -85,8 +86,7 @@ class Planner {
       const MarkPoint& place = places[i];
       // A point nearer than this to another one adds little information.
       const bool taken = any_of(marks, [&](const MarkPoint& mark) {
-        return distance_mm(mark, place) <=
-               2.0 * kRepeatDistanceMm;
+        return distance_mm(mark, place) <= 2.0 * kRepeatDistanceMm;
       });
       if (taken || errors[i] <= kWorse * largest) continue;
       largest = errors[i];

@@ -41,9 +41,9 @@ inline constexpr double kOffSigmas = 3.0;
 /// A measure after the fit, mm.
 struct FittedMeasure {
   double measured_mm = 0.0;
-  double found_mm = 0.0;   ///< of the machine as found
-  double after_mm = 0.0;   ///< on the next drawing, with the settings typed in
-  bool rejected = false;   ///< rejected; it does not fit another row either
+  double found_mm = 0.0;  ///< of the machine as found
+  double after_mm = 0.0;  ///< on the next drawing, with the settings typed in
+  bool rejected = false;  ///< rejected; it does not fit another row either
 };
 
 struct DrawingFit {
@@ -79,8 +79,7 @@ inline constexpr std::size_t kFewestMeasures = 12;
 /// The part of a fitted machine that a controller can store. FluidNC stores all of it. Marlin
 /// assumes level pins; Polargraph also has one scale for both cords; a mural also has one zero, and
 /// whole millimetres between its pins.
-[[nodiscard]] model::PlotterMachine typed_in(model::PlotterFirmware firmware,
-                                             model::PlotterMachine found);
+model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMachine found);
 
 /// The pen's position on `found` for a command to a controller with `set`.
 [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(

@@ -17,15 +17,15 @@ namespace chaintrue::grid {
 
 /// In the controller's coordinates (TestDrawing::pins_middle), millimetres, absolute: a cross at each
 /// point, then every line with a bow to measure, from its first cross to its last.
-[[nodiscard]] std::string drawing_gcode(const TestDrawing& drawing,
-                                        const PenCommands& pen,
-                                        double feed_mm_per_min);
+std::string drawing_gcode(const TestDrawing& drawing,
+                          const PenCommands& pen,
+                          double feed_mm_per_min);
 
 /// For a mural, which is sent a picture: 1 unit is 1 mm, the origin is the left top corner of the
 /// drawing area.
-[[nodiscard]] std::string drawing_svg(const TestDrawing& drawing);
+std::string drawing_svg(const TestDrawing& drawing);
 
 /// What to measure, a numbered line each with a place for the value, in the order of the measures.
-[[nodiscard]] std::string measuring_list(const TestDrawing& drawing);
+std::string measuring_list(const TestDrawing& drawing);
 
 }  // namespace chaintrue::grid

@@ -34,7 +34,7 @@ struct FoundPlotter {
   std::vector<double> correlations;
 
   /// For all six.
-  [[nodiscard]] Eigen::MatrixXd covariance() const;
+  Eigen::MatrixXd covariance() const;
 };
 
 struct KnownPlotter {
@@ -42,19 +42,17 @@ struct KnownPlotter {
   std::optional<FoundPlotter> found;  ///< none before a drawing was measured
 };
 
-[[nodiscard]] FoundPlotter found_by(const DrawingFit& fit);
+FoundPlotter found_by(const DrawingFit& fit);
 
 /// The machine of `set` as it was found.
-[[nodiscard]] model::PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found);
+model::PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found);
 
 /// The controller's settings after typing in settings_to_paste(set, found): it counts the cords
 /// correctly and knows the pen's position.
-[[nodiscard]] SetPlotter once_typed_in(const SetPlotter& set, const model::PlotterMachine& found);
+SetPlotter once_typed_in(const SetPlotter& set, const model::PlotterMachine& found);
 
 /// Counted over true, relative to what the controller already allows for: the factor on the steps
 /// per millimetre.
-[[nodiscard]] double more_steps(const SetPlotter& set,
-                                const model::PlotterMachine& found,
-                                model::Side side);
+double more_steps(const SetPlotter& set, const model::PlotterMachine& found, model::Side side);
 
 }  // namespace chaintrue::grid

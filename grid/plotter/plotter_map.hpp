@@ -26,6 +26,6 @@ namespace chaintrue::grid {
 /// Over the drawing area; what was measured is the rectangle of the crosses. \throws
 /// std::invalid_argument without a fit, or if the controller or the fitted plotter does not reach a
 /// cross.
-[[nodiscard]] MechanismMap plotter_map(const KnownPlotter& plotter);
+MechanismMap plotter_map(const KnownPlotter& plotter);
 
 }  // namespace chaintrue::grid

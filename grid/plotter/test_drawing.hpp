@@ -74,9 +74,8 @@ inline constexpr double kRulerSigmaMm = 0.5;
 
 /// The crosses over the machine's drawing area, and 24 measures without values: 16 lengths and the
 /// bows of eight lines at their middles.
-[[nodiscard]] TestDrawing planned_drawing(const SetPlotter& set);
-[[nodiscard]] TestDrawing planned_drawing(const model::PlotterMachine& machine,
-                                          model::PlotterFirmware firmware);
+TestDrawing planned_drawing(const SetPlotter& set);
+TestDrawing planned_drawing(const model::PlotterMachine& machine, model::PlotterFirmware firmware);
 
 /// The drawing as readings: each cross with what the controller paid out for it. Fails if the
 /// controller cannot hold a cross, with its place among the crosses.
@@ -85,9 +84,9 @@ using CrossFailure = Failure<model::PlotterReason, std::size_t>;
     const TestDrawing& drawing);
 
 /// The first cross for which the controller would let out more belt than it has; empty if there is none.
-[[nodiscard]] std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing);
+std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing);
 
 /// "the length A-B", "the bow of A-B at E".
-[[nodiscard]] std::string words_of(const TestDrawing& drawing, std::size_t measure);
+std::string words_of(const TestDrawing& drawing, std::size_t measure);
 
 }  // namespace chaintrue::grid

@@ -85,13 +85,13 @@ inline constexpr std::array<std::string_view, kFactors> kFactorNames = {
 /// The level of each factor, in the order of kFactorNames.
 using Levels = std::array<std::size_t, kFactors>;
 
-[[nodiscard]] std::array<std::size_t, kFactors> level_counts(const SweepSpec& spec);
-[[nodiscard]] std::uint64_t combinations(const SweepSpec& spec);
-[[nodiscard]] std::uint64_t cells(const SweepSpec& spec);
-[[nodiscard]] Levels levels_of(const SweepSpec& spec, std::uint64_t combination);
-[[nodiscard]] std::string_view name(SurfaceLevel level);
+std::array<std::size_t, kFactors> level_counts(const SweepSpec& spec);
+std::uint64_t combinations(const SweepSpec& spec);
+std::uint64_t cells(const SweepSpec& spec);
+Levels levels_of(const SweepSpec& spec, std::uint64_t combination);
+std::string_view name(SurfaceLevel level);
 /// Label of a level: "7x4", "0.2/0.3", "residual", a machine's name.
-[[nodiscard]] std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t level);
+std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t level);
 
 enum class CellStatus : std::uint64_t {
   done,         ///< the map has an answer at every point of the raster
@@ -99,7 +99,7 @@ enum class CellStatus : std::uint64_t {
   not_reached,  ///< a mark that the true machine cannot reach
   no_answer,    ///< the map has no answer at some point
 };
-[[nodiscard]] std::string_view name(CellStatus status);
+std::string_view name(CellStatus status);
 
 /// Errors of a map over the raster. Chain: both chains together; tool: distance from the intended
 /// position.

@@ -72,8 +72,8 @@ struct Atlas {
 
 /// For two chains or a V-plotter; only for one cause, by the name of its setting or effect, if
 /// `cause` is not empty.
-[[nodiscard]] Atlas atlas_of(const model::Mechanism& mechanism, std::string_view cause = {});
+Atlas atlas_of(const model::Mechanism& mechanism, std::string_view cause = {});
 /// For four belts. \throws std::invalid_argument for anchors that are not known.
-[[nodiscard]] Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause = {});
+Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause = {});
 
 }  // namespace chaintrue::grid::synthetic

@@ -47,7 +47,7 @@ struct Mark {
 /// The marks, row by row from the bottom left. Empty if the region leaves none.
 /// \throws std::invalid_argument for fewer than 2 columns or rows, fewer than 1 random point, or a
 /// margin that leaves no bed.
-[[nodiscard]] std::vector<Mark> marks(const model::Bed& bed, const Design& design, Random& random);
+std::vector<Mark> marks(const model::Bed& bed, const Design& design, Random& random);
 
 enum class VisitingOrder { rows, columns, serpentine_rows, serpentine_columns, random };
 
@@ -56,8 +56,8 @@ enum class VisitingOrder { rows, columns, serpentine_rows, serpentine_columns, r
 void put_in_order(std::vector<Mark>& marks, VisitingOrder order, Random& random);
 
 /// Identifiers on the command line and in files; empty if unknown.
-[[nodiscard]] std::optional<DesignKind> design_kind(std::string_view word);
-[[nodiscard]] std::optional<Region> region(std::string_view word);
-[[nodiscard]] std::optional<VisitingOrder> visiting_order(std::string_view word);
+std::optional<DesignKind> design_kind(std::string_view word);
+std::optional<Region> region(std::string_view word);
+std::optional<VisitingOrder> visiting_order(std::string_view word);
 
 }  // namespace chaintrue::grid::synthetic

@@ -89,7 +89,7 @@ struct SyntheticSpec {
 /// That disturbance for an amplitude of 1 mm: sin(x / 500 + 0.3) cos(y / 400) on the left chain,
 /// cos(x / 450) sin(y / 420 + 0.5) on the right one, x and y in mm: most of a period along the bed,
 /// half of one up it.
-[[nodiscard]] model::ChainLengths unmodelled(model::BedPoint place);
+model::ChainLengths unmodelled(model::BedPoint place);
 
 /// The true machine: hidden effects appended, settings offset and drawn; and the sheet's true
 /// placement.
@@ -98,7 +98,7 @@ struct SyntheticTruth {
   std::vector<SettingOffset> offsets;
   model::SheetPlacement sheet;
 };
-[[nodiscard]] SyntheticTruth truth_of(const model::Machine& stated, const SyntheticSpec& spec);
+SyntheticTruth truth_of(const model::Machine& stated, const SyntheticSpec& spec);
 
 /// The truth of a simulation.
 struct SyntheticAnswer {
@@ -137,10 +137,10 @@ struct PlacesRead {
   /// Positions that cannot be reached; they are not in the grid and the session.
   std::vector<std::pair<std::size_t, model::PoseReason>> unreachable;
 };
-[[nodiscard]] PlacesRead read_places(const model::Machine& stated,
-                                     const std::vector<model::AppliedEffect>& hidden,
-                                     const std::vector<model::Visit>& visits,
-                                     model::Model model = model::Model::elastic,
-                                     const Progress& progress = {});
+PlacesRead read_places(const model::Machine& stated,
+                       const std::vector<model::AppliedEffect>& hidden,
+                       const std::vector<model::Visit>& visits,
+                       model::Model model = model::Model::elastic,
+                       const Progress& progress = {});
 
 }  // namespace chaintrue::grid::synthetic

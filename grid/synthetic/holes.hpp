@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "grid/observation/measured_holes.hpp"
-#include "model/failure.hpp"
 #include "model/calibration/sheet_placement.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::grid::synthetic {
 
@@ -63,6 +63,6 @@ using CutFailure = Failure<CutReason>;
     const std::optional<model::Machine>& truth = std::nullopt);
 
 /// The stated machine with the hidden changes of a spec.
-[[nodiscard]] model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec);
+model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec);
 
 }  // namespace chaintrue::grid::synthetic

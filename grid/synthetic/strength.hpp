@@ -42,22 +42,20 @@ inline constexpr double kDetectableSignalToNoise = 4.8;
 inline constexpr double kInseparable = 0.9995;
 
 /// Marks of a regular grid, visited row by row.
-[[nodiscard]] std::vector<model::Visit> regular_session(const model::Machine& machine,
-                                                        int columns,
-                                                        int rows);
+std::vector<model::Visit> regular_session(const model::Machine& machine, int columns, int rows);
 
 /// The changes of a session's readings by effects.
 struct SessionSignature {
   std::vector<Eigen::Vector2d> residual_mm;   ///< r_i
   std::vector<Eigen::Matrix2d> length_by_xy;  ///< J_i of the stated machine
   /// To first order: actual position of the tool less that of the stated machine, -J^-1 r.
-  [[nodiscard]] std::vector<Eigen::Vector2d> tool_shift_mm() const;
+  std::vector<Eigen::Vector2d> tool_shift_mm() const;
 };
 
 /// \throws std::invalid_argument if a visit cannot be reached.
-[[nodiscard]] SessionSignature signature(const model::Machine& stated,
-                                         const std::vector<model::AppliedEffect>& effects,
-                                         const std::vector<model::Visit>& visits);
+SessionSignature signature(const model::Machine& stated,
+                           const std::vector<model::AppliedEffect>& effects,
+                           const std::vector<model::Visit>& visits);
 
 struct Rival {
   const model::effects::Effect* effect = nullptr;
@@ -93,12 +91,11 @@ class StrengthTable {
                 std::vector<model::Visit> visits,
                 const StatedNoise& noise);
 
-  [[nodiscard]] EffectStrength strength(const Effect& effect, EffectSide side) const;
+  EffectStrength strength(const Effect& effect, EffectSide side) const;
 
   /// The change of the tool's position at each visit by an effect, after calibration of the
   /// settings on these visits.
-  [[nodiscard]] std::vector<Eigen::Vector2d> calibrated_shift_mm(
-      const model::AppliedEffect& applied) const;
+  std::vector<Eigen::Vector2d> calibrated_shift_mm(const model::AppliedEffect& applied) const;
 
  private:
   /// Sigma of what is stated exactly, in mm: below every other number here.
@@ -116,9 +113,9 @@ class StrengthTable {
 
   void add_entries(const Effect& effect, EffectSide side);
 
-  [[nodiscard]] Entry entry(const model::AppliedEffect& applied) const;
+  Entry entry(const model::AppliedEffect& applied) const;
 
-  [[nodiscard]] const Entry& usual(const Effect& effect, EffectSide side) const;
+  const Entry& usual(const Effect& effect, EffectSide side) const;
 
   model::Machine stated_;
   std::vector<model::Visit> visits_;

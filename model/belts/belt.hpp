@@ -31,12 +31,12 @@ struct PerBelt {
 };
 
 /// Identifier in files: tl, tr, bl, br.
-[[nodiscard]] std::string_view name(Belt belt);
+std::string_view name(Belt belt);
 /// For messages: top left, ...
-[[nodiscard]] std::string_view words(Belt belt);
-[[nodiscard]] std::optional<Belt> belt_of(std::string_view word);
+std::string_view words(Belt belt);
+std::optional<Belt> belt_of(std::string_view word);
 
 /// The firmware computes the tool's position from the upper two.
-[[nodiscard]] constexpr bool is_upper(Belt belt) { return belt == Belt::tl || belt == Belt::tr; }
+constexpr bool is_upper(Belt belt) { return belt == Belt::tl || belt == Belt::tr; }
 
 }  // namespace chaintrue::model

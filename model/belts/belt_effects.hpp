@@ -15,6 +15,6 @@ namespace chaintrue::model::belts {
 extern const effects::Effect anchor_moved, anchor_height, belt_stretch, anchor_flex, belt_scale,
     belt_zero, tooth_skip, drift, zero_shift;
 
-[[nodiscard]] effects::EffectTable belt_effects();
+effects::EffectTable belt_effects();
 
 }  // namespace chaintrue::model::belts

@@ -31,8 +31,8 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "model/failure.hpp"
 #include "model/belts/belt_machine.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::model {
 
@@ -41,7 +41,7 @@ enum class BeltReason {
   shorter_than_height,  ///< no belt of that length comes down from its anchor
   circles_do_not_meet,  ///< circles of the two lengths do not intersect
 };
-[[nodiscard]] MechanismReason named(BeltReason reason);
+MechanismReason named(BeltReason reason);
 using BeltFailure = Failure<BeltReason>;
 
 /// A length as the machine prints it, mm, with d(length)/d(place).

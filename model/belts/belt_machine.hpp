@@ -53,8 +53,8 @@ enum class BeltLengths {
 /// The controller's names of its settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX as in firmware
 /// before July 2025.
 enum class SettingNames { in_kinematics, top_level };
-[[nodiscard]] std::string_view name(Orientation orientation);
-[[nodiscard]] std::string_view name(BeltLengths lengths);
+std::string_view name(Orientation orientation);
+std::string_view name(BeltLengths lengths);
 
 struct BeltMachine {
   std::string name = "Maslow 4";
@@ -75,15 +75,15 @@ struct BeltMachine {
 };
 
 /// From the belt's end to the tool: arm and extension.
-[[nodiscard]] double reach_mm(const BeltMachine& machine);
+double reach_mm(const BeltMachine& machine);
 /// Height of the anchor over the belt's end.
-[[nodiscard]] double height_mm(const BeltMachine& machine, Belt belt);
+double height_mm(const BeltMachine& machine, Belt belt);
 
 /// The origin of commands: the crossing of the frame's diagonals. \throws std::logic_error if the
 /// anchors are not known or the diagonals are parallel.
-[[nodiscard]] FramePoint centre_of(const BeltMachine& machine);
+FramePoint centre_of(const BeltMachine& machine);
 /// The position that the controller intends for a command, with its scales applied.
-[[nodiscard]] FramePoint to_frame(const BeltMachine& machine, BedPoint command);
+FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 
 /// All reasons why a machine is invalid; empty if it is valid. The ranges contain every real
 /// machine.

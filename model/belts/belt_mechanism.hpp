@@ -37,7 +37,7 @@ class BeltMechanism final : public MechanismBase {
 
   /// Points inside the anchors' rectangle that are farther from its edges than arm and extension
   /// are long.
-  [[nodiscard]] MechanismExtent extent() const override;
+  MechanismExtent extent() const override;
   /// Fails with anchors_not_known, or with a failure of belt_kinematics.hpp.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
       const ToolPosition& position,
@@ -51,22 +51,22 @@ class BeltMechanism final : public MechanismBase {
       ChainLengths lengths) const override;
   /// The zero of one belt or of all has shifted; an anchor has moved. Coordinates that define the
   /// frame cannot move: such a movement appears in the others.
-  [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
+  std::vector<MechanismChange> possible_changes() const override;
 
   /// The anchors, in the order of the lengths.
-  [[nodiscard]] std::vector<FixedPoint> fixed_points() const override;
-  [[nodiscard]] FrameScale frame_scale() const override;
+  std::vector<FixedPoint> fixed_points() const override;
+  FrameScale frame_scale() const override;
 
   /// The machine with the values of the parameters.
-  [[nodiscard]] const BeltMachine& machine() const { return machine_; }
+  const BeltMachine& machine() const { return machine_; }
 
  private:
   BeltMechanism(BeltMachine machine,
                 std::vector<MechanismParameter> parameters,
                 Eigen::VectorXd values,
                 std::vector<AppliedEffect> applied);
-  [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
-      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
+  std::shared_ptr<const Mechanism> rebuild(const Eigen::VectorXd& values,
+                                           std::vector<AppliedEffect> applied) const override;
   [[nodiscard]] tl::expected<belts::AnchorNumber, BeltFailure> print(const belts::BeltVisit& visit,
                                                                      FramePoint place) const;
 
@@ -79,7 +79,7 @@ inline constexpr double kBeltZeroShiftMm = 5.0;
 /// One sigma of how far an anchor that came loose has moved, in x and in y.
 inline constexpr double kAnchorShiftMm = 5.0;
 
-[[nodiscard]] std::shared_ptr<const BeltMechanism> make_belt_mechanism(
+std::shared_ptr<const BeltMechanism> make_belt_mechanism(
     const BeltMachine& machine,
     std::optional<double> anchor_sigma_mm = std::nullopt,
     std::optional<BeltScaleKnowledge> scale = std::nullopt);

@@ -40,10 +40,10 @@ struct BeltVisit {
 };
 
 /// An effect at this side acts on this belt.
-[[nodiscard]] bool acts_on(effects::EffectSide side, Belt belt);
+bool acts_on(effects::EffectSide side, Belt belt);
 
 /// A reading without effects.
-[[nodiscard]] AnchorNumber of_anchor(const BeltReading& reading, Belt belt);
+AnchorNumber of_anchor(const BeltReading& reading, Belt belt);
 
 /// The printed length, with derivatives by every anchor, since tensions depend on all four.
 [[nodiscard]] tl::expected<AnchorNumber, BeltFailure> read_belt(

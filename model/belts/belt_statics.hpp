@@ -48,17 +48,15 @@ inline constexpr double kMostTension = 10.0;
 using AnchorNumber = Dual<8>;
 
 /// The first of an anchor's two derivatives.
-[[nodiscard]] constexpr std::size_t first_of(Belt anchor) {
-  return 2 * static_cast<std::size_t>(anchor);
-}
-[[nodiscard]] inline Eigen::RowVector2d by_anchor(const AnchorNumber& number, Belt anchor) {
+constexpr std::size_t first_of(Belt anchor) { return 2 * static_cast<std::size_t>(anchor); }
+inline Eigen::RowVector2d by_anchor(const AnchorNumber& number, Belt anchor) {
   return {number.d[first_of(anchor)], number.d[first_of(anchor) + 1]};
 }
 
 /// \throws std::logic_error if the anchors are not known.
-[[nodiscard]] PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine,
-                                                const PerBelt<bool>& pulled,
-                                                double pull,
-                                                FramePoint place);
+PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine,
+                                  const PerBelt<bool>& pulled,
+                                  double pull,
+                                  FramePoint place);
 
 }  // namespace chaintrue::model::belts

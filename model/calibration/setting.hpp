@@ -32,20 +32,20 @@ inline constexpr std::array kSheetSettings = {
     Setting::sheet_x_mm, Setting::sheet_y_mm, Setting::sheet_rotation_rad};
 
 /// A setting of the sheet, not of the machine.
-[[nodiscard]] constexpr bool is_of_sheet(Setting setting) { return setting >= Setting::sheet_x_mm; }
+constexpr bool is_of_sheet(Setting setting) { return setting >= Setting::sheet_x_mm; }
 /// Position among kSheetSettings.
-[[nodiscard]] constexpr int sheet_column(Setting setting) {
+constexpr int sheet_column(Setting setting) {
   return static_cast<int>(setting) - static_cast<int>(Setting::sheet_x_mm);
 }
 
 /// Identifier in files and messages (`motor_left_x_mm`, ...).
-[[nodiscard]] std::string_view name(Setting setting);
-[[nodiscard]] std::optional<Setting> setting_from_name(std::string_view word);
+std::string_view name(Setting setting);
+std::optional<Setting> setting_from_name(std::string_view word);
 
 /// The stated value. \throws std::invalid_argument for a setting of the sheet: a machine has none.
-[[nodiscard]] double stated_value(const Machine& machine, Setting setting);
+double stated_value(const Machine& machine, Setting setting);
 /// Sigma of the stated value. \throws as stated_value.
-[[nodiscard]] double stated_sigma(const Machine& machine, Setting setting);
+double stated_sigma(const Machine& machine, Setting setting);
 /// The machine with that setting changed to `value` (in the setting's unit). \throws as
 /// stated_value.
 [[nodiscard]] Machine with_setting(Machine machine, Setting setting, double value);

@@ -15,12 +15,12 @@ struct SheetPlacement {
   /// Counter-clockwise, about the marks' origin.
   double rotation_rad = 0.0;
 
-  [[nodiscard]] BedPoint to_bed(MarkPoint mark) const;
-  [[nodiscard]] MarkPoint to_mark(BedPoint bed) const;
+  BedPoint to_bed(MarkPoint mark) const;
+  MarkPoint to_mark(BedPoint bed) const;
   /// d(bed)/d(mark): the rotation.
-  [[nodiscard]] Eigen::Matrix2d rotation() const;
+  Eigen::Matrix2d rotation() const;
   /// d(bed)/d(x_mm, y_mm, rotation_rad)
-  [[nodiscard]] Eigen::Matrix<double, 2, 3> sensitivity(MarkPoint mark) const;
+  Eigen::Matrix<double, 2, 3> sensitivity(MarkPoint mark) const;
 };
 
 }  // namespace chaintrue::model

@@ -15,6 +15,6 @@ inline constexpr double kZeroShiftSigmaMm = 2.0;
 inline constexpr double kPitchGrowthSigma = 5e-4;
 
 /// Possible changes of two chains if only their links are known: zeros, skipped teeth, worn links.
-[[nodiscard]] std::vector<MechanismChange> changes_of_chains(double pitch_mm);
+std::vector<MechanismChange> changes_of_chains(double pitch_mm);
 
 }  // namespace chaintrue::model

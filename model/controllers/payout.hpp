@@ -21,6 +21,6 @@ class ControllerKinematics {
   [[nodiscard]] virtual tl::expected<BedPoint, PoseFailure> command(ChainLengths lengths) const = 0;
 };
 
-[[nodiscard]] std::unique_ptr<const ControllerKinematics> make_controller_kinematics(const Machine& machine);
+std::unique_ptr<const ControllerKinematics> make_controller_kinematics(const Machine& machine);
 
 }  // namespace chaintrue::model

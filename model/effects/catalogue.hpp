@@ -17,18 +17,18 @@
 namespace chaintrue::model::effects {
 
 /// Every effect of chains/chain_effects.cpp.
-[[nodiscard]] EffectTable catalogue();
+EffectTable catalogue();
 /// Null if no effect of the catalogue has this name.
-[[nodiscard]] const Effect* find_effect(std::string_view id);
+const Effect* find_effect(std::string_view id);
 
 /// The catalogue, then the effects declared for a machine. A declared effect that replaces one of
 /// the catalogue takes its position.
-[[nodiscard]] std::vector<const Effect*> listed_effects(const Machine& machine);
+std::vector<const Effect*> listed_effects(const Machine& machine);
 /// Those that may act on the machine: a ring has no effects of brackets, and brackets none of a
 /// ring.
-[[nodiscard]] std::vector<const Effect*> effects_of(const Machine& machine);
+std::vector<const Effect*> effects_of(const Machine& machine);
 /// The one with this name among these; null if there is none.
-[[nodiscard]] const Effect* find_effect(const Machine& machine, std::string_view id);
+const Effect* find_effect(const Machine& machine, std::string_view id);
 
 /// All problems of the machine's effects, each with its JSON pointer below the machine
 /// ("/effects/0/side"): unknown effects, sides and parameters, missing parameters, values out of
@@ -39,16 +39,16 @@ namespace chaintrue::model::effects {
 
 /// The machine's effects in the order of effects_of().
 /// \throws std::invalid_argument with the first of problems_of_effects where there is one.
-[[nodiscard]] std::vector<ActingEffect> acting_effects(const Machine& machine);
+std::vector<ActingEffect> acting_effects(const Machine& machine);
 
 /// The effect as in a machine file: `applied(effect, EffectSide::left, values)`.
-[[nodiscard]] AppliedEffect applied(const Effect& effect, EffectSide side, Values values);
+AppliedEffect applied(const Effect& effect, EffectSide side, Values values);
 /// In the order of the parameters.
-[[nodiscard]] std::vector<double> nominal_values(const Effect& effect);
+std::vector<double> nominal_values(const Effect& effect);
 /// The effect of the machine's mirror image.
-[[nodiscard]] ActingEffect mirrored(const ActingEffect& acting);
+ActingEffect mirrored(const ActingEffect& acting);
 
 /// The text of docs/effects.md, from the table.
-[[nodiscard]] std::string catalogue_document();
+std::string catalogue_document();
 
 }  // namespace chaintrue::model::effects

@@ -113,10 +113,10 @@ class FormulaOnBed {
   }
 
  private:
-  [[nodiscard]] std::vector<Number> values_of(const Trial& trial, Values values) const {
+  std::vector<Number> values_of(const Trial& trial, Values values) const {
     return values_at(own_.acts_on, trial.state, values);
   }
-  [[nodiscard]] double value(const Trial& trial, const std::vector<double>& values) const {
+  double value(const Trial& trial, const std::vector<double>& values) const {
     return formula_.evaluate(std::span<const Number>(values_of(trial, values))).value;
   }
   [[nodiscard]] DeclarationProblem at(std::string value,

@@ -80,7 +80,7 @@ struct DeclarationProblem {
 
 /// The unit that a parameter's name ends in: "amplitude_mm", "slope_mm_per_rad", "share". Empty for
 /// a unit that formulas do not know, such as "_deg".
-[[nodiscard]] std::optional<FormulaUnit> unit_of_name(std::string_view name);
+std::optional<FormulaUnit> unit_of_name(std::string_view name);
 
 /// All problems of a declaration, without a machine.
 [[nodiscard]] std::vector<DeclarationProblem> problems_of(const Declaration& declaration);
@@ -92,9 +92,9 @@ struct DeclarationProblem {
 /// The declared effect. Like the catalogue's it lives as long as the program, because causes refer
 /// to it. Equal declarations are one effect. \throws std::invalid_argument for a declaration whose
 /// formulas have problems.
-[[nodiscard]] const Effect& declared_effect(const Declaration& declaration);
+const Effect& declared_effect(const Declaration& declaration);
 /// Null for an effect of the catalogue.
-[[nodiscard]] const Declaration* declaration_of(const Effect& effect);
+const Declaration* declaration_of(const Effect& effect);
 
 /// The variable that a declared effect's place is compared with.
 enum class PlaceVariable {
@@ -112,8 +112,8 @@ enum class PlaceVariable {
 };
 /// Precondition: a declared effect with a place. The one variable of the place's unit that its
 /// formula uses; empty for none or several.
-[[nodiscard]] PlaceVariable place_variable(const Effect& effect);
+PlaceVariable place_variable(const Effect& effect);
 
-[[nodiscard]] std::string_view name(ActsOn acts_on);
+std::string_view name(ActsOn acts_on);
 
 }  // namespace chaintrue::model::effects

@@ -20,7 +20,7 @@ struct FormulaVariable {
   PlaceVariable place = PlaceVariable::none;
 };
 /// For an effect of the paper, x_mm and y_mm of the state are those of the mark.
-[[nodiscard]] std::span<const FormulaVariable> variables_of(ActsOn acts_on);
+std::span<const FormulaVariable> variables_of(ActsOn acts_on);
 /// A formula of a declaration, in the order of kFormulas.
 enum class FormulaKey { adds_mm, adds_x_mm, adds_y_mm, elongation };
 struct FormulaRow {
@@ -36,17 +36,15 @@ inline constexpr std::array kFormulas = {
 
 /// The names of all values of a formula of this declaration, the parameters first; an elongation
 /// uses parameters alone.
-[[nodiscard]] std::vector<FormulaName> names_of(const Declaration& declaration, FormulaKey key);
+std::vector<FormulaName> names_of(const Declaration& declaration, FormulaKey key);
 [[nodiscard]] tl::expected<Formula, FormulaProblem> parsed(const Declaration& declaration,
                                                            const FormulaRow& row);
 /// The values for which the formulas of such a declaration are evaluated, in the order of
 /// names_of().
-[[nodiscard]] std::vector<Number> values_at(ActsOn acts_on,
-                                            const LengthState& state,
-                                            Values parameters);
+std::vector<Number> values_at(ActsOn acts_on, const LengthState& state, Values parameters);
 
 /// The chapter of docs/effects.md on effects that a user declares.
-[[nodiscard]] std::string_view declared_chapter();
+std::string_view declared_chapter();
 
 class DeclaredLaw {
  public:
@@ -55,15 +53,15 @@ class DeclaredLaw {
   DeclaredLaw(const DeclaredLaw&) = delete;
   DeclaredLaw& operator=(const DeclaredLaw&) = delete;
 
-  [[nodiscard]] const Declaration& declaration() const { return declaration_; }
-  [[nodiscard]] const Effect& effect() const { return effect_; }
+  const Declaration& declaration() const { return declaration_; }
+  const Effect& effect() const { return effect_; }
   /// Empty if not stated.
-  [[nodiscard]] const std::optional<Formula>& formula(FormulaKey key) const {
+  const std::optional<Formula>& formula(FormulaKey key) const {
     return formulas_[static_cast<std::size_t>(key)];
   }
-  [[nodiscard]] Number value(FormulaKey key, const LengthState& state, Values parameters) const;
+  Number value(FormulaKey key, const LengthState& state, Values parameters) const;
   /// Whether a formula of this effect uses the value with this name.
-  [[nodiscard]] bool uses(std::string_view name) const;
+  bool uses(std::string_view name) const;
 
  private:
   void describe();

@@ -91,13 +91,13 @@ class EffectParameters {
     for (const EffectParameter& parameter : parameters) push_back(parameter);
   }
   constexpr void push_back(const EffectParameter& parameter) { all_.at(count_++) = parameter; }
-  [[nodiscard]] constexpr const EffectParameter* begin() const { return all_.data(); }
-  [[nodiscard]] constexpr const EffectParameter* end() const { return begin() + count_; }
-  [[nodiscard]] constexpr std::size_t size() const { return count_; }
-  [[nodiscard]] constexpr bool empty() const { return count_ == 0; }
-  [[nodiscard]] constexpr const EffectParameter& operator[](std::size_t i) const { return all_[i]; }
-  [[nodiscard]] constexpr const EffectParameter& front() const { return all_[0]; }
-  [[nodiscard]] constexpr const EffectParameter& back() const { return all_[count_ - 1]; }
+  constexpr const EffectParameter* begin() const { return all_.data(); }
+  constexpr const EffectParameter* end() const { return begin() + count_; }
+  constexpr std::size_t size() const { return count_; }
+  constexpr bool empty() const { return count_ == 0; }
+  constexpr const EffectParameter& operator[](std::size_t i) const { return all_[i]; }
+  constexpr const EffectParameter& front() const { return all_[0]; }
+  constexpr const EffectParameter& back() const { return all_[count_ - 1]; }
 
  private:
   std::array<EffectParameter, kMost> all_;
@@ -128,7 +128,7 @@ struct LengthState {
   int order = 0;                ///< n
 };
 /// The state of a chain in equilibrium, without a visit.
-[[nodiscard]] LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket);
+LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket);
 
 /// A part that a machine may lack.
 enum class Part { none, ring, brackets, body, pulley };
@@ -216,21 +216,21 @@ struct Effect {
   const DeclaredLaw* law = nullptr;
 };
 
-[[nodiscard]] std::string_view name(Station station);
-[[nodiscard]] std::string_view name(EffectSide side);  ///< "" for none
-[[nodiscard]] std::string_view name(RemedyKind kind);
-[[nodiscard]] std::string_view name(DataNeed need);
-[[nodiscard]] std::string_view name(Part part);  ///< in words: "a sled on a ring ..."
+std::string_view name(Station station);
+std::string_view name(EffectSide side);  ///< "" for none
+std::string_view name(RemedyKind kind);
+std::string_view name(DataNeed need);
+std::string_view name(Part part);  ///< in words: "a sled on a ring ..."
 
 /// For two chains: whether it depends on the visit as well as on the point (drift, skips,
 /// hysteresis).
-[[nodiscard]] inline bool depends_on_visit(const Effect& effect) {
+inline bool depends_on_visit(const Effect& effect) {
   return effect.by_direction || effect.station == Station::reading;
 }
 
 /// Left becomes right and right left; the others stay.
-[[nodiscard]] EffectSide mirrored(EffectSide side);
+EffectSide mirrored(EffectSide side);
 /// Whether an effect at `effect_side` acts on this chain (none and both act on either).
-[[nodiscard]] bool acts_on(EffectSide effect_side, Side chain);
+bool acts_on(EffectSide effect_side, Side chain);
 
 }  // namespace chaintrue::model::effects

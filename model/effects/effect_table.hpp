@@ -16,7 +16,7 @@ namespace chaintrue::model::effects {
 using EffectTable = std::span<const Effect* const>;
 
 /// Null if no effect of the table has this name.
-[[nodiscard]] const Effect* find_effect(EffectTable table, std::string_view id);
+const Effect* find_effect(EffectTable table, std::string_view id);
 
 /// Unknown effects, sides and parameters, values out of range, and with `all_stated` missing values.
 /// Places are "/0/side", "/0/parameters/scale" and the like, by the effect's number.
@@ -32,7 +32,6 @@ struct ActingEffect {
 };
 /// In the table's order. Values that are not stated are nominal. \throws std::logic_error for
 /// effects with problems.
-[[nodiscard]] std::vector<ActingEffect> resolve(EffectTable table,
-                                                const std::vector<AppliedEffect>& applied);
+std::vector<ActingEffect> resolve(EffectTable table, const std::vector<AppliedEffect>& applied);
 
 }  // namespace chaintrue::model::effects

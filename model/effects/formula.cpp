@@ -85,10 +85,10 @@ class FormulaParser {
     if (at_ == text_.size()) stop(0, "an empty formula", "a formula, such as " + example());
     sum();
     if (at_ < text_.size()) {
-      stop(at_,
-           found_here(),
-           text_[at_] == ')' ? "no unmatched closing bracket"
-                             : "an operator + - * / ^, or the end");
+      stop(
+          at_,
+          found_here(),
+          text_[at_] == ')' ? "no unmatched closing bracket" : "an operator + - * / ^, or the end");
     }
     const Operand& whole = operands_.back();
     if (!whole.bare && !(whole.unit == wanted)) {
@@ -106,13 +106,13 @@ class FormulaParser {
   [[noreturn]] static void stop(std::size_t offset, std::string found, std::string expected) {
     throw FormulaStop{{offset, std::move(found), std::move(expected)}};
   }
-  [[nodiscard]] std::string example() const {
+  std::string example() const {
     return names_.empty() ? "0.1" : fmt::format("0.1 * {}", names_.front().name);
   }
   static std::string describe(const FormulaUnit& unit) {
     return unit == FormulaUnit{} ? "numbers without a unit" : words(unit);
   }
-  [[nodiscard]] std::string found_here() const {
+  std::string found_here() const {
     if (at_ >= text_.size()) return "the end";
     std::size_t end = at_ + 1;
     if (is_letter(text_[at_])) {
@@ -316,12 +316,13 @@ class FormulaParser {
     const bool of_number = kind == Kind::sine || kind == Kind::cosine ||
                            kind == Kind::exponential || kind == Kind::logarithm;
     if (of_number && !(own.unit == FormulaUnit{})) {
-      stop(
-          offset,
-          fmt::format("{} of {}", word, words(own.unit)),
-          fmt::format(
-              "{} of a plain number; divide by a quantity with the same unit, as in {}(x / (100 * "
-              "mm))", word, word));
+      stop(offset,
+           fmt::format("{} of {}", word, words(own.unit)),
+           fmt::format(
+               "{} of a plain number; divide by a quantity with the same unit, as in {}(x / (100 * "
+               "mm))",
+               word,
+               word));
     }
     if (kind == Kind::root) own.unit = {0.5 * own.unit.mm, 0.5 * own.unit.n};
     // The constant 1 or 0, in any unit.

@@ -48,7 +48,7 @@ struct FormulaUnit {
   friend bool operator==(const FormulaUnit&, const FormulaUnit&) = default;
 };
 /// "mm", "mm/N", "mm^2", "a number".
-[[nodiscard]] std::string words(const FormulaUnit& unit);
+std::string words(const FormulaUnit& unit);
 
 struct FormulaName {
   std::string name;
@@ -68,21 +68,21 @@ class Formula {
   [[nodiscard]] static tl::expected<Formula, FormulaProblem> parse(
       std::string_view text, std::span<const FormulaName> names, const FormulaUnit& wanted);
 
-  [[nodiscard]] bool uses(std::size_t name) const;
+  bool uses(std::size_t name) const;
   /// The value for these values of the names, in the order given to parse().
   template <int N>
-  [[nodiscard]] Dual<N> evaluate(std::span<const Dual<N>> values) const {
+  Dual<N> evaluate(std::span<const Dual<N>> values) const {
     return run<N>(values, nullptr);
   }
   /// The offset in the text at which the first value that is not finite arises; the end of the text
   /// if all are finite.
   template <int N>
-  [[nodiscard]] std::size_t first_not_finite(std::span<const Dual<N>> values) const {
+  std::size_t first_not_finite(std::span<const Dual<N>> values) const {
     std::size_t offset = text_.size();
     (void)run<N>(values, &offset);
     return offset;
   }
-  [[nodiscard]] const std::string& text() const { return text_; }
+  const std::string& text() const { return text_; }
 
   static constexpr std::size_t kMostSteps = 400;
   static constexpr std::size_t kDeepest = 32;

@@ -21,7 +21,7 @@ struct MuralBot {
 /// A leg of the bot: from a pin down to a tangent point, in the wall's plane.
 struct Leg {
   ByCommand across_mm, down_mm;
-  [[nodiscard]] ByCommand angle() const { return atan2(down_mm, across_mm); }
+  ByCommand angle() const { return atan2(down_mm, across_mm); }
 };
 
 struct MuralPose {

@@ -29,7 +29,7 @@ inline constexpr PlotterFirmware kPlotterFirmwares[] = {PlotterFirmware::fluidnc
                                                         PlotterFirmware::marlin,
                                                         PlotterFirmware::polargraph,
                                                         PlotterFirmware::mural};
-[[nodiscard]] std::string_view name(PlotterFirmware firmware);
+std::string_view name(PlotterFirmware firmware);
 
 /// `as_set` has the controller's settings. The command is in the machine's frame. \throws
 /// std::invalid_argument for a mural that is a point.

@@ -13,6 +13,6 @@
 
 namespace chaintrue::model::plotter {
 
-[[nodiscard]] effects::EffectTable plotter_effects();
+effects::EffectTable plotter_effects();
 
 }  // namespace chaintrue::model::plotter

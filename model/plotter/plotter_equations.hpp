@@ -50,7 +50,7 @@ struct Statics {
   double feed_sign = 1.0;  ///< g
   bool motors_in_gondola = false;
   PerSide<ChainMaterial> cord;
-  [[nodiscard]] bool is_point() const { return spacing_mm == 0.0; }
+  bool is_point() const { return spacing_mm == 0.0; }
 };
 
 /// The position of the pen, and the parameters on which the equations depend.

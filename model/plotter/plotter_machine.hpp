@@ -27,7 +27,7 @@ namespace chaintrue::model {
 
 /// The location of the motors, with the pulleys or spools that count.
 enum class MotorPlace { wall, gondola };
-[[nodiscard]] std::string_view name(MotorPlace place);
+std::string_view name(MotorPlace place);
 
 /// The hanging body. With `spacing_mm` 0 both cords end at the pen and the body cannot tilt.
 struct Gondola {
@@ -88,9 +88,9 @@ struct PlotterMachine {
 
 /// The mural bot with its pins this far apart and its firmware's constants; its drawing area is the
 /// firmware's, a fifth of the pins' spacing in from each side and below.
-[[nodiscard]] PlotterMachine mural(double pin_spacing_mm);
+PlotterMachine mural(double pin_spacing_mm);
 
-[[nodiscard]] inline bool is_point(const Gondola& gondola) { return gondola.spacing_mm == 0.0; }
+inline bool is_point(const Gondola& gondola) { return gondola.spacing_mm == 0.0; }
 
 /// All reasons why a machine is invalid; empty when it is valid. The ranges contain every real
 /// machine.

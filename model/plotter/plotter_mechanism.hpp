@@ -30,7 +30,7 @@ class PlotterMechanism final : public MechanismBase {
   explicit PlotterMechanism(const PlotterMachine& machine);
 
   /// The drawing area.
-  [[nodiscard]] MechanismExtent extent() const override;
+  MechanismExtent extent() const override;
   /// Fails with a PlotterReason's name.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
       const ToolPosition& position,
@@ -42,15 +42,15 @@ class PlotterMechanism final : public MechanismBase {
       ChainLengths lengths) const override;
 
   /// The machine with the values of the parameters.
-  [[nodiscard]] const PlotterMachine& machine() const { return machine_; }
+  const PlotterMachine& machine() const { return machine_; }
 
  private:
   PlotterMechanism(PlotterMachine machine,
                    std::vector<MechanismParameter> parameters,
                    std::vector<AppliedEffect> applied);
-  [[nodiscard]] std::shared_ptr<const Mechanism> rebuild(
-      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
-  [[nodiscard]] bool has(effects::Part part) const override;
+  std::shared_ptr<const Mechanism> rebuild(const Eigen::VectorXd& values,
+                                           std::vector<AppliedEffect> applied) const override;
+  bool has(effects::Part part) const override;
   /// The point where straight cords of these lengths end.
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> straight_place(
       ChainLengths lengths) const;
@@ -60,8 +60,7 @@ class PlotterMechanism final : public MechanismBase {
   std::vector<effects::ActingEffect> acting_;
 };
 
-[[nodiscard]] std::shared_ptr<const PlotterMechanism> make_plotter_mechanism(
-    const PlotterMachine& machine);
+std::shared_ptr<const PlotterMechanism> make_plotter_mechanism(const PlotterMachine& machine);
 
 /// The parameters' places in values().
 enum PlotterParameter : Eigen::Index {

@@ -27,7 +27,7 @@ enum class PlotterReason {
   cords_do_not_meet,  ///< no position has these lengths
   not_converged,
 };
-[[nodiscard]] MechanismReason named(PlotterReason reason);
+MechanismReason named(PlotterReason reason);
 using PlotterFailure = Failure<PlotterReason>;
 
 namespace plotter {
@@ -39,12 +39,10 @@ struct CordsAtRest {
   CordState<Number> left;
   CordState<Number> right;
   Number tilt_rad;
-  [[nodiscard]] const CordState<Number>& operator[](Side side) const {
-    return side == Side::left ? left : right;
-  }
+  const CordState<Number>& operator[](Side side) const { return side == Side::left ? left : right; }
 };
 
-[[nodiscard]] Statics statics_of(const PlotterMachine& machine);
+Statics statics_of(const PlotterMachine& machine);
 
 [[nodiscard]] tl::expected<CordsAtRest, PlotterFailure> cords_at(const Statics& statics,
                                                                  const Placed<double>& place);

@@ -51,7 +51,7 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   }
   /// The true machine's tool position for a command, with the anchors of `believed` in its
   /// controller.
-  [[nodiscard]] BedPoint tool(const model::BeltMachine& believed, BedPoint command) const {
+  BedPoint tool(const model::BeltMachine& believed, BedPoint command) const {
     const model::FramePoint meant = model::to_frame(believed, command);
     const auto span = [&](model::Belt belt) {
       const model::Anchor& anchor = believed.anchors[belt];
@@ -61,8 +61,7 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   }
   /// Rms distance of the cut shape, after a best-fit placement, from the intended rectangle: for
   /// each of its points the nearest point of the outline.
-  [[nodiscard]] double residual_mm(const std::string& program,
-                                   const model::BeltMachine& believed) const {
+  double residual_mm(const std::string& program, const model::BeltMachine& believed) const {
     std::vector<BedPoint> cut;
     BedPoint least{1e9, 1e9};
     BedPoint most{-1e9, -1e9};
@@ -151,13 +150,16 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsOnly) {
               testing::Not(HasSubstr("\"expected_mm\": null")));
   EXPECT_THAT(run("gcode check part.nc --map anchors.json").out, HasSubstr(words));
   // Its page shows the frame of the anchors, not half of the usual bed of a chain machine.
-  const Outcome page = done("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");
+  const Outcome page =
+      done("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");
   const std::string html = content_of(folder_ / "page.html");
   EXPECT_THAT(html, HasSubstr("sheet_x_min_mm"));
   EXPECT_THAT(html, testing::Not(HasSubstr("-1219.2")));
 }
 
-TEST_F(BeltAndHoleCommands, HolesAloneAreNotDiagnosed) { EXPECT_EQ(run("diagnose holes.json").code, 3); }
+TEST_F(BeltAndHoleCommands, HolesAloneAreNotDiagnosed) {
+  EXPECT_EQ(run("diagnose holes.json").code, 3);
+}
 
 }  // namespace
 }  // namespace chaintrue

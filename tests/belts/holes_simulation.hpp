@@ -37,13 +37,13 @@ struct SimulatedHoles {
   double unmodelled_mm = 0.0;
   /// The tool's true position in the true frame, mm, for these horizontal spans of the upper belts,
   /// in the belts' own millimetres.
-  [[nodiscard]] model::BedPoint tool(double left_mm, double right_mm) const;
+  model::BedPoint tool(double left_mm, double right_mm) const;
 };
 
 [[nodiscard]] SimulatedHoles simulate_with_holes(const HolesSimulation& simulation);
 
 /// Rms of the differences after the best-fit placement of the first points on the others.
-[[nodiscard]] double rms_when_laid(const std::vector<model::BedPoint>& from,
-                                   const std::vector<model::BedPoint>& to);
+double rms_when_laid(const std::vector<model::BedPoint>& from,
+                     const std::vector<model::BedPoint>& to);
 
 }  // namespace chaintrue::grid

@@ -30,7 +30,7 @@ struct BeltSimulation {
 
 /// Positions over the middle of a frame of 2.4 to 3.6 by 1.8 to 2.6 m, visited row by row in
 /// alternating directions.
-[[nodiscard]] SimulatedBelts simulate(const BeltSimulation& simulation);
+SimulatedBelts simulate(const BeltSimulation& simulation);
 /// Readings at points 3 (tl), 30 and 31 (br) and 60 (tr) are wrong.
 [[nodiscard]] SimulatedBelts with_four_bad_readings(std::uint64_t seed);
 

@@ -48,6 +48,6 @@ struct CaseFile {
 };
 
 /// \throws std::runtime_error with an unknown line.
-[[nodiscard]] CaseFile read_cases(const std::filesystem::path& path);
+CaseFile read_cases(const std::filesystem::path& path);
 
 }  // namespace chaintrue::testing_support

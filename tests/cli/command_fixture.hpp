@@ -41,9 +41,7 @@ class CommandFixture : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  [[nodiscard]] bool exists(const std::string& name) const {
-    return std::filesystem::exists(folder_ / name);
-  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
  private:
   TemporaryFolder temporary_;

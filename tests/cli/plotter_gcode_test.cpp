@@ -58,7 +58,7 @@ class HiddenPlotter {
     plotter_.weight_n = 0.4 * 9.80665;
   }
   /// For a command in the frame of the pins.
-  [[nodiscard]] generator::PenAtRest pen(double x_mm, double y_mm) const {
+  generator::PenAtRest pen(double x_mm, double y_mm) const {
     model::PlotterMachine set;
     set.pin_spacing_mm = kSpacingMm;
     const auto counted = model::paid_out(model::PlotterFirmware::marlin, set, {x_mm, y_mm});
@@ -78,7 +78,8 @@ std::vector<std::array<double, 2>> places_of(const std::string& program) {
   for (std::string line; std::getline(lines, line);) {
     const std::size_t x = line.find(" X"), y = line.find(" Y");
     if (!line.starts_with("G") || x == std::string::npos || y == std::string::npos) continue;
-    places.push_back({std::stod(line.substr(x + 2)) - kMiddleX, std::stod(line.substr(y + 2)) - kMiddleY});
+    places.push_back(
+        {std::stod(line.substr(x + 2)) - kMiddleX, std::stod(line.substr(y + 2)) - kMiddleY});
   }
   return places;
 }
@@ -96,7 +97,7 @@ class PlotterGcode : public testing_support::CommandFixture {
               .dump(1));
     done("fit drawing.json -o found.json");
   }
-  [[nodiscard]] std::array<double, 2> drawn(const std::array<double, 2>& command) const {
+  std::array<double, 2> drawn(const std::array<double, 2>& command) const {
     const auto pen = hidden_.pen(command[0], command[1]);
     return {pen.x_mm, pen.y_mm};
   }
@@ -136,12 +137,15 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
   EXPECT_NEAR(predicted["sides"]["left"]["length_mm"], apart(corners[0], corners[1]), 0.6);
   EXPECT_NEAR(predicted["sides"]["top"]["length_mm"], apart(corners[1], corners[2]), 0.6);
 
-  const Outcome made = done("gcode compensate square.gcode --map found.json -o true.gcode" + kSteep);
+  const Outcome made =
+      done("gcode compensate square.gcode --map found.json -o true.gcode" + kSteep);
   EXPECT_THAT(made.err, HasSubstr("Expect cuts within about 0."));
   const std::string compensated = content_of(folder_ / "true.gcode");
   EXPECT_THAT(compensated,
-              AllOf(HasSubstr(";compensated by chaintrue"), HasSubstr("\nG21\nG90\n"),
-                    HasSubstr("M280 P0 S30\n"), Not(HasSubstr("("))));
+              AllOf(HasSubstr(";compensated by chaintrue"),
+                    HasSubstr("\nG21\nG90\n"),
+                    HasSubstr("M280 P0 S30\n"),
+                    Not(HasSubstr("("))));
   // Corners stand where the pen goes up or down and where the direction turns: of each side the places
   // between lie on the line of its ends.
   std::vector<std::array<double, 2>> path;
@@ -160,9 +164,10 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
     const auto &a = path[turns[side]], &b = path[turns[side + 1]];
     found.push_back(a);
     for (std::size_t i = turns[side]; i < turns[side + 1]; ++i) {
-      bow = std::max(bow, std::abs((b[0] - a[0]) * (path[i][1] - a[1]) -
-                                   (b[1] - a[1]) * (path[i][0] - a[0])) /
-                              apart(a, b));
+      bow = std::max(
+          bow,
+          std::abs((b[0] - a[0]) * (path[i][1] - a[1]) - (b[1] - a[1]) * (path[i][0] - a[0])) /
+              apart(a, b));
     }
   }
   // The ruler's 0.3 mm on 24 measures give about this error.
@@ -186,7 +191,7 @@ TEST_F(PlotterGcode, FluidNcGetsTheSameProgram) {
   const Json lengths = Json::parse(there.out);
   const Json& first = lengths.is_array() ? lengths[0] : lengths;
   const Outcome back = done("query found.json --json --inverse " + first["left_mm"].dump() + " " +
-                           first["right_mm"].dump());
+                            first["right_mm"].dump());
   EXPECT_NEAR(Json::parse(back.out)["x_mm"], 600.0, 1e-5);  // lengths are printed to 1e-6 mm
   EXPECT_NEAR(Json::parse(back.out)["y_mm"], 200.0, 1e-5);
 }

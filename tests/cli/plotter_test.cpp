@@ -57,7 +57,7 @@ class HiddenMural {
     plotter_.mass_below_mm = kMassBelowMm;
   }
   /// Where the pen comes to rest for a command in the frame of the pins.
-  [[nodiscard]] generator::PenAtRest pen(const Typed& typed, double x_mm, double y_mm) const {
+  generator::PenAtRest pen(const Typed& typed, double x_mm, double y_mm) const {
     model::PlotterMachine set = model::mural(typed.top_distance_mm);
     set.pulley_radius_mm = 0.5 * typed.pulley_diameter_mm;
     set.gondola.standoff_mm = 0.0;
@@ -80,7 +80,10 @@ class HiddenMural {
 Json filled_in(const Json& drawing, const Typed& typed, double noise_mm, std::uint64_t seed) {
   const HiddenMural mural;
   return testing_support::ruled(
-      drawing, [&](double x_mm, double y_mm) { return mural.pen(typed, x_mm, y_mm); }, noise_mm, seed);
+      drawing,
+      [&](double x_mm, double y_mm) { return mural.pen(typed, x_mm, y_mm); },
+      noise_mm,
+      seed);
 }
 
 double largest_bow(const Json& drawing) {
@@ -101,12 +104,12 @@ double after(const std::string& text, const std::string& words) {
 class Plotter : public testing_support::CommandFixture {
  protected:
   /// The page of a plotter, planned by start.
-  [[nodiscard]] Json page_of(const Json& plotter, const std::string& folder) const {
+  Json page_of(const Json& plotter, const std::string& folder) const {
     write("plotter.json", plotter.dump(1));
     done("start plotter.json " + folder);
     return Json::parse(content_of(folder_ / folder / "drawing.json"));
   }
-  [[nodiscard]] Json first_drawing(std::uint64_t seed) const {
+  Json first_drawing(std::uint64_t seed) const {
     return filled_in(page_of(stiff_mural(), "first"), {}, 0.5, seed);
   }
   [[nodiscard]] Outcome fit(const Json& drawing) const {

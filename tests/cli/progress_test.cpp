@@ -94,7 +94,7 @@ struct Told {
       steps[step.number] = step;
     };
   }
-  [[nodiscard]] std::vector<int> numbers() const {
+  std::vector<int> numbers() const {
     std::vector<int> result;
     for (const auto& [number, step] : steps) result.push_back(number);
     return result;

@@ -101,7 +101,7 @@ class SettingsAfter : public testing_support::CommandFixture,
   }
 
   /// A session with the old numbers: places to 0.3 mm, lengths to 0.2.
-  [[nodiscard]] std::string measured() const {
+  std::string measured() const {
     testing_support::Random random(7);
     const auto off = [&](double sigma_mm) { return sigma_mm * random.normal(); };
     const bool commanded = GetParam() == Measured::commanded_marks;
@@ -125,7 +125,7 @@ class SettingsAfter : public testing_support::CommandFixture,
   }
 
   /// Rms of where the machine, whose controller holds the new numbers, drills the program.
-  [[nodiscard]] double true_error_mm(const std::string& program) const {
+  double true_error_mm(const std::string& program) const {
     const std::vector<BedPoint> commands = plunges(testing_support::content_of(folder_ / program));
     const std::vector<BedPoint> meant = drilled();
     EXPECT_EQ(commands.size(), meant.size());

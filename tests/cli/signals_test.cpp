@@ -16,7 +16,7 @@ namespace {
 
 class Signals : public testing_support::CommandFixture {
  protected:
-  [[nodiscard]] std::size_t files() const {
+  std::size_t files() const {
     const std::filesystem::directory_iterator all(folder_);
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }

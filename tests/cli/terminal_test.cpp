@@ -25,11 +25,12 @@ struct Seen {
 class Terminal : public testing_support::CommandFixture {
  protected:
   /// Runs the command on its own terminal; types Ctrl-C once `words` are there.
-  [[nodiscard]] Seen stopped_after(const std::string& words, const std::string& arguments) const {
+  Seen stopped_after(const std::string& words, const std::string& arguments) const {
     int terminal = -1;
     const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
     if (child == 0) {
-      const std::string line = "cd " + folder_.string() + " && exec " CHAINTRUE_COMMAND " " + arguments;
+      const std::string line =
+          "cd " + folder_.string() + " && exec " CHAINTRUE_COMMAND " " + arguments;
       ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
       ::_exit(127);
     }
@@ -52,8 +53,9 @@ TEST_F(Terminal, ControlCStopsAndClearsTheProgress) {
   done("fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o m.json");
   const Seen screen =
       stopped_after("s left", "gcode lengths b.nc --map m.json --every-mm 0.0002 -o l.csv");
-  EXPECT_THAT(screen.text,
-              ContainsRegex("gcode: [0-9]+ s, step 2 of 2, .*, [0-9]+ % done, about [0-9]+ s left"));
+  EXPECT_THAT(
+      screen.text,
+      ContainsRegex("gcode: [0-9]+ s, step 2 of 2, .*, [0-9]+ % done, about [0-9]+ s left"));
   EXPECT_TRUE(WIFSIGNALED(screen.status) && WTERMSIG(screen.status) == SIGINT) << screen.text;
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     EXPECT_THAT(entry.path().filename(), testing::AnyOf("b.nc", "m.json", "out.txt", "err.txt"));

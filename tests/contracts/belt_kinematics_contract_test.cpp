@@ -47,9 +47,9 @@ std::vector<BeltController> belt_controllers() {
 
 class BeltKinematicsLaws : public testing::TestWithParam<BeltController> {
  protected:
-  [[nodiscard]] const BeltMachine& machine() const { return GetParam().machine; }
+  const BeltMachine& machine() const { return GetParam().machine; }
   /// Positions over the frame, 250 mm within its anchors so that none is inside an arm.
-  [[nodiscard]] std::vector<FramePoint> places() const {
+  std::vector<FramePoint> places() const {
     constexpr unsigned kSeed = 20260918;
     RecordProperty("seed", kSeed);
     std::mt19937_64 random(kSeed);

@@ -76,17 +76,17 @@ std::vector<double> scaled(const Effect& effect, std::vector<double> values, dou
 
 class EffectContract : public ::testing::TestWithParam<Case> {
  protected:
-  [[nodiscard]] const Effect& effect() const { return *GetParam().effect; }
-  [[nodiscard]] EffectSide side() const { return GetParam().side; }
+  const Effect& effect() const { return *GetParam().effect; }
+  EffectSide side() const { return GetParam().side; }
   [[nodiscard]] AppliedEffect with(const std::vector<double>& values) const {
     return applied(effect(), side(), values);
   }
-  [[nodiscard]] Machine machine_with(const std::vector<AppliedEffect>& effects) const {
+  Machine machine_with(const std::vector<AppliedEffect>& effects) const {
     Machine machine = machine_for(effect());
     machine.effects = effects;
     return machine;
   }
-  [[nodiscard]] std::vector<double> seen_with(const std::vector<AppliedEffect>& effects) const {
+  std::vector<double> seen_with(const std::vector<AppliedEffect>& effects) const {
     return found(machine_with(effects), session());
   }
 };

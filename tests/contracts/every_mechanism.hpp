@@ -15,8 +15,8 @@
 
 #include "model/belts/belt_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
-#include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "tests/contracts/declared_examples.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
 #include "tests/support/belt_frame.hpp"
@@ -125,11 +125,12 @@ inline std::vector<Tested> every_mechanism() {
                  {1, 0}});
   for (const BeltLengths lengths :
        {BeltLengths::belt, BeltLengths::belt_and_arm, BeltLengths::span}) {
-    all.push_back({"belts_" + std::string(name(lengths)),
-                   [lengths] { return make_belt_mechanism(testing_support::stated(lengths), 20.0); },
-                   [lengths] { return make_belt_mechanism(four_belts_mirrored(lengths), 20.0); },
-                   kFrameWidthMm,
-                   {1, 0, 3, 2}});
+    all.push_back(
+        {"belts_" + std::string(name(lengths)),
+         [lengths] { return make_belt_mechanism(testing_support::stated(lengths), 20.0); },
+         [lengths] { return make_belt_mechanism(four_belts_mirrored(lengths), 20.0); },
+         kFrameWidthMm,
+         {1, 0, 3, 2}});
   }
   all.push_back({"toy",
                  [] { return std::make_shared<const ToyMechanism>(-1000.0, 1200.0); },
@@ -151,7 +152,7 @@ inline constexpr int kNominalVisit = 10;
 /// Where and when the laws are tried, and with which effects.
 class EveryMechanism : public testing::TestWithParam<Tested> {
  protected:
-  [[nodiscard]] std::vector<ToolPosition> positions(const Mechanism& mechanism) const {
+  std::vector<ToolPosition> positions(const Mechanism& mechanism) const {
     const MechanismExtent e = mechanism.extent();
     std::vector<ToolPosition> all;
     for (const double y : {0.05, 0.37, 0.61, 0.93}) {
@@ -164,7 +165,7 @@ class EveryMechanism : public testing::TestWithParam<Tested> {
   }
   /// The first visit; the one at which effects of one visit act; a later one for which a length was
   /// taken in, and one at which a length was pulled.
-  [[nodiscard]] std::vector<MechanismVisit> visits(const Mechanism& mechanism) const {
+  std::vector<MechanismVisit> visits(const Mechanism& mechanism) const {
     const std::size_t n = mechanism.lengths().size();
     std::vector<double> taken_in(n, 1.0);
     std::vector<bool> pulled(n, false);
@@ -173,7 +174,7 @@ class EveryMechanism : public testing::TestWithParam<Tested> {
     return {{}, {kNominalVisit, {}, {}}, {40, taken_in, {}}, {41, {}, pulled}};
   }
   /// Those that the mechanism can have.
-  [[nodiscard]] static std::vector<AppliedEffect> effects_at(
+  static std::vector<AppliedEffect> effects_at(
       const Mechanism& mechanism,
       const std::function<double(const effects::EffectParameter&)>& of) {
     std::vector<AppliedEffect> all;
@@ -187,16 +188,16 @@ class EveryMechanism : public testing::TestWithParam<Tested> {
     }
     return all;
   }
-  [[nodiscard]] static std::vector<AppliedEffect> nominal_effects(const Mechanism& mechanism) {
+  static std::vector<AppliedEffect> nominal_effects(const Mechanism& mechanism) {
     return effects_at(mechanism, [](const auto& p) { return p.nominal; });
   }
-  [[nodiscard]] static std::vector<AppliedEffect> null_effects(const Mechanism& mechanism) {
+  static std::vector<AppliedEffect> null_effects(const Mechanism& mechanism) {
     return effects_at(mechanism, [](const auto& p) {
       return p.role == effects::ParameterRole::size ? p.null : p.nominal;
     });
   }
   /// Without an effect, and with each at its nominal values.
-  [[nodiscard]] static std::vector<WithEffect> in_every_state(const MechanismPtr& mechanism) {
+  static std::vector<WithEffect> in_every_state(const MechanismPtr& mechanism) {
     std::vector<WithEffect> all = {{"without effects", mechanism}};
     for (const AppliedEffect& effect : nominal_effects(*mechanism))
       all.push_back({effect.effect + ":" + effect.side, mechanism->with_effects({effect})});

@@ -72,8 +72,8 @@ std::vector<Kind> kinds() {
 
 class KinematicsLaws : public testing::TestWithParam<Kind> {
  protected:
-  [[nodiscard]] const EquilibriumParameters& parameters() const { return GetParam().parameters; }
-  [[nodiscard]] std::unique_ptr<const Kinematics> make(const EquilibriumParameters& p) const {
+  const EquilibriumParameters& parameters() const { return GetParam().parameters; }
+  std::unique_ptr<const Kinematics> make(const EquilibriumParameters& p) const {
     return make_kinematics(p, GetParam().model);
   }
   std::unique_ptr<const Kinematics> kinematics_ =
@@ -139,14 +139,8 @@ std::vector<Knob> knobs() {
     return [side, axis](P& p) -> double& { return p.motors[side].*axis; };
   };
   return {
-      {Parameter::motor_left_x_mm,
-       "motor_left_x_mm",
-       4.0,
-       motor(Side::left, &MotorPosition::x_mm)},
-      {Parameter::motor_left_y_mm,
-       "motor_left_y_mm",
-       4.0,
-       motor(Side::left, &MotorPosition::y_mm)},
+      {Parameter::motor_left_x_mm, "motor_left_x_mm", 4.0, motor(Side::left, &MotorPosition::x_mm)},
+      {Parameter::motor_left_y_mm, "motor_left_y_mm", 4.0, motor(Side::left, &MotorPosition::y_mm)},
       {Parameter::motor_right_x_mm,
        "motor_right_x_mm",
        4.0,
@@ -159,18 +153,9 @@ std::vector<Knob> knobs() {
        "ring_radius_mm",
        4.0,
        [](P& p) -> double& { return std::get<Ring>(p.attachment).radius_mm; }},
-      {Parameter::sprocket_radius_mm,
-       "sprocket_radius_mm",
-       1.0,
-       &P::sprocket_radius_mm},
-      {Parameter::sled_weight_n,
-       "sled_weight_n",
-       1.0,
-       &P::sled_weight_n},
-      {Parameter::chain_weight_n_per_mm,
-       "chain_weight_n_per_mm",
-       1e-4,
-       &P::chain_weight_n_per_mm},
+      {Parameter::sprocket_radius_mm, "sprocket_radius_mm", 1.0, &P::sprocket_radius_mm},
+      {Parameter::sled_weight_n, "sled_weight_n", 1.0, &P::sled_weight_n},
+      {Parameter::chain_weight_n_per_mm, "chain_weight_n_per_mm", 1e-4, &P::chain_weight_n_per_mm},
       {Parameter::chain_compliance_per_n,
        "chain_compliance_per_n",
        1e-6,
@@ -179,10 +164,7 @@ std::vector<Knob> knobs() {
        "beam_flexibility_mm_per_n",
        0.002,
        &P::beam_flexibility_mm_per_n},
-      {Parameter::side_force_n,
-       "side_force_n",
-       1.0,
-       &P::side_force_n},
+      {Parameter::side_force_n, "side_force_n", 1.0, &P::side_force_n},
   };
 }
 
@@ -210,8 +192,7 @@ TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
         return vector(make(changed)->inverse(p).value().lengths);
       };
       const Eigen::Vector2d expected = difference(at, knob.step);
-      const auto chains =
-          kinematics->by_parameter(kinematics->inverse(p).value(), knob.parameter);
+      const auto chains = kinematics->by_parameter(kinematics->inverse(p).value(), knob.parameter);
       const Eigen::Vector2d found(chains.left.length_mm.d[0], chains.right.length_mm.d[0]);
       // Rounding of 3e-12 mm over the narrowest step; h^6 of the curve, small against the change
       // itself.

@@ -14,7 +14,7 @@ namespace {
 class MechanismEffectsContract : public EveryMechanism {
  protected:
   /// The largest change of a length, over all places and visits.
-  [[nodiscard]] double most_added(const Mechanism& mechanism, const AppliedEffect& effect) const {
+  double most_added(const Mechanism& mechanism, const AppliedEffect& effect) const {
     double most = 0.0;
     for (const MechanismVisit& visit : visits(mechanism)) {
       for (const ToolPosition& q : positions(mechanism)) {
@@ -61,7 +61,8 @@ TEST_P(MechanismEffectsContract, EffectsAreDescribed) {
                                          effect->typical,
                                          effect->remedy}) {
       EXPECT_FALSE(words.empty());
-      EXPECT_EQ(words.find('|'), std::string_view::npos) << "breaks a table of documents: " << words;
+      EXPECT_EQ(words.find('|'), std::string_view::npos)
+          << "breaks a table of documents: " << words;
     }
     EXPECT_FALSE(effect->sides.empty());
     ASSERT_FALSE(effect->parameters.empty());

@@ -15,12 +15,12 @@
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "grid/random.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/holes.hpp"
-#include "grid/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
-#include "model/reading_model.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
+#include "model/reading_model.hpp"
 #include "tests/support/belt_frame.hpp"
 
 namespace chaintrue::grid::observation {
@@ -211,7 +211,7 @@ const std::map<std::string_view, Simulate>& simulations() {
 
 class EveryObservation : public testing::TestWithParam<const Kind*> {
  protected:
-  [[nodiscard]] std::shared_ptr<const Observation> simulated(const Wanted& wanted = {}) const {
+  std::shared_ptr<const Observation> simulated(const Wanted& wanted = {}) const {
     const auto found = simulations().find(GetParam()->id);
     if (found == simulations().end()) {
       throw std::logic_error("no simulation of " + std::string(GetParam()->id));
@@ -283,9 +283,9 @@ TEST_P(EveryObservation, DerivativesBySettingAreDifferences) {
 class AtOnePlace final : public LengthCorrection {
  public:
   AtOnePlace(model::MarkPoint centre, model::ChainLengths c) : centre_(centre), c_(c) {}
-  [[nodiscard]] At at(model::MarkPoint mark,
-                      model::ChainLengths lengths,
-                      const Eigen::Matrix2d& by_mark) const override {
+  At at(model::MarkPoint mark,
+        model::ChainLengths lengths,
+        const Eigen::Matrix2d& by_mark) const override {
     const bool near = std::hypot(mark.x_mm - centre_.x_mm, mark.y_mm - centre_.y_mm) < 50.0;
     if (near) lengths = {lengths.left_mm + c_.left_mm, lengths.right_mm + c_.right_mm};
     return {lengths, by_mark};

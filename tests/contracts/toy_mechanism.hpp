@@ -23,16 +23,14 @@ class ToyMechanism final : public Mechanism {
                      {"right_nail_x_mm", "mm", right_x_mm, std::nullopt},
                      {"zero_mm", "mm", zero_mm, 2.0, true}}} {}
 
-  [[nodiscard]] std::string_view kind() const override { return "toy"; }
-  [[nodiscard]] std::span<const std::string_view> lengths() const override {
+  std::string_view kind() const override { return "toy"; }
+  std::span<const std::string_view> lengths() const override {
     static constexpr std::array<std::string_view, 3> kLengths = {"west", "east", "middle"};
     return kLengths;
   }
-  [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
-    return parameters_;
-  }
-  [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
-  [[nodiscard]] MechanismExtent extent() const override { return {-600.0, 600.0, -1500.0, -500.0}; }
+  std::span<const MechanismParameter> parameters() const override { return parameters_; }
+  const Eigen::VectorXd& values() const override { return values_; }
+  MechanismExtent extent() const override { return {-600.0, 600.0, -1500.0, -500.0}; }
   [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
       const Eigen::VectorXd& values) const override {
     if (values.size() != 3) throw std::invalid_argument("two nails and a zero");
@@ -40,7 +38,7 @@ class ToyMechanism final : public Mechanism {
     changed->values_ = values;
     return changed;
   }
-  [[nodiscard]] std::span<const effects::Effect* const> effects() const override {
+  std::span<const effects::Effect* const> effects() const override {
     static constexpr std::array<const effects::Effect*, 1> kEffects = {&kKnot};
     return kEffects;
   }
@@ -90,7 +88,7 @@ class ToyMechanism final : public Mechanism {
     return locate_by_newton(*this, lengths_mm, visit, extent().centre());
   }
   /// The nails.
-  [[nodiscard]] std::vector<FixedPoint> fixed_points() const override {
+  std::vector<FixedPoint> fixed_points() const override {
     std::vector<FixedPoint> nails;
     for (const Eigen::Index i : {0, 1}) {
       nails.push_back({lengths()[static_cast<std::size_t>(i)],

@@ -10,9 +10,9 @@
 #include <set>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/random.hpp"
 #include "interp/linear_algebra.hpp"
 #include "tests/diagnosis/sessions.hpp"
@@ -48,7 +48,8 @@ bool is_silent(const Alternatives& alternatives, const Rows& rows) {
 /// Applies `law` to the sessions of these seeds that end with a set of causes, until it has had
 /// `most` that ask its question.
 template <class Session, class Law>
-void with_named_sets(std::uint64_t first, std::uint64_t last, int most, const Session& session, const Law& law) {
+void with_named_sets(
+    std::uint64_t first, std::uint64_t last, int most, const Session& session, const Law& law) {
   int sets = 0;
   for (std::uint64_t seed = first; seed <= last && sets < most; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
@@ -115,9 +116,7 @@ std::vector<double> posterior(const Alternatives& alternatives,
 }
 
 /// How often the correct group is then named alone, by simulated readings.
-double drawn_named_alone(const Alternatives& alternatives,
-                         const Rows& rows,
-                         std::uint64_t seed) {
+double drawn_named_alone(const Alternatives& alternatives, const Rows& rows, std::uint64_t seed) {
   Random random(seed, 1);
   constexpr int kDraws = 2000;
   double named = 0.0;
@@ -174,7 +173,7 @@ class WithCandidate {
     }
   }
 
-  [[nodiscard]] Measured read(const Candidate& candidate, const Alternative& truth) const {
+  Measured read(const Candidate& candidate, const Alternative& truth) const {
     const NextMeasurement& what = candidate.measurement;
     const Eigen::VectorXd read = readings(candidate.rows, truth);
     // The mix has one file of each kind.
@@ -197,11 +196,11 @@ class WithCandidate {
   }
 
  private:
-  [[nodiscard]] Eigen::VectorXd readings(const Rows& rows, const Alternative& truth) const {
+  Eigen::VectorXd readings(const Rows& rows, const Alternative& truth) const {
     const int number = system_.unit_of_row[static_cast<std::size_t>(rows.front())];
     if (number < 0) {
-      const auto own = std::find_if(
-          system_.certain.begin(), system_.certain.end(), [&](const SystemUnit& unit) {
+      const auto own =
+          std::find_if(system_.certain.begin(), system_.certain.end(), [&](const SystemUnit& unit) {
             return unit.first_row == rows.front();
           });
       return predicted_(rows) + own->sigma() * truth.mean(rows);
@@ -298,27 +297,31 @@ std::vector<std::size_t> ends_of_kinds(const NextCandidates& next,
 // of any other kind, when the reading predicted by each alternative is added to the files and
 // everything is estimated again.
 TEST(NextMeasurements, ChooseTheMostDecisiveOfAMix) {
-  with_named_sets(2, 3, 2, mixed, [](auto& measured, auto& a, auto& next, auto& alternatives, auto) {
-    if (a.decision.regressors.size() != 1) return false;
-    const WithCandidate with(measured, a, next);
-    const std::vector<std::size_t> tried = ends_of_kinds(next, alternatives);
-    const NextMeasurement chosen = next_measurements(a).front();
-    EXPECT_EQ(what_of(chosen), what_of(next.all[tried.front()].measurement));
-    std::vector<double> left;
-    for (const std::size_t c : tried) {
-      left.push_back(0.0);
-      for (const Alternative& truth : alternatives) {
-        left.back() +=
-            truth.probability * confusion_left(with.read(next.all[c], truth), a, alternatives);
-      }
-      // The reading at its expected value represents the mean over all possible readings.
-      const double prediction = expected_discrimination(alternatives, next.all[c].rows).confusion;
-      EXPECT_NEAR(left.back(), prediction, 0.2 * prediction) << what_of(next.all[c].measurement);
-    }
-    // Equal if two are equally good.
-    EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end())) << what_of(chosen);
-    return true;
-  });
+  with_named_sets(
+      2, 3, 2, mixed, [](auto& measured, auto& a, auto& next, auto& alternatives, auto) {
+        if (a.decision.regressors.size() != 1) return false;
+        const WithCandidate with(measured, a, next);
+        const std::vector<std::size_t> tried = ends_of_kinds(next, alternatives);
+        const NextMeasurement chosen = next_measurements(a).front();
+        EXPECT_EQ(what_of(chosen), what_of(next.all[tried.front()].measurement));
+        std::vector<double> left;
+        for (const std::size_t c : tried) {
+          left.push_back(0.0);
+          for (const Alternative& truth : alternatives) {
+            left.back() +=
+                truth.probability * confusion_left(with.read(next.all[c], truth), a, alternatives);
+          }
+          // The reading at its expected value represents the mean over all possible readings.
+          const double prediction =
+              expected_discrimination(alternatives, next.all[c].rows).confusion;
+          EXPECT_NEAR(left.back(), prediction, 0.2 * prediction)
+              << what_of(next.all[c].measurement);
+        }
+        // Equal if two are equally good.
+        EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end()))
+            << what_of(chosen);
+        return true;
+      });
 }
 
 }  // namespace

@@ -91,7 +91,8 @@ class FullSearch {
   FullSearch(const RegressorSystem& system, const std::vector<int>& set)
       : system_(system), groups_(system.groups) {
     if (groups_.empty()) {
-      for (const SystemUnit& unit : system.units) groups_.push_back({unit.first_row, unit.rows, {}});
+      for (const SystemUnit& unit : system.units)
+        groups_.push_back({unit.first_row, unit.rows, {}});
     }
     const Eigen::MatrixXd scaled = system.by_setting * system.sigma.asDiagonal();
     covariance_ = scaled * scaled.transpose();
@@ -105,7 +106,7 @@ class FullSearch {
   }
 
   /// Without the rows or directions of the outliers.
-  [[nodiscard]] Weighed weighed(const std::vector<bool>& outliers) const {
+  Weighed weighed(const std::vector<bool>& outliers) const {
     Eigen::MatrixXd gone = Eigen::MatrixXd::Zero(residual_.size(), residual_.size());
     for (std::size_t k = 0; k < groups_.size(); ++k) {
       if (!outliers[k]) continue;
@@ -127,7 +128,7 @@ class FullSearch {
   }
 
   /// The best of the nested sets.
-  [[nodiscard]] std::vector<bool> best() const {
+  std::vector<bool> best() const {
     std::vector<bool> outliers = none();
     std::vector<bool> best = outliers;
     double most = weight(outliers);
@@ -142,8 +143,8 @@ class FullSearch {
         std::vector<bool> without = outliers;
         without[k] = true;
         const Weighed left = weighed(without);
-        const double own = before.quadratic - left.quadratic +
-                           2.0 * log_price_of_outlier(before.rows - left.rows);
+        const double own =
+            before.quadratic - left.quadratic + 2.0 * log_price_of_outlier(before.rows - left.rows);
         // Several readings of a position with one outlier are the same direction, to rounding.
         if (own > gain + 1e-9 * (1.0 + left.quadratic)) {
           gain = own;
@@ -160,18 +161,22 @@ class FullSearch {
   }
 
  private:
-  [[nodiscard]] std::vector<bool> none() const { return std::vector<bool>(groups_.size(), false); }
+  std::vector<bool> none() const { return std::vector<bool>(groups_.size(), false); }
 
   /// Two directions of a position are all of it.
   void reject(std::size_t group, std::vector<bool>& outliers) const {
-    const auto is_there = [&](std::size_t k) { return groups_[k].first_row == groups_[group].first_row; };
+    const auto is_there = [&](std::size_t k) {
+      return groups_[k].first_row == groups_[group].first_row;
+    };
     bool is_second = false;
-    for (std::size_t k = 0; k < groups_.size(); ++k) is_second = is_second || (outliers[k] && is_there(k));
+    for (std::size_t k = 0; k < groups_.size(); ++k)
+      is_second = is_second || (outliers[k] && is_there(k));
     outliers[group] = true;
-    for (std::size_t k = 0; k < groups_.size(); ++k) outliers[k] = outliers[k] || (is_second && is_there(k));
+    for (std::size_t k = 0; k < groups_.size(); ++k)
+      outliers[k] = outliers[k] || (is_second && is_there(k));
   }
 
-  [[nodiscard]] double weight(const std::vector<bool>& outliers) const {
+  double weight(const std::vector<bool>& outliers) const {
     const Weighed w = weighed(outliers);
     return NoiseDensity(system_.noise_dof, w.rows).log_density(w.quadratic) - 0.5 * w.log_det +
            log_price_of_outliers(system_, outliers);

@@ -44,7 +44,7 @@ class Profile {
       systems_.push_back(linearise(a.session, moved_.back()).value());
     }
   }
-  [[nodiscard]] double square_at(double place) const {
+  double square_at(double place) const {
     const std::vector<double> values = {size_, place};
     const Eigen::VectorXd g = signature(a_.session, a_.state, a_.system, {cause_, values}).value();
     const Eigen::Index n = g.size();
@@ -53,7 +53,8 @@ class Profile {
     Eigen::VectorXd right(n + q);
     for (Eigen::Index j = 0; j < q; ++j) {
       const auto k = static_cast<std::size_t>(j);
-      const Eigen::VectorXd there = signature(a_.session, moved_[k], systems_[k], {cause_, values}).value();
+      const Eigen::VectorXd there =
+          signature(a_.session, moved_[k], systems_[k], {cause_, values}).value();
       rows.col(j).head(n) = a_.system.by_setting.col(j) + (there - g) / steps_[k];
       rows(n + j, j) = 1.0 / a_.system.sigma[j];
       right[n + j] = a_.system.expected_change[j] / a_.system.sigma[j];
@@ -105,7 +106,8 @@ void expect_width_of_profile(const PlacedCause& own) {
   const ParameterEstimate& place = cause.parameters.back();
   ASSERT_EQ(place.parameter, own.place);
   const Profile profile(analysed, cause.cause, size.value);
-  const double width = half_width(profile, place.value, place.sigma, analysed.estimate.noise_square);
+  const double width =
+      half_width(profile, place.value, place.sigma, analysed.estimate.noise_square);
   // The sigma is that of the curvature at the best place: a wave's cosine and a knee's next readings bend it.
   EXPECT_NEAR(width / place.sigma, 1.0, 0.2);
 }
@@ -115,9 +117,10 @@ TEST(PlaceSigma, EqualsTheWidthOfTheProfileLikelihood) {
       {"sprocket_eccentricity",
        "phase_rad",
        {"sprocket_eccentricity", "left", {{"amplitude_mm", 2.0}, {"phase_rad", 1.3}}}});
-  expect_width_of_profile({"angular_kink",
-                           "knee_rad",
-                           {"angular_kink", "right", {{"slope_mm_per_rad", 12.0}, {"knee_rad", 0.7}}}});
+  expect_width_of_profile(
+      {"angular_kink",
+       "knee_rad",
+       {"angular_kink", "right", {{"slope_mm_per_rad", 12.0}, {"knee_rad", 0.7}}}});
 }
 
 }  // namespace

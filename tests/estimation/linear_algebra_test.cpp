@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "interp/linear_algebra_kernels.hpp"
 #include "grid/random.hpp"
+#include "interp/linear_algebra_kernels.hpp"
 
 namespace chaintrue::linear {
 namespace {
@@ -38,7 +38,8 @@ class Draws {
 
   MatrixXd definite(Index n) {
     const MatrixXd root = matrix(n, n);
-    return MatrixXd::Identity(n, n) + root * root.transpose() / std::max<double>(1.0, static_cast<double>(n));
+    return MatrixXd::Identity(n, n) +
+           root * root.transpose() / std::max<double>(1.0, static_cast<double>(n));
   }
 
  private:
@@ -116,10 +117,9 @@ TEST_F(LinearAlgebra, ProductAddsToABlockFromBlocks) {
   MatrixXd symmetric = outer(before);
   add_outer(symmetric, 0.3, a.topRows(16));
   add_outer(symmetric, -0.1, VectorXd(a.col(0).head(16)));
-  expect_near(symmetric,
-              square_of(before) +
-                  0.3 * square_of(a.topRows(16)) -
-                  0.1 * square_of(a.col(0).head(16)));
+  expect_near(
+      symmetric,
+      square_of(before) + 0.3 * square_of(a.topRows(16)) - 0.1 * square_of(a.col(0).head(16)));
 }
 
 TEST_F(LinearAlgebra, ProductRefusesSizesThatDoNotFit) {
@@ -188,7 +188,8 @@ TEST_F(LinearAlgebra, PivotedCholeskySolvesSemidefiniteSystems) {
   // An undetermined unknown stays 0.
   MatrixXd m = identity(3);
   m(1, 1) = 0.0;
-  expect_near(PivotedCholesky(m).solve(VectorXd(VectorXd::Ones(3))), Eigen::Vector3d(1.0, 0.0, 1.0));
+  expect_near(PivotedCholesky(m).solve(VectorXd(VectorXd::Ones(3))),
+              Eigen::Vector3d(1.0, 0.0, 1.0));
   EXPECT_EQ(PivotedCholesky(m).root(0.5).cols(), 2);
 }
 
@@ -286,12 +287,12 @@ class Placed {
     data_ = memory_.data() + (4 - address % 4) % 4 + offset;
     map() = m;
   }
-  [[nodiscard]] Eigen::Map<MatrixXd> map() { return {data_, rows_, columns_}; }
-  [[nodiscard]] kernels::Input input(bool transposed = false) const {
+  Eigen::Map<MatrixXd> map() { return {data_, rows_, columns_}; }
+  kernels::Input input(bool transposed = false) const {
     return {data_, rows_, columns_, rows_, transposed};
   }
-  [[nodiscard]] kernels::Output output() const { return {data_, rows_, columns_, rows_}; }
-  [[nodiscard]] double* data() const { return data_; }
+  kernels::Output output() const { return {data_, rows_, columns_, rows_}; }
+  double* data() const { return data_; }
 
  private:
   std::vector<double> memory_;
@@ -308,7 +309,8 @@ VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
   const MatrixXd definite = draws.definite(n);
   std::vector<double> all;
   const auto keep = [&all](Placed& m, bool lower = false) {
-    const MatrixXd kept = lower ? MatrixXd(m.map().triangularView<Eigen::Lower>()) : MatrixXd(m.map());
+    const MatrixXd kept =
+        lower ? MatrixXd(m.map().triangularView<Eigen::Lower>()) : MatrixXd(m.map());
     all.insert(all.end(), kept.data(), kept.data() + kept.size());
   };
   for (const bool is_transposed : {false, true}) {
@@ -316,7 +318,8 @@ VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
     table.add_product(c.output(), 0.7, a.input(is_transposed), b.input());
     keep(c);
     Placed one(columns.col(0), offset);
-    table.add_product(one.output(), 0.7, a.input(is_transposed), Placed(columns.col(1), offset).input());
+    table.add_product(
+        one.output(), 0.7, a.input(is_transposed), Placed(columns.col(1), offset).input());
     keep(one);
     Placed square(definite, offset);
     table.add_square(square.output(), -0.2, a.input(is_transposed));
@@ -356,7 +359,8 @@ TEST_F(LinearAlgebra, KernelsAgreeWithTheBaseline) {
     SCOPED_TRACE(n);
     const VectorXd slow = answers_of(kernels::baseline, n, 0);
     // 1e-9 is what the answers of a program may differ by from one processor to another.
-    EXPECT_LT(largest((answers_of(*fast, n, 0) - slow).array() / slow.array().abs().max(1.0)), 1e-9);
+    EXPECT_LT(largest((answers_of(*fast, n, 0) - slow).array() / slow.array().abs().max(1.0)),
+              1e-9);
   }
 }
 

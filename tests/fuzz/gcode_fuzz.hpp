@@ -12,16 +12,16 @@
 namespace chaintrue::gcode::fuzz {
 
 /// Runs the bytes through the pipeline; returns what is wrong with the outcome, empty if nothing.
-[[nodiscard]] std::string run(const std::string& program);
+std::string run(const std::string& program);
 
 /// Mutates programs of a corpus: bytes, words, lines, and words of other programs.
 class Mutator {
  public:
   Mutator(std::vector<std::string> corpus, std::uint64_t seed);
-  [[nodiscard]] std::string next();
+  std::string next();
 
  private:
-  [[nodiscard]] std::size_t below(std::size_t bound) {
+  std::size_t below(std::size_t bound) {
     return bound == 0 ? 0 : static_cast<std::size_t>(random_() % bound);
   }
   void mutate_bytes(std::string& text);
@@ -33,6 +33,6 @@ class Mutator {
 };
 
 /// Small programs that cover every part of the language.
-[[nodiscard]] std::vector<std::string> seeds();
+std::vector<std::string> seeds();
 
 }  // namespace chaintrue::gcode::fuzz

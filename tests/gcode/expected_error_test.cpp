@@ -25,7 +25,7 @@ class HalvesMap final : public StubMap {
     return grid::LengthsAnswer{
         Eigen::Vector2d(p.x_mm, p.y_mm), {}, p.x_mm < 0.0 ? 0.1 : 0.3, status(p)};
   }
-  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint p) const override {
+  Eigen::Matrix2Xd tool_spread(model::BedPoint p) const override {
     return Eigen::Vector2d(p.x_mm < 0.0 ? 0.1 : 0.3, 0.0);
   }
   [[nodiscard]] grid::MapStatus status(model::BedPoint p) const override {

@@ -21,8 +21,8 @@ class StubMap : public grid::LengthMap {
   [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
     return grid::MapStatus::inside;
   }
-  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
-  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
+  std::span<const std::string_view> length_names() const override { return {}; }
+  const interp::Rectangle& domain() const override { return domain_; }
 
  private:
   interp::Rectangle domain_;

@@ -53,7 +53,7 @@ TEST(Sha256, DoesNotDependOnTheChunks) {
 class Sources : public testing::Test {
  protected:
   Sources() { forget_sources(); }
-  [[nodiscard]] std::string path(const std::string& name, const std::string& text) const {
+  std::string path(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
   }

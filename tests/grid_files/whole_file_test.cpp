@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 class WholeFile : public ::testing::Test {
  protected:
-  [[nodiscard]] std::size_t files_in_folder() const {
+  std::size_t files_in_folder() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
@@ -49,10 +49,8 @@ TEST_F(WholeFile, RoundTrips) {
 }
 
 TEST_F(WholeFile, UnreadableIsNamed) {
-  EXPECT_THAT(
-      refusal_of([&] { (void)read_whole_file(folder_ / "none"); }),
-      HasSubstr(
-          "There is no file "));
+  EXPECT_THAT(refusal_of([&] { (void)read_whole_file(folder_ / "none"); }),
+              HasSubstr("There is no file "));
   EXPECT_THAT(refusal_of([&] { (void)read_whole_file(folder_); }),
               HasSubstr("found a directory, expected a file"));
 }

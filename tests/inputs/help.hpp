@@ -20,8 +20,8 @@ struct Option {
 using Help = std::function<std::string(const std::string& verb)>;
 
 /// "fit", "gcode check", ...
-[[nodiscard]] std::vector<std::string> verbs_in(const Help& help);
+std::vector<std::string> verbs_in(const Help& help);
 /// The options of one of them, without --help itself.
-[[nodiscard]] std::vector<Option> options_in(const std::string& help);
+std::vector<Option> options_in(const std::string& help);
 
 }  // namespace chaintrue::inputs

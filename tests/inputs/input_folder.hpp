@@ -22,7 +22,7 @@ struct Ran {
 using Rows = std::vector<std::vector<std::string>>;
 /// The cells, between tabs, of a table in tests/; its lines with # are comments. Empty last cells may lack.
 /// \throws std::runtime_error without the table.
-[[nodiscard]] Rows rows_of(const std::string& table);
+Rows rows_of(const std::string& table);
 
 class InputFolder {
  public:
@@ -32,8 +32,8 @@ class InputFolder {
   /// Commands with "; " between, in one empty folder; "@" begins the name of a file of this folder.
   /// Returns how the last one ended and all files that were written. Throws if a file that is named
   /// cannot be made.
-  [[nodiscard]] Ran run(const std::string& lines) const;
-  [[nodiscard]] std::string text_of(const std::string& file) const;
+  Ran run(const std::string& lines) const;
+  std::string text_of(const std::string& file) const;
   void write(const std::string& file, const std::string& text) const;
   /// Further files that the command makes: a table of the lines, each with its "-o @name" at the end.
   void add_made_files(const std::string& table);
@@ -46,8 +46,6 @@ class InputFolder {
 };
 
 /// With `by` for every `what`.
-[[nodiscard]] std::string replaced(std::string text,
-                                   const std::string& what,
-                                   const std::string& by);
+std::string replaced(std::string text, const std::string& what, const std::string& by);
 
 }  // namespace chaintrue::inputs

@@ -19,12 +19,12 @@ struct Invocation {
   cli::Facts facts;  ///< what options depend on (tools/cli/arguments.hpp)
   std::string line;
 };
-[[nodiscard]] const std::vector<Invocation>& invocations();
+const std::vector<Invocation>& invocations();
 
 /// The first rule of the command that refuses the option there; null where it acts.
-[[nodiscard]] inline const cli::OptionRule* refusal_of(std::string_view verb,
-                                                       std::string_view option,
-                                                       cli::Facts facts) {
+inline const cli::OptionRule* refusal_of(std::string_view verb,
+                                         std::string_view option,
+                                         cli::Facts facts) {
   static const std::vector<cli::OptionRule> rules = cli::option_rules();
   for (const cli::OptionRule& rule : rules) {
     if (rule.verb == verb && rule.option == option && (rule.acts_on & facts) == 0) return &rule;
@@ -33,6 +33,6 @@ struct Invocation {
 }
 
 /// The option's row of values.tsv; empty without one.
-[[nodiscard]] const std::vector<std::string>& values_of(const std::string& option);
+const std::vector<std::string>& values_of(const std::string& option);
 
 }  // namespace chaintrue::inputs

@@ -24,8 +24,10 @@ TEST(TensorSpline, OfDegreeFiveBeatsTheBicubicOnSmoothDataAsTheStudyFound) {
   const auto x = even(kBed.x_min, kBed.x_max, 13);
   const auto y = even(kBed.y_min, kBed.y_max, 7);
   const auto truth = [](double a, double b) { return truths::wrapped_chain(a, b, 1.0); };
-  const TensorSpline surface(std::make_shared<TensorAxes>(x, y, TensorEnds{}, 5), sample(x, y, truth));
-  EXPECT_NEAR(truths::largest_error(surface, truth), 0.0558, 0.0005);  // the study's figure, three digits
+  const TensorSpline surface(std::make_shared<TensorAxes>(x, y, TensorEnds{}, 5),
+                             sample(x, y, truth));
+  EXPECT_NEAR(
+      truths::largest_error(surface, truth), 0.0558, 0.0005);  // the study's figure, three digits
 }
 
 TEST(MissingNodes, FillSumsOverTheAxesAndCubicsExactly) {
@@ -80,10 +82,10 @@ TEST(MissingNodes, UnreachableOnesLeaveTheGridUnfilled) {
 
 class Tilted final : public Surface {
  public:
-  [[nodiscard]] ValueGradient at(double x, double y) const override {
+  ValueGradient at(double x, double y) const override {
     return {1 + x * x + 0.5 * x * y + std::sin(y), 2 * x + 0.5 * y, 0.5 * x + std::cos(y)};
   }
-  [[nodiscard]] Rectangle domain() const override { return {-1, 1, -1, 1}; }
+  Rectangle domain() const override { return {-1, 1, -1, 1}; }
 };
 
 TEST(ConvexHull, HoldsItsPointsAndFindsTheNearest) {

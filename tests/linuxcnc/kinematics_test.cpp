@@ -31,7 +31,8 @@ class Module {
     const std::string c = folder_ / "chaintrue_kins.c", library = folder_ / "chaintrue_kins.so";
     write_whole_file(c, source);
     std::string line = CHAINTRUE_COMPILER;
-    line += " -x c -std=c99 -Wall -Wextra -Werror -pedantic -Wno-unused-function -O1 -shared -fPIC -I";
+    line +=
+        " -x c -std=c99 -Wall -Wextra -Werror -pedantic -Wno-unused-function -O1 -shared -fPIC -I";
     line += CHAINTRUE_LINUXCNC_STUB;
     line += " -o ";
     line += library;
@@ -45,16 +46,16 @@ class Module {
   }
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;
-  [[nodiscard]] bool is_loaded() const { return handle_ != nullptr; }
-  [[nodiscard]] int inverse(double x, double y, double z, double joints[3]) const {
+  bool is_loaded() const { return handle_ != nullptr; }
+  int inverse(double x, double y, double z, double joints[3]) const {
     EmcPose pose{};
     pose.tran = {x, y, z};
     return function<decltype(&call_inverse)>("kinematicsInverse")(&pose, joints, nullptr, nullptr);
   }
-  [[nodiscard]] int forward(const double joints[3], EmcPose& pose) const {
+  int forward(const double joints[3], EmcPose& pose) const {
     return function<decltype(&call_forward)>("kinematicsForward")(joints, &pose, nullptr, nullptr);
   }
-  [[nodiscard]] int start() const { return function<int (*)()>("rtapi_app_main")(); }
+  int start() const { return function<int (*)()>("rtapi_app_main")(); }
 
  private:
   static int call_inverse(const EmcPose*,
@@ -66,7 +67,7 @@ class Module {
                           const KINEMATICS_FORWARD_FLAGS*,
                           KINEMATICS_INVERSE_FLAGS*);
   template <class Function>
-  [[nodiscard]] Function function(const char* name) const {
+  Function function(const char* name) const {
     return reinterpret_cast<Function>(dlsym(handle_, name));
   }
 
@@ -94,9 +95,8 @@ TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
     ASSERT_EQ(module.inverse(x, y, -3.5, joints), 0) << x << " " << y;
     const auto lengths = map.lengths({x, y});
     ASSERT_TRUE(lengths);
-    worst = std::max({worst,
-                      std::abs(joints[0] - lengths->left_mm),
-                      std::abs(joints[1] - lengths->right_mm)});
+    worst = std::max(
+        {worst, std::abs(joints[0] - lengths->left_mm), std::abs(joints[1] - lengths->right_mm)});
     EXPECT_EQ(joints[2], -3.5);
     EmcPose pose{};
     ASSERT_EQ(module.forward(joints, pose), 0) << x << " " << y;

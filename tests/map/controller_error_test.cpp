@@ -30,13 +30,13 @@ struct Session {
   }
 
   /// The tool's position in the sheet's numbers when sent to `command`.
-  [[nodiscard]] BedPoint reached(BedPoint command) const {
+  BedPoint reached(BedPoint command) const {
     const ChainLengths paid_out = *model::make_controller_kinematics(file)->lengths(command);
     const BedPoint on_bed = *model::make_controller_kinematics(truth)->command(paid_out);
     return {on_bed.x_mm - shift_mm, on_bed.y_mm};
   }
 
-  [[nodiscard]] MeasuredGrid readings() const {
+  MeasuredGrid readings() const {
     MeasuredGrid grid;
     grid.machine = file;
     grid.noise = StatedNoise{0.05, 0.05, 15.0};

@@ -12,12 +12,12 @@
 namespace chaintrue::model {
 
 /// fixtures/reference/<name>.
-[[nodiscard]] nlohmann::json reference_table(const std::string& name);
+nlohmann::json reference_table(const std::string& name);
 /// A number written as a string of digits.
-[[nodiscard]] double number(const nlohmann::json& text);
-[[nodiscard]] BedPoint point_of(const nlohmann::json& record);
+double number(const nlohmann::json& text);
+BedPoint point_of(const nlohmann::json& record);
 /// The machine of a table's "params".
-[[nodiscard]] EquilibriumParameters parameters_of(const nlohmann::json& params);
-[[nodiscard]] Attachment brackets_of(const nlohmann::json& params);
+EquilibriumParameters parameters_of(const nlohmann::json& params);
+Attachment brackets_of(const nlohmann::json& params);
 
 }  // namespace chaintrue::model

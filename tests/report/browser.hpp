@@ -25,7 +25,7 @@ struct Visit {
   std::map<std::string, std::string> found;
 };
 
-[[nodiscard]] bool has_browser();
+bool has_browser();
 
 struct Opened {
   std::string html;
@@ -36,14 +36,14 @@ struct Opened {
 
 /// Opens the pages together, each in its own frame, in one browser without network and with a new
 /// profile. Console messages of the browser count for every page.
-[[nodiscard]] std::vector<Visit> visit_all(const std::vector<Opened>& pages);
+std::vector<Visit> visit_all(const std::vector<Opened>& pages);
 
 /// A4 (ISO 216) and Letter (ANSI Y14.1 size A). What fits on a sheet as narrow as the one and as short as
 /// the other fits on both.
 inline constexpr double kA4WidthMm = 210.0, kLetterWidthMm = 215.9, kLetterHeightMm = 279.4;
 
 /// How many of these smallest sheets the page takes, as the browser prints it; 0 where it prints nothing.
-[[nodiscard]] int printed_sheets(const std::string& html);
+int printed_sheets(const std::string& html);
 
 /// A probe: how many texts of charts end in an ellipsis, and which.
 inline constexpr std::string_view kCutLabels = R"(

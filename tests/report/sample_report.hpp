@@ -8,9 +8,9 @@
 namespace chaintrue::report::testing {
 
 /// 28 points, one of them bad; a smooth error of some millimetres before, noise after.
-[[nodiscard]] MapPictures sample_pictures();
+MapPictures sample_pictures();
 /// The pictures with verdict, advice, settings and texts.
-[[nodiscard]] Document sample_document(const MapPictures& map = sample_pictures());
+Document sample_document(const MapPictures& map = sample_pictures());
 
 inline constexpr int kSamplePoints = 28;
 inline constexpr int kSampleCells = 33 * 17;

@@ -18,6 +18,6 @@ struct Outcome {
 [[nodiscard]] Outcome run_line(const std::filesystem::path& folder, const std::string& shell);
 
 /// "'/path/of/the/file'", for such a line.
-[[nodiscard]] std::string quoted(const std::filesystem::path& path);
+std::string quoted(const std::filesystem::path& path);
 
 }  // namespace chaintrue::testing_support

@@ -9,9 +9,9 @@
 namespace chaintrue::grid::testing {
 
 /// A left chain 0.12 % long, distinguished from its rival, two settings off, one bad point.
-[[nodiscard]] diagnosis::Diagnosis sample_diagnosis();
+diagnosis::Diagnosis sample_diagnosis();
 /// Nothing found, without gain, next measurements, order or bad points.
-[[nodiscard]] diagnosis::Diagnosis quiet_diagnosis();
+diagnosis::Diagnosis quiet_diagnosis();
 
 inline constexpr int kSamplePoints = 28;
 

@@ -26,21 +26,20 @@ struct FittedBelts {
 
 /// The agreement of the belts, the frame, the anchors, errors at left-out readings, the scale and
 /// the tape. `name` is the belts', `source` the file's.
-[[nodiscard]] Document anchors_document(const FittedBelts& fitted,
-                                        std::string_view name,
-                                        std::string_view source);
+Document anchors_document(const FittedBelts& fitted,
+                          std::string_view name,
+                          std::string_view source);
 
 /// The machine's error, today and with these anchors.
-[[nodiscard]] std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& error);
+std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& error);
 /// Why these anchors must not be pasted: their error exceeds kMostToCutWithMm or, if it is unknown,
 /// their uncertainty does. Otherwise empty.
-[[nodiscard]] std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& error);
+std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& error);
 
 /// The least certain anchors, the causes, the error of one belt's reading, and the machine's figure
 /// for it.
-[[nodiscard]] Section agreement_section(const FittedBelts& fitted,
-                                        const std::optional<BeltsError>& error);
+Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsError>& error);
 /// Errors at left-out readings, rejected readings, the scale and the holes.
-[[nodiscard]] Section tests_section(const FittedBelts& fitted);
+Section tests_section(const FittedBelts& fitted);
 
 }  // namespace chaintrue::cli

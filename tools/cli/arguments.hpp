@@ -167,7 +167,7 @@ struct Value {
   Value(const files::Range& range, bool is_whole, Take take, std::optional<double> usual = {});
   Value(std::string usual, std::string expected, std::function<bool(const std::string&)> take);
 };
-[[nodiscard]] Value required(Value value);
+Value required(Value value);
 /// Its default is not shown.
 [[nodiscard]] Value without_default(Value value);
 
@@ -200,7 +200,7 @@ struct OptionRule {
   std::string harmless;
 };
 /// The rules of all verbs, in the order in which the verbs were made.
-[[nodiscard]] std::vector<OptionRule> option_rules();
+std::vector<OptionRule> option_rules();
 
 /// An option of the command line, by its longest name, with the words given for it: none for a
 /// flag.
@@ -258,20 +258,20 @@ class Verb {
     return {verb, *command};
   }
 
-  [[nodiscard]] bool has_option(const std::string& name) const;
-  [[nodiscard]] bool is_given(const std::string& name) const;
+  bool has_option(const std::string& name) const;
+  bool is_given(const std::string& name) const;
   /// In the verb's order; without positional arguments.
-  [[nodiscard]] std::vector<GivenOption> given_options() const;
+  std::vector<GivenOption> given_options() const;
   /// \throws InputError with a sentence for each given option that would have no effect on this
   /// input.
   void refuse_idle_options(Facts facts) const;
   /// As it is typed: "gcode check".
-  [[nodiscard]] std::string path() const;
+  std::string path() const;
   /// On the command line that was parsed.
-  [[nodiscard]] bool is_chosen() const;
+  bool is_chosen() const;
   /// The verb of a group of options; for a verb, itself.
   [[nodiscard]] Verb with_name() const;
-  [[nodiscard]] CLI::App& app() const { return *app_; }
+  CLI::App& app() const { return *app_; }
 
  private:
   void when_chosen(Run run, std::function<void()> check) const;
@@ -284,12 +284,12 @@ struct VerbParts {
   std::vector<CLI::Option*> options;  ///< and arguments
   std::vector<CLI::App*> verbs;
 };
-[[nodiscard]] VerbParts parts_of(CLI::App& verb);
-[[nodiscard]] std::vector<std::string> long_names(const std::vector<CLI::Option*>& options);
-[[nodiscard]] std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs);
+VerbParts parts_of(CLI::App& verb);
+std::vector<std::string> long_names(const std::vector<CLI::Option*>& options);
+std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs);
 
 /// The run of the verb that was chosen.
-[[nodiscard]] Run& chosen_run();
+Run& chosen_run();
 
 /// For the check of runs(): ends the command with a usage error, exit code 2.
 [[noreturn]] void usage_error(const std::string& verb, const std::string& sentence);

@@ -18,17 +18,17 @@
 namespace chaintrue::cli {
 
 /// The bed of the machine as found, about its middle.
-[[nodiscard]] report::Outline bed_of(const Diagnosis& found);
+report::Outline bed_of(const Diagnosis& found);
 /// A point's error of the tool, with one sigma of its noise.
-[[nodiscard]] Arrow arrow_of(const diagnosis::PointPicture& point, const Eigen::Vector2d& shift_mm);
+Arrow arrow_of(const diagnosis::PointPicture& point, const Eigen::Vector2d& shift_mm);
 /// Titles for the causes named, and for the first one's rival, which it must have. Precondition: a cause is named.
-[[nodiscard]] std::string title_of_causes(const Diagnosis& found);
-[[nodiscard]] std::string title_of_rival(const Diagnosis& found);
+std::string title_of_causes(const Diagnosis& found);
+std::string title_of_rival(const Diagnosis& found);
 
 /// True if the visits of all points are numbered.
-[[nodiscard]] bool has_order(const Diagnosis& found);
+bool has_order(const Diagnosis& found);
 /// The follow-up's places on the bed.
-[[nodiscard]] Chart next_points_chart(const Diagnosis& found);
+Chart next_points_chart(const Diagnosis& found);
 
 // A picture of each named cause: the shift of the tool at the measured places by this cause alone,
 // at its fitted size (synthetic::signature of the machine without it). First order, as signature()
@@ -36,20 +36,20 @@ namespace chaintrue::cli {
 
 /// In the order of the causes; without those that put a measured place out of reach or, in a file,
 /// have impossible numbers. Empty for belts.
-[[nodiscard]] std::vector<Chart> cause_charts(const Diagnosis& found);
+std::vector<Chart> cause_charts(const Diagnosis& found);
 
 // The pictures of a diagnosis whose readings are distances between holes: one line for each
 // distance, vermilion if read longer than predicted, blue if shorter, with a width proportional to
 // the residual.
 
 /// The calibrated machine next to the machine with the named causes.
-[[nodiscard]] Chart distance_chart(const Diagnosis& found);
+Chart distance_chart(const Diagnosis& found);
 /// Measured, best cause, rival, remainder. Precondition: a cause is named.
-[[nodiscard]] Chart distance_strip_chart(const Diagnosis& found);
+Chart distance_strip_chart(const Diagnosis& found);
 /// Residuals against the distance's length, and against the way it was measured.
-[[nodiscard]] ChartRow distance_scatter_charts(const Diagnosis& found);
+ChartRow distance_scatter_charts(const Diagnosis& found);
 /// What was measured, in grey, and what to measure next.
-[[nodiscard]] Chart next_distances_chart(const Diagnosis& found);
+Chart next_distances_chart(const Diagnosis& found);
 
 // A chart of residuals against a possible cause: dots of two colours and a curve.
 
@@ -76,7 +76,7 @@ struct ResidualScatter {
 };
 
 /// Bad dots are drawn at the rim, so that they do not flatten the rest.
-[[nodiscard]] Chart residual_scatter_chart(const ResidualScatter& scatter);
+Chart residual_scatter_chart(const ResidualScatter& scatter);
 
 // The drawing of a four-belt frame: anchors with their ellipses, and at each place a stroke for each
 // belt as long as its residual.
@@ -89,13 +89,13 @@ inline constexpr const char* kAnchorsCaption =
     "From the bottom left anchor, x to the bottom right one: tl is the top left anchor. Sigma: one "
     "standard deviation.";
 /// "tl x" of tl_x_mm
-[[nodiscard]] inline std::string coordinate_title(const std::string& name) {
+inline std::string coordinate_title(const std::string& name) {
   return name.substr(0, 2) + " " + name.substr(3, 1);
 }
 
 /// All strokes of the same findings have one scale.
-[[nodiscard]] Chart frame_chart(const diagnosis::BeltsFindings& found,
-                                std::string title,
-                                model::PerBelt<double> diagnosis::BeltPlacePicture::*which);
+Chart frame_chart(const diagnosis::BeltsFindings& found,
+                  std::string title,
+                  model::PerBelt<double> diagnosis::BeltPlacePicture::*which);
 
 }  // namespace chaintrue::cli

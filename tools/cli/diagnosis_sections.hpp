@@ -14,9 +14,9 @@ namespace chaintrue::cli {
 
 /// `source` is the input file's name, for the page's last line. Pictures are made if `detail` is
 /// page.
-[[nodiscard]] Document diagnosis_document(const Diagnosis& diagnosis,
-                                          std::string_view source,
-                                          Detail detail = Detail::page);
+Document diagnosis_document(const Diagnosis& diagnosis,
+                            std::string_view source,
+                            Detail detail = Detail::page);
 
 /// Every section is made from the diagnosis alone.
 using SectionOf = Section(const Diagnosis& found);
@@ -57,8 +57,8 @@ SectionOf improvement_section;
 /// On the points of another grid. Precondition: there is one.
 SectionOf transfer_section;
 /// For both; empty if there is no gain.
-[[nodiscard]] Light corrected_light(const Diagnosis& found);
-[[nodiscard]] std::vector<Figure> figures_of_improvement(const Diagnosis& found);
+Light corrected_light(const Diagnosis& found);
+std::vector<Figure> figures_of_improvement(const Diagnosis& found);
 
 // Sections specific to a diagnosis of four belts. Precondition of all: it is one of belts.
 
@@ -68,8 +68,8 @@ SectionOf frame_section;
 SectionOf anchors_section;
 /// Errors of the belts and of the tool, before and with the causes.
 SectionOf belts_improvement_section;
-[[nodiscard]] Light scale_light(const Diagnosis& found);
-[[nodiscard]] std::vector<Figure> figures_of_belts(const Diagnosis& found);
+Light scale_light(const Diagnosis& found);
+std::vector<Figure> figures_of_belts(const Diagnosis& found);
 
 // The section on the verdict without some of the readings.
 
@@ -82,6 +82,6 @@ SectionOf stability_section;
 SectionOf drawn_settings_section;
 /// The measures, and their prediction by settings and causes.
 SectionOf drawn_measures_section;
-[[nodiscard]] Light drawn_settings_light(const Diagnosis& found);
+Light drawn_settings_light(const Diagnosis& found);
 
 }  // namespace chaintrue::cli

@@ -16,38 +16,38 @@
 namespace chaintrue::cli {
 
 /// "chain pitch error, left"
-[[nodiscard]] std::string cause_title(const diagnosis::CauseId& cause);
-[[nodiscard]] std::string cause_title(const AppliedEffect& effect);
+std::string cause_title(const diagnosis::CauseId& cause);
+std::string cause_title(const AppliedEffect& effect);
 /// Named causes that are neither in the diagnosis' machine nor in the corrected data: rivals of
 /// those that are, and causes that may be the tape's.
-[[nodiscard]] std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found);
+std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found);
 /// Also accepts the hypotheses nothing, unknown, noise and bad_points.
-[[nodiscard]] std::string hypothesis_title(const diagnosis::Hypothesis& hypothesis);
+std::string hypothesis_title(const diagnosis::Hypothesis& hypothesis);
 
 /// "point 17", counted from 1.
-[[nodiscard]] std::string point_name(std::size_t index);
+std::string point_name(std::size_t index);
 /// "distance A-B", by its position in the file.
-[[nodiscard]] std::string distance_name(const Diagnosis& found, std::size_t index);
+std::string distance_name(const Diagnosis& found, std::size_t index);
 /// Whether distances between holes were measured instead of points.
-[[nodiscard]] bool is_of_distances(const Diagnosis& found);
+bool is_of_distances(const Diagnosis& found);
 /// A bound in a workshop unit.
-[[nodiscard]] std::string bound_in_words(const diagnosis::Bound& bound);
+std::string bound_in_words(const diagnosis::Bound& bound);
 /// Noise alone gives as much in less than one of a hundred cases.
-[[nodiscard]] bool is_surprising(const diagnosis::LeftOver& left_over);
+bool is_surprising(const diagnosis::LeftOver& left_over);
 /// A sentence on the residual with the named causes.
-[[nodiscard]] std::string left_over_sentence(const diagnosis::LeftOver& left_over);
+std::string left_over_sentence(const diagnosis::LeftOver& left_over);
 /// The files of a diagnosis, as named in a command: GRID, HOLES, both, or BELTS.
-[[nodiscard]] std::string_view files_in_words(const Diagnosis& found);
+std::string_view files_in_words(const Diagnosis& found);
 
 /// The data: "34 points", "20 distances", "34 points and 20 distances", "99 places".
-[[nodiscard]] std::string readings_counted(const Diagnosis& found);
+std::string readings_counted(const Diagnosis& found);
 /// Whether this outlier is a distance rather than a point.
-[[nodiscard]] bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad);
+bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad);
 /// " A single right name then has probability 95 %." of the next measurement with that position;
 /// empty if it determines the scale of belts, which does not discriminate between causes.
-[[nodiscard]] std::string chance_then(const Diagnosis& diagnosis, std::size_t position);
+std::string chance_then(const Diagnosis& diagnosis, std::size_t position);
 /// The next measurements as sentences: what to do, where, and how well.
-[[nodiscard]] std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis);
+std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis);
 /// Their places, each once: "3, 6" where the third and the sixth are at one mark.
 struct FollowUpPlace {
   std::string numbers;
@@ -55,18 +55,18 @@ struct FollowUpPlace {
   std::string what;
   double raises_probability_to = 0.0;
 };
-[[nodiscard]] std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis);
+std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis);
 
 using diagnosis::off_in_words;
 using diagnosis::percent;
 using diagnosis::sizes_in_words;
 /// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
-[[nodiscard]] std::string bad_belt_in_words(const diagnosis::Outlier& bad);
+std::string bad_belt_in_words(const diagnosis::Outlier& bad);
 using report::capitalised;
 using report::fixed;
 
 /// "left" or "right".
-[[nodiscard]] inline const char* chain_name(model::Side side) {
+inline const char* chain_name(model::Side side) {
   return side == model::Side::left ? "left" : "right";
 }
 

@@ -16,20 +16,19 @@ namespace chaintrue::cli {
 
 /// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
 /// argument of another form is a problem, as is an effect without a name.
-[[nodiscard]] std::vector<AppliedEffect> parse_effect_words(const Words& arguments,
-                                                            OptionProblems& problems);
+std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProblems& problems);
 
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` in addition to
 /// its own.
-[[nodiscard]] std::vector<AppliedEffect> parse_effects(const Words& arguments,
-                                                       const Machine& machine,
-                                                       OptionProblems& problems);
+std::vector<AppliedEffect> parse_effects(const Words& arguments,
+                                         const Machine& machine,
+                                         OptionProblems& problems);
 
 struct NamedNumber {
   std::string name;
   double value = 0.0;
 };
 /// `name=number`; empty for any other text.
-[[nodiscard]] std::optional<NamedNumber> named_number(std::string_view text);
+std::optional<NamedNumber> named_number(std::string_view text);
 
 }  // namespace chaintrue::cli

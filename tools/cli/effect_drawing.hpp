@@ -16,15 +16,14 @@ namespace chaintrue::cli {
 
 /// Arrows over the bed before and after calibration, and the two squares as cut, both with their
 /// scale printed.
-[[nodiscard]] std::string draw_effect(const Machine& machine,
-                                      const synthetic::EffectPicture& picture);
+std::string draw_effect(const Machine& machine, const synthetic::EffectPicture& picture);
 
 /// `3`, `0.17`, `6e-06`: three digits, without trailing zeros.
-[[nodiscard]] std::string short_number(double value);
+std::string short_number(double value);
 
 /// chaintrue square: the commanded outline, the cut one with its errors magnified, and the numbers
 /// that a ruler would show.
-[[nodiscard]] std::string draw_square(const model::CutSquare& square, const SquareTask& task);
+std::string draw_square(const model::CutSquare& square, const SquareTask& task);
 
 /// chaintrue effects --atlas: writes a page with the drawings of each cause, for two chains, four
 /// belts or a V-plotter; only for one cause if `cause` is not empty. `declared` are files of the

@@ -84,7 +84,7 @@ struct View {
   double top_mm = 0.0;
   double scale = 1.0;
   double height = 0.0;
-  [[nodiscard]] std::string point(ToolPosition at) const {
+  std::string point(ToolPosition at) const {
     return fmt::format(
         "{:.1f} {:.1f}", kPad + scale * (at.x_mm - left_mm), kPad + scale * (top_mm - at.y_mm));
   }

@@ -30,11 +30,11 @@ enum class DiagnosisReason;
 namespace chaintrue::cli {
 
 /// The enumerator's own name: "no_machine".
-[[nodiscard]] std::string_view name_of(grid::BeltsFitReason reason);
-[[nodiscard]] std::string_view name_of(grid::CheckReason reason);
-[[nodiscard]] std::string_view name_of(grid::FitReason reason);
-[[nodiscard]] std::string_view name_of(grid::PlanReason reason);
-[[nodiscard]] std::string_view name_of(diagnosis::DiagnosisReason reason);
+std::string_view name_of(grid::BeltsFitReason reason);
+std::string_view name_of(grid::CheckReason reason);
+std::string_view name_of(grid::FitReason reason);
+std::string_view name_of(grid::PlanReason reason);
+std::string_view name_of(diagnosis::DiagnosisReason reason);
 
 struct Failed : std::runtime_error {
   Failed(std::string file,

@@ -24,8 +24,8 @@ struct Field {
 using Fields = std::vector<Field>;
 
 /// Lines end with a line break.
-[[nodiscard]] std::string csv_names(const Fields& fields);
-[[nodiscard]] std::string csv_values(const Fields& fields);
-[[nodiscard]] std::string json_of(const Fields& fields);
+std::string csv_names(const Fields& fields);
+std::string csv_values(const Fields& fields);
+std::string json_of(const Fields& fields);
 
 }  // namespace chaintrue::cli

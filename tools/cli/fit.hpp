@@ -30,7 +30,7 @@ struct FitCommand {
   bool verbose = false;
   bool json = false;
 
-  [[nodiscard]] Detail detail() const { return verbose ? Detail::verbose : Detail::always; }
+  Detail detail() const { return verbose ? Detail::verbose : Detail::always; }
 };
 
 /// Writes the result to its file, `json` to standard output where it is asked for, and the document
@@ -42,8 +42,8 @@ void write_fitted(const FitCommand& command,
 
 /// `files` are a chaintrue_belts file, holes that a four-belt machine cut, or both. These return
 /// the exit code.
-[[nodiscard]] int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files);
+int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files);
 /// \throws InputError for a drawing with a mistake, which is reported; nothing is written then.
-[[nodiscard]] int fit_the_drawing(Verb verb, const FitCommand& command, const InputFile& file);
+int fit_the_drawing(Verb verb, const FitCommand& command, const InputFile& file);
 
 }  // namespace chaintrue::cli

@@ -48,16 +48,16 @@ struct GcodeOptions {
   bool forced = false;     ///< compensate: even with a map that is unfit for cutting
   bool json = false;
 
-  [[nodiscard]] gcode::Dialect dialect() const;
+  gcode::Dialect dialect() const;
   /// For --home. \throws InputError if it is not a pair of numbers.
-  [[nodiscard]] BedPoint home_mm() const;
+  BedPoint home_mm() const;
 };
 
 /// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
-[[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
+const gcode::Firmware* stated_firmware(std::string_view name);
 
 /// Opens the file given as --map and warns if its scale is unknown. \throws InputError for a bad file.
-[[nodiscard]] Target open_target(const GcodeOptions& options);
+Target open_target(const GcodeOptions& options);
 
 /// How the machine's controller executes a program.
 struct GcodeController {
@@ -90,28 +90,27 @@ struct GcodeMachine {
 };
 
 /// The area for programs with --machine; without it the usual bed. \throws InputError.
-[[nodiscard]] interp::Rectangle sheet_of(const GcodeOptions& options);
+interp::Rectangle sheet_of(const GcodeOptions& options);
 
 /// With a map: checks that the tolerance exceeds the rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);
 /// Inputs of compensating, except the program.
-[[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
-                                                          const GcodeMachine& machine);
+gcode::CompensateOptions compensate_options(const GcodeOptions& options,
+                                            const GcodeMachine& machine);
 
 /// Inputs of running the output on the simulated machine.
-[[nodiscard]] gcode::VerifyOptions verify_options(const GcodeOptions& options,
-                                                  const GcodeMachine& machine);
+gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMachine& machine);
 
 /// A program's lines; standard input ("-") and pipes are kept in memory. \throws InputError where
 /// it cannot be read.
 class GcodeText {
  public:
   explicit GcodeText(const std::string& path);
-  [[nodiscard]] gcode::LineSource open() const;
+  gcode::LineSource open() const;
   /// As above, and shows this step of the work and the share of the program that was read.
-  [[nodiscard]] gcode::LineSource open(const grid::WorkStep& step) const;
+  gcode::LineSource open(const grid::WorkStep& step) const;
   /// Its name without folders, and its hash.
-  [[nodiscard]] grid::SourceFile source() const;
+  grid::SourceFile source() const;
 
  private:
   std::string path_;
@@ -122,7 +121,7 @@ class GcodeText {
 [[nodiscard]] Words with_map_words(const GcodeOptions& options, Words words);
 
 /// part.nc becomes part.true.nc.
-[[nodiscard]] std::string compensated_name(const std::string& program);
+std::string compensated_name(const std::string& program);
 
 /// Thrown for a refused program, after all of its problems were printed.
 struct GcodeRefused : Failed {
@@ -131,7 +130,7 @@ struct GcodeRefused : Failed {
 };
 
 /// A JSON text.
-[[nodiscard]] std::string in_quotes(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// Prints a problem to stderr as `file: line 3: ...`; returns the exit code of its kind.
 int report(const std::string& file, const gcode::Problem& problem);
@@ -140,7 +139,7 @@ int report(const std::string& file, const gcode::Problem& problem);
 int report(const std::string& file, const gcode::Findings& findings);
 
 /// The content of a pending file, as a program. \throws InputError if it could not be written.
-[[nodiscard]] gcode::LineSource written_so_far(files::PendingFile& file);
+gcode::LineSource written_so_far(files::PendingFile& file);
 
 // The verbs of `chaintrue gcode`; each returns the exit code. \throws files::InputError.
 using GcodeVerb = int(const GcodeOptions& options);
@@ -167,9 +166,9 @@ struct PromisedError {
   bool is_without_scale = false;
 
   /// For cuts on the measured part; empty if there are none.
-  [[nodiscard]] std::optional<double> measured_mm() const;
+  std::optional<double> measured_mm() const;
   /// For cuts outside.
-  [[nodiscard]] std::optional<double> outside_mm() const;
+  std::optional<double> outside_mm() const;
 };
 
 /// The uncertainty of the machine's map or anchors for cuts at these places.
@@ -177,8 +176,8 @@ struct PromisedError {
                                            const GcodeMachine& machine,
                                            double path_mm);
 /// Sentences, one per line; empty if nothing is cut or known.
-[[nodiscard]] std::string in_words(const PromisedError& error);
+std::string in_words(const PromisedError& error);
 /// For --json, as members of an object: `"expected_mm": 0.28, ...`; null if unknown.
-[[nodiscard]] std::string as_members(const PromisedError& error);
+std::string as_members(const PromisedError& error);
 
 }  // namespace chaintrue::cli

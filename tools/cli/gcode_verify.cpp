@@ -102,7 +102,7 @@ class AssumedUnit final : public gcode::Sink {
   }
   /// Ends the program.
   void move(const gcode::Move&) override { throw gcode::Refusal({}); }
-  [[nodiscard]] const std::optional<gcode::Note>& note() const { return note_; }
+  const std::optional<gcode::Note>& note() const { return note_; }
 
  private:
   std::optional<gcode::Note> note_;

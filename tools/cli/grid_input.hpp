@@ -31,13 +31,13 @@ void add_grid_options(Verb verb, GridInput& input);
 
 /// For measured files: those of two chains, whether it is a single grid, and whether any of them is a
 /// table.
-[[nodiscard]] Facts facts_of(const InputFiles& files);
+Facts facts_of(const InputFiles& files);
 
 /// --effects: declared effects may act on the machine of every input file.
-[[nodiscard]] OptionRow effects_row(GridInput& input);
+OptionRow effects_row(GridInput& input);
 
 /// Reads all inputs; warnings go to standard error. \throws InputError.
-[[nodiscard]] MeasuredGrid read_grid_input(const GridInput& input);
+MeasuredGrid read_grid_input(const GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
 void add_tape_options(Verb verb, files::TapeOptions& input);
@@ -45,25 +45,25 @@ void add_tape_options(Verb verb, files::TapeOptions& input);
 /// --without, for a verb that reads belts.
 [[nodiscard]] OptionRow without_row(std::string& without);
 /// Its points, from 1. \throws InputError.
-[[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
+std::vector<std::size_t> points_left_out(const std::string& without);
 
 /// Enough data for a fit, or only for a check of a map.
 enum class MeasuredUse { fit, check };
 
 /// A grid or a set of holes, as the file is; `otherwise` is the machine for a file that names none,
 /// if available. \throws InputError.
-[[nodiscard]] grid::MeasuredFile load_measured(const InputFile& file,
-                                               const GridInput& input,
-                                               const files::TapeOptions& tape,
-                                               MeasuredUse use,
-                                               const Machine* otherwise = nullptr);
+grid::MeasuredFile load_measured(const InputFile& file,
+                                 const GridInput& input,
+                                 const files::TapeOptions& tape,
+                                 MeasuredUse use,
+                                 const Machine* otherwise = nullptr);
 
 /// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
 /// settings. \throws InputError.
-[[nodiscard]] grid::Measured load_measured(const InputFiles& files,
-                                           const GridInput& input,
-                                           const files::TapeOptions& tape,
-                                           MeasuredUse use);
+grid::Measured load_measured(const InputFiles& files,
+                             const GridInput& input,
+                             const files::TapeOptions& tape,
+                             MeasuredUse use);
 
 struct ReadingCounts {
   std::size_t points = 0;
@@ -71,10 +71,10 @@ struct ReadingCounts {
   std::size_t holes = 0;
 };
 /// Counts the readings of all files together.
-[[nodiscard]] ReadingCounts counts_of(const grid::Measured& measured);
+ReadingCounts counts_of(const grid::Measured& measured);
 
 /// The file, and those of --with.
-[[nodiscard]] InputFiles open_inputs(const std::string& path, const Words& with);
+InputFiles open_inputs(const std::string& path, const Words& with);
 
 // --outside and --fade-mm: a map's continuation beyond its points, shared by several verbs.
 
@@ -86,7 +86,6 @@ struct OutsideOption {
 /// \param usual what happens without the option, in words
 void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual);
 /// The requested rule, or the given one.
-[[nodiscard]] grid::OutsideRule rule_of(const OutsideOption& option,
-                                        const grid::OutsideRule& usual);
+grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual);
 
 }  // namespace chaintrue::cli

@@ -14,17 +14,16 @@
 namespace chaintrue::cli {
 
 /// Each distance: measured, commanded, and predicted by the others; `file` if there are several.
-[[nodiscard]] Section distances_section(const MeasuredHoles& set,
-                                        const grid::FittedDistances& fit,
-                                        std::string_view file);
+Section distances_section(const MeasuredHoles& set,
+                          const grid::FittedDistances& fit,
+                          std::string_view file);
 /// The chains' scales, and the meaning of "left out".
 void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& distances);
 /// "20 distances", "18 distances and 6 to the sheet's edges".
-[[nodiscard]] std::string distances_in_number(const MeasuredHoles& set);
+std::string distances_in_number(const MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.
-[[nodiscard]] std::string workshop_list(const grid::HolesPlan& plan);
+std::string workshop_list(const grid::HolesPlan& plan);
 /// What the plan's set will determine, and what it cannot distinguish.
-[[nodiscard]] std::string plan_in_words(const grid::HolesPlan& plan,
-                                        const HolesPlanRequest& request);
+std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& request);
 
 }  // namespace chaintrue::cli

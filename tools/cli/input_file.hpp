@@ -33,14 +33,14 @@ struct InputFile {
   FileKind kind = FileKind::other;
 
   /// For options that act on this kind only.
-  [[nodiscard]] Facts fact() const;
+  Facts fact() const;
 };
 
 using InputFiles = std::vector<InputFile>;
 
 /// "-" is standard input. \throws InputError if it cannot be read, or is JSON that ends
 /// before its type.
-[[nodiscard]] InputFile open_input(const std::string& path);
+InputFile open_input(const std::string& path);
 
 /// \param also a clause on where a refused kind is accepted; empty: as usual for that kind
 /// \throws InputError with the kind found and the kinds accepted.
@@ -49,28 +49,28 @@ void require_kind(const InputFile& file,
                   const std::string& also = "");
 
 /// Each reads a file of its kind. \throws InputError with every problem.
-[[nodiscard]] files::FittedAnchors load_anchors(const InputFile& file);
+files::FittedAnchors load_anchors(const InputFile& file);
 /// Null if there are none.
-[[nodiscard]] const grid::HolesWithBelts* holes_of(const files::FittedAnchors& found);
-[[nodiscard]] Diagnosis load_diagnosis(const InputFile& file);
-[[nodiscard]] Machine load_machine(const InputFile& file);
+const grid::HolesWithBelts* holes_of(const files::FittedAnchors& found);
+Diagnosis load_diagnosis(const InputFile& file);
+Machine load_machine(const InputFile& file);
 /// The belts of a chaintrue_belts file.
-[[nodiscard]] BeltMachine load_belt_machine(const InputFile& file);
+BeltMachine load_belt_machine(const InputFile& file);
 /// At most kMostBeltPoints places; `work` is their purpose: "a fit". Leaves out the points
 /// `without`, counted from 1.
-[[nodiscard]] files::ReadBelts load_belts(const InputFile& file,
-                                          const std::string& work,
-                                          const std::vector<std::size_t>& without = {});
+files::ReadBelts load_belts(const InputFile& file,
+                            const std::string& work,
+                            const std::vector<std::size_t>& without = {});
 
-[[nodiscard]] CompensationMap load_map(const InputFile& file);
+CompensationMap load_map(const InputFile& file);
 
 /// "-" is standard input. A file that is read again gives no new warnings. \throws
 /// InputError.
-[[nodiscard]] Machine read_machine_input(const std::string& path);
+Machine read_machine_input(const std::string& path);
 
 /// The machine of a four-belt controller: from a chaintrue_belts file with the anchors in force,
 /// from a chaintrue_anchors file with the fitted ones, as pasted from export maslow4. \throws
 /// InputError.
-[[nodiscard]] BeltMachine read_belt_machine_input(const std::string& path);
+BeltMachine read_belt_machine_input(const std::string& path);
 
 }  // namespace chaintrue::cli

@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 
 /// For the chosen verb: its options, except those that name outputs or only change printing, and
 /// every file read so far.
-[[nodiscard]] grid::Provenance made_by(Verb verb);
+grid::Provenance made_by(Verb verb);
 
 /// "Where this comes from", folded; nothing is added if it is unknown.
 void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Section>& sections);

@@ -15,17 +15,17 @@ namespace chaintrue::cli {
 
 /// `source` is the name of the map's file, for the page's last line. Pictures are made if `detail`
 /// is page. The map is compared with `wish_mm`, an error of the tool, if given.
-[[nodiscard]] Document map_document(const CompensationMap& map,
-                                    std::string_view source,
-                                    Detail detail = Detail::page,
-                                    std::optional<double> wish_mm = std::nullopt);
+Document map_document(const CompensationMap& map,
+                      std::string_view source,
+                      Detail detail = Detail::page,
+                      std::optional<double> wish_mm = std::nullopt);
 
 /// The data of the pictures.
-[[nodiscard]] report::MapPictures map_pictures(const CompensationMap& map);
+report::MapPictures map_pictures(const CompensationMap& map);
 
 /// Caution if a point was rejected or a setting is off.
-[[nodiscard]] Tone tone_of(const MapContents& contents);
+Tone tone_of(const MapContents& contents);
 /// "Made from map.json by chaintrue 1.0."
-[[nodiscard]] std::string provenance_of(std::string_view source);
+std::string provenance_of(std::string_view source);
 
 }  // namespace chaintrue::cli

@@ -25,7 +25,7 @@ struct SettingWords {
   std::string_view unit = "mm";
   double factor = 1.0;
 };
-[[nodiscard]] const SettingWords& setting_words(model::Setting setting);
+const SettingWords& setting_words(model::Setting setting);
 
 /// In the setting's own unit.
 struct SettingRow {
@@ -37,11 +37,11 @@ struct SettingRow {
   /// Farther from the stated value than its uncertainty allows.
   bool is_off = false;
 };
-[[nodiscard]] Table settings_table(const std::vector<SettingRow>& settings);
+Table settings_table(const std::vector<SettingRow>& settings);
 
 /// A length for a headline: one digit below a millimetre ("0.3 mm", "0.04 mm"), two above ("5.1 mm",
 /// "11 mm").
-[[nodiscard]] std::string about_mm(double mm);
+std::string about_mm(double mm);
 
 /// The label of error_in_use(), which is "before" in every verb and page.
 inline constexpr const char* kToolTodayLabel =
@@ -54,27 +54,27 @@ struct Remedy {
 };
 /// "Your machine misses by about 4.9 mm. With this map it misses by about 0.2 mm." `today` is
 /// empty if the settings in force are unknown.
-[[nodiscard]] std::string misses_sentence(const std::optional<grid::ErrorSummary>& today,
-                                          double expected_mm,
-                                          const Remedy& remedy);
+std::string misses_sentence(const std::optional<grid::ErrorSummary>& today,
+                            double expected_mm,
+                            const Remedy& remedy);
 /// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. The error is largest near (1118, 508)."
-[[nodiscard]] std::string worst_sentence(double x_mm, double y_mm, double worst_mm);
+std::string worst_sentence(double x_mm, double y_mm, double worst_mm);
 
 /// The headline: by how much the tool misses today, and by how much with the map. Both are errors
 /// of the tool over the measured part, not residuals at the points.
-[[nodiscard]] std::string fit_sentence(const CompensationMap& map);
+std::string fit_sentence(const CompensationMap& map);
 
 /// The statistics of the points: rms with the settings in force, with the map, and of points left out.
-[[nodiscard]] std::string points_sentence(const CompensationMap& map);
+std::string points_sentence(const CompensationMap& map);
 
 /// Whether the map meets the wish and, if not, how many marks would be expected to.
-[[nodiscard]] std::string wish_sentence(const CompensationMap& map, double wish_mm);
+std::string wish_sentence(const CompensationMap& map, double wish_mm);
 
 /// The usual error of uncalibrated machines, apart from the sheet's placement.
 inline constexpr double kMostToCutWithMm = 3.0;
 /// Why this map is unfit for cutting: its held-out error exceeds that, rms. Otherwise empty. gcode
 /// compensate and export accept such a map only with --force.
-[[nodiscard]] std::string not_to_cut_with(const CompensationMap& map);
+std::string not_to_cut_with(const CompensationMap& map);
 
 /// Refuses a result for the reason `why` and explains how to use it anyway; does nothing if `why` is
 /// empty or the user forces it. \throws Failed
@@ -82,7 +82,7 @@ void require_fit_for_cutting(const std::string& why, bool is_forced);
 
 /// Rms and maximum of `size_of` over all that are not bad.
 template <class Readings, class Size>
-[[nodiscard]] grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
+grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
   grid::ErrorSummary summary;
   double squares = 0.0, count = 0.0;
   for (const auto& reading : readings) {
@@ -98,13 +98,13 @@ template <class Readings, class Size>
 
 using Residual = Eigen::Vector2d grid::MapPoint::*;
 /// Over the good points.
-[[nodiscard]] grid::ErrorSummary summary_of(const MapContents& contents, Residual residual);
+grid::ErrorSummary summary_of(const MapContents& contents, Residual residual);
 /// Whether the sheet was placed by hand, and its placement estimated.
-[[nodiscard]] bool has_placed_sheet(const MapContents& contents);
+bool has_placed_sheet(const MapContents& contents);
 /// The reference for the map, and its name: the machine as stated, on the fitted sheet.
-[[nodiscard]] Residual residual_before(const MapContents& contents);
-[[nodiscard]] std::string_view machine_before(const MapContents& contents);
+Residual residual_before(const MapContents& contents);
+std::string_view machine_before(const MapContents& contents);
 /// For the machine and for the sheet.
-[[nodiscard]] std::vector<SettingRow> settings_rows(const CompensationMap& map);
+std::vector<SettingRow> settings_rows(const CompensationMap& map);
 
 }  // namespace chaintrue::cli

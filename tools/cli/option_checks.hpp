@@ -56,7 +56,7 @@ struct Declared {
   std::vector<Place> places;
   files::Problems misread{"command line"};  ///< numbers and words that were given
 };
-[[nodiscard]] Declared& declared();
+Declared& declared();
 
 /// `check` runs if the verb was chosen. Out-of-range numbers have their defaults then.
 void add_option_check(Verb verb, std::function<void(OptionProblems&)> check);

@@ -74,7 +74,7 @@ class PlaceCheck {
   }
 
   /// Null if no option of the verb has this output.
-  [[nodiscard]] const Place* output_named(const std::string& path) const {
+  const Place* output_named(const std::string& path) const {
     for (const auto& [named, place] : outputs_) {
       if (named == path) return place;
     }

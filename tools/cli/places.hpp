@@ -33,16 +33,16 @@ using files::Origin;
 using Outputs = std::vector<files::OutputFile>;
 
 /// The variable of an option or argument that names a file to read.
-[[nodiscard]] Value reads(std::string& path);
-[[nodiscard]] Value reads(Words& paths);
+Value reads(std::string& path);
+Value reads(Words& paths);
 /// The variable of an option that names a file to write; adds --force to the verb. \param kinds of content:
 /// existing files of these kinds made by this program are replaced without --force
-[[nodiscard]] Value writes(std::string& path, std::vector<Origin> kinds);
+Value writes(std::string& path, std::vector<Origin> kinds);
 /// The variable of an option that names a folder to write into, created if missing; adds --force to the verb.
-[[nodiscard]] Value writes_into(std::string& folder);
+Value writes_into(std::string& folder);
 
 /// The files that an option of the chosen verb names; null if it names none.
-[[nodiscard]] const Place* place_of(const std::string& option);
+const Place* place_of(const std::string& option);
 
 /// A file of such a folder, and its kind.
 struct FolderFile {
@@ -60,7 +60,7 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
 void check_places();
 
 /// The command that writes the page next to a file: map.json, map.html.
-[[nodiscard]] Words report_words(const std::string& path);
+Words report_words(const std::string& path);
 
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);

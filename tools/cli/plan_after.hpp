@@ -25,11 +25,11 @@ struct PlanAfterOptions {
 };
 
 /// Facts on which options depend. \throws InputError for a file of another kind.
-[[nodiscard]] Facts facts_after(const InputFile& file);
+Facts facts_after(const InputFile& file);
 
 /// \param file the options' file, opened
 /// \throws InputError. Returns an exit code.
-[[nodiscard]] int plan_after(const PlanAfterOptions& options, const InputFile& file);
+int plan_after(const PlanAfterOptions& options, const InputFile& file);
 
 /// What to measure next, as texts: the list for the workshop, the lines to fill in, and the drawing
 /// (SVG).
@@ -40,9 +40,8 @@ struct FollowUpTexts {
   std::string drawing;
 };
 /// Empty if the diagnosis used other readings.
-[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                                           const grid::Measured& measured);
-[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                                           const MeasuredBelts& belts);
+std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
+                                             const grid::Measured& measured);
+std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found, const MeasuredBelts& belts);
 
 }  // namespace chaintrue::cli

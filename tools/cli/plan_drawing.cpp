@@ -57,7 +57,7 @@ void label(Svg& svg,
 struct Shades {
   double least_mm = 0.0;
   double largest_mm = 0.0;
-  [[nodiscard]] std::string of(double error_mm) const {
+  std::string of(double error_mm) const {
     const double range = largest_mm - least_mm;
     return colour(range > 0.0 ? (error_mm - least_mm) / range : 0.0);
   }

@@ -23,24 +23,24 @@ struct ExpectedErrors {
   MarkPoint worst_at;
   std::size_t unanswered = 0;
 };
-[[nodiscard]] ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed);
+ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed);
 
 /// A self-contained SVG; nothing is fetched, no script runs.
-[[nodiscard]] std::string draw_plan(const grid::MeasurementPlan& plan,
-                                    const Bed& bed,
-                                    const ExpectedErrors& errors);
+std::string draw_plan(const grid::MeasurementPlan& plan,
+                      const Bed& bed,
+                      const ExpectedErrors& errors);
 
 /// The next places as numbered crosses among the measured ones.
-[[nodiscard]] std::string draw_follow_up(const std::vector<MarkPoint>& measured,
-                                         const std::vector<FollowUpPlace>& next,
-                                         const Bed& bed);
+std::string draw_follow_up(const std::vector<MarkPoint>& measured,
+                           const std::vector<FollowUpPlace>& next,
+                           const Bed& bed);
 
 // A plan of holes as a drawing: the sheet, the holes by name, a line for each distance to measure.
 // Same plan, same bytes.
 
 /// The foot of the perpendicular on an edge of the bed.
-[[nodiscard]] BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed);
+BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed);
 /// A self-contained SVG; nothing is fetched, no script runs.
-[[nodiscard]] std::string draw_holes_plan(const grid::HolesPlan& plan);
+std::string draw_holes_plan(const grid::HolesPlan& plan);
 
 }  // namespace chaintrue::cli

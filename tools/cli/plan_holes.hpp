@@ -15,8 +15,6 @@ void add_tape_options(Verb verb, HolesPlanRequest& request);
 
 /// Writes the list, the drawing and the program; returns the exit code. \throws InputError
 /// for values out of range.
-[[nodiscard]] int plan_the_holes(HolesPlanRequest request,
-                                 const Machine& machine,
-                                 const PlanOutputs& wanted);
+int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted);
 
 }  // namespace chaintrue::cli

@@ -27,7 +27,7 @@ class ProgressLine {
 };
 
 /// Shows the steps that it receives. Safe from any thread, and cheap.
-[[nodiscard]] grid::Progress shown_progress();
+grid::Progress shown_progress();
 /// For the last step received, or the whole if none was.
 void progress_is(double finished, double total);
 /// Removes the line; nothing more is shown. No effect without a ProgressLine.

@@ -32,7 +32,7 @@ class ProgressState {
   void note_share(double share) { share_ = share; }
   /// "fit: 3 s, step 1 of 2, settings and correction, 40 % done, about 2 s left". The time left is
   /// that of the step, or of its pass: that of the others is unknown.
-  [[nodiscard]] std::string words() const;
+  std::string words() const;
 
  private:
   Clock clock_;

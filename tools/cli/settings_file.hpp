@@ -24,9 +24,9 @@ struct SettingsFile {
 };
 
 /// \throws InputError with every problem of the file.
-[[nodiscard]] SettingsFile read_settings_file(const std::string& path);
+SettingsFile read_settings_file(const std::string& path);
 /// As above, from its text.
-[[nodiscard]] SettingsFile parse_settings_file(const std::string& path, const std::string& text);
+SettingsFile parse_settings_file(const std::string& path, const std::string& text);
 
 /// `stated`, a map's machine as stated, with a controller that has `now`. A map without a
 /// controller gets the file's. Reports in one line on standard error what differs from the settings
@@ -40,10 +40,10 @@ struct SettingsFile {
 
 /// map.json becomes map.after.json: where export writes the map for the typed-in numbers by
 /// default.
-[[nodiscard]] std::string after_name(const std::string& map);
+std::string after_name(const std::string& map);
 
 /// "maslow_classic", as in files and options.
-[[nodiscard]] std::string_view name_of(ControllerKind kind);
+std::string_view name_of(ControllerKind kind);
 
 // A check whose points were commanded with settings other than the map's: those of a file, or the
 // numbers of export groundcontrol if all or some were typed in since the map was measured, or not
@@ -59,11 +59,11 @@ struct SettingsFile {
                                                grid::Measured& measured);
 
 /// Whether a map was made from the file `from` with its present content.
-[[nodiscard]] bool was_made_from(const std::string& made, const std::string& from);
+bool was_made_from(const std::string& made, const std::string& from);
 
 /// The controller's settings for the map from which export made this one, if that map is next to it
 /// unchanged.
-[[nodiscard]] std::optional<model::ControllerSettings> settings_before(const std::string& map);
+std::optional<model::ControllerSettings> settings_before(const std::string& map);
 
 /// `found` is the check of `map` against `measured`. Empty if the map's settings fit, or if the
 /// others do not explain the points either. The others are those of `before`, the settings before

@@ -25,7 +25,7 @@ enum class SheetOf {
 /// inch sled is then on the sheet, which keeps it from tipping, and it clears the supports below.
 inline constexpr double kReachableMm = 100.0;
 /// On a bed of less than half a metre a fifth of its shorter side.
-[[nodiscard]] double reachable_mm(const Bed& bed);
+double reachable_mm(const Bed& bed);
 
 /// --margin-mm leaves a bed at least this wide and high for marks.
 void require_margin(OptionProblems& problems,
@@ -35,7 +35,7 @@ void require_margin(OptionProblems& problems,
 
 /// The words of --measure, and the default for a machine: without a controller of known kinematics
 /// only lengths can be read.
-[[nodiscard]] SheetOf sheet_of(const std::string& word, const Machine* machine);
+SheetOf sheet_of(const std::string& word, const Machine* machine);
 
 struct Sheet {
   std::vector<MarkPoint> marks;
@@ -55,16 +55,14 @@ struct SheetVisit {
   std::size_t again = 0;   ///< the number of the mark's first visit; 0: this is the first
   bool is_beside = false;  ///< of a second visit: kBesideMm from there
   /// "29 (next to mark 8)", or "29 (mark 8 again)" if nothing is drilled
-  [[nodiscard]] std::string name() const;
+  std::string name() const;
 };
-[[nodiscard]] std::vector<SheetVisit> visits_of(const Sheet& sheet);
+std::vector<SheetVisit> visits_of(const Sheet& sheet);
 
 /// order,commanded_x_mm,commanded_y_mm,x_mm,y_mm or order,x_mm,y_mm,left_mm,right_mm.
-[[nodiscard]] std::string sheet_csv(const Sheet& sheet);
+std::string sheet_csv(const Sheet& sheet);
 /// The list as a chaintrue_grid, including the machine and the noise.
-[[nodiscard]] std::string sheet_json(const Sheet& sheet,
-                                     const Machine& machine,
-                                     const StatedNoise& noise);
+std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedNoise& noise);
 
 struct DrillOptions {
   double depth_mm = 3.0;
@@ -73,22 +71,20 @@ struct DrillOptions {
 
 /// Drills every mark; if lengths are read, stops above it until the owner continues. Metric and
 /// absolute.
-[[nodiscard]] std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
+std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
 /// Drills every hole.
-[[nodiscard]] std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options);
+std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options);
 
 /// A list in a file is JSON if the file's name ends in .json; on standard output, if --json is
 /// given.
-[[nodiscard]] bool is_json_wanted(bool json, const std::string& output);
+bool is_json_wanted(bool json, const std::string& output);
 
 // A plan as a page to print: the bed drawn, the steps in order, and lines to write the readings
 // on. For both A4 and Letter; nothing is fetched, no script runs. Same plan, same bytes.
 
 /// `list` is the file for the readings; empty: standard output.
-[[nodiscard]] std::string sheet_page(const Sheet& sheet,
-                                     const Machine& machine,
-                                     const std::string& list);
-[[nodiscard]] std::string holes_page(const grid::HolesPlan& plan, const std::string& list);
+std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::string& list);
+std::string holes_page(const grid::HolesPlan& plan, const std::string& list);
 
 // The outputs of a plan: list, page, program and drawing.
 
@@ -104,11 +100,11 @@ struct PlanOutputs {
 
 /// The list and, if requested, the page, the program and the answer. \param expected as for
 /// add_answer
-[[nodiscard]] Outputs sheet_outputs(const Sheet& sheet,
-                                    const Machine& machine,
-                                    const StatedNoise& noise,
-                                    const PlanOutputs& outputs,
-                                    const std::string& expected);
+Outputs sheet_outputs(const Sheet& sheet,
+                      const Machine& machine,
+                      const StatedNoise& noise,
+                      const PlanOutputs& outputs,
+                      const std::string& expected);
 
 /// With --json, where the list goes into a file: the places in mm, numbers of places in the order of
 /// the visits (empty: each once), and members of an object on what is expected.

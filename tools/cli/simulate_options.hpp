@@ -46,12 +46,12 @@ struct SimulateOptions {
   std::string answer;
 
   /// The options of what is simulated.
-  [[nodiscard]] std::string title() const;
+  std::string title() const;
 };
 
 /// For --offset.
-[[nodiscard]] std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
-                                                                  OptionProblems& problems);
+std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
+                                                    OptionProblems& problems);
 /// \throws InputError with all problems, and those of a machine with these offsets.
 void throw_if_impossible(const Machine& truth, OptionProblems& problems);
 /// At most one bad reading for each of these.
@@ -62,18 +62,17 @@ void require_bad_points(const SimulateOptions& options,
 /// Checks the options of a session or of places before any file is read.
 void check_words(const SimulateOptions& options, OptionProblems& problems);
 /// A session's whole specification. \throws InputError with all problems.
-[[nodiscard]] synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
-                                                  const Machine& machine);
+synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const Machine& machine);
 
 // chaintrue simulate --belts: simulates a four-belt router that finds its anchors.
 
 /// Writes the belts file; an exit code. \throws InputError with all problems.
-[[nodiscard]] int simulate_the_belts(const SimulateOptions& options);
+int simulate_the_belts(const SimulateOptions& options);
 
 // chaintrue simulate --holes: cuts holes and measures them with a tape.
 
 /// Writes the set and, if requested, its hidden truth; returns the exit code. \throws
 /// InputError for values out of range.
-[[nodiscard]] int simulate_the_holes(const SimulateOptions& options, const Machine& stated);
+int simulate_the_holes(const SimulateOptions& options, const Machine& stated);
 
 }  // namespace chaintrue::cli

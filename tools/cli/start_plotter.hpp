@@ -12,11 +12,11 @@
 namespace chaintrue::cli {
 
 /// A chaintrue_plotter, or settings that only a V-plotter has.
-[[nodiscard]] bool is_of_a_plotter(const InputFile& file);
+bool is_of_a_plotter(const InputFile& file);
 
 /// A chaintrue_plotter, or the settings of a V-plotter's controller. \throws InputError with
 /// every problem.
-[[nodiscard]] files::ReadPlotter load_plotter(const InputFile& file);
+files::ReadPlotter load_plotter(const InputFile& file);
 
 /// Next to the plotter's file if `folder` is empty. A measured plotter is assumed to have the
 /// numbers of export plotter typed in.

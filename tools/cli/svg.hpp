@@ -28,14 +28,10 @@ struct BedView {
   report::ToolVector corner;  ///< the upper left one in the picture
   double wide;
 
-  [[nodiscard]] double scale() const { return wide / bed.width_mm; }
-  [[nodiscard]] double x(double x_mm) const {
-    return corner.x_mm + scale() * (x_mm + 0.5 * bed.width_mm);
-  }
-  [[nodiscard]] double y(double y_mm) const {
-    return corner.y_mm + scale() * (0.5 * bed.height_mm - y_mm);
-  }
-  [[nodiscard]] double high() const { return scale() * bed.height_mm; }
+  double scale() const { return wide / bed.width_mm; }
+  double x(double x_mm) const { return corner.x_mm + scale() * (x_mm + 0.5 * bed.width_mm); }
+  double y(double y_mm) const { return corner.y_mm + scale() * (0.5 * bed.height_mm - y_mm); }
+  double high() const { return scale() * bed.height_mm; }
 };
 
 /// Texts are escaped; a `look` is a list of attributes as written in an element.
@@ -83,7 +79,7 @@ class Svg {
         look,
         report::escaped(words));
   }
-  [[nodiscard]] std::string finished() const { return text_ + "</svg>\n"; }
+  std::string finished() const { return text_ + "</svg>\n"; }
 
  private:
   std::string text_;

@@ -64,10 +64,10 @@ class Processes {
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;
 
-  [[nodiscard]] std::uint64_t rank() const { return static_cast<std::uint64_t>(rank_); }
-  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(count_); }
+  std::uint64_t rank() const { return static_cast<std::uint64_t>(rank_); }
+  std::uint64_t count() const { return static_cast<std::uint64_t>(count_); }
   /// A barrier; returns true for all if `ok` is true for all.
-  [[nodiscard]] bool all(bool ok) const {
+  bool all(bool ok) const {
 #ifdef CHAINTRUE_HAS_MPI
     int all_ok = ok ? 1 : 0;
     if (joined_) MPI_Allreduce(MPI_IN_PLACE, &all_ok, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);

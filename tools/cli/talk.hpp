@@ -19,9 +19,9 @@
 namespace chaintrue::cli {
 
 /// Whether standard error shows colours.
-[[nodiscard]] bool shows_colours();
-[[nodiscard]] std::string in_bold(std::string_view text);
-[[nodiscard]] std::string in_red(std::string_view text);
+bool shows_colours();
+std::string in_bold(std::string_view text);
+std::string in_red(std::string_view text);
 
 /// The name under which the command was called, for the lines to paste: `build/chaintrue` as typed,
 /// `chaintrue` if it was found on the path.
@@ -72,6 +72,6 @@ void write_whole_lines();
 
 void print_warnings(const std::vector<files::Warning>& warnings);
 /// For the comments of a file that was made with these assumptions.
-[[nodiscard]] std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings);
+std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings);
 
 }  // namespace chaintrue::cli

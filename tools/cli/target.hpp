@@ -26,23 +26,23 @@ struct Target {
   std::unique_ptr<const grid::LengthMap> lengths;  ///< may refer to the content
   /// Null for another content.
   template <class Kind>
-  [[nodiscard]] const Kind* as() const {
+  const Kind* as() const {
     return std::get_if<Kind>(content.get());
   }
 };
 
 /// \throws InputError for a file of another kind.
-[[nodiscard]] InputFile open_target_file(const std::string& path);
+InputFile open_target_file(const std::string& path);
 /// \param frame of a map, "marks" or "bed". \throws InputError for a bad file; Failed for a map that
 /// cannot be continued as `outside` asks.
-[[nodiscard]] Target open_target(const InputFile& file,
-                                 const std::string& frame,
-                                 const OutsideOption& outside = {});
+Target open_target(const InputFile& file,
+                   const std::string& frame,
+                   const OutsideOption& outside = {});
 
 /// --frame for a target.
-[[nodiscard]] OptionRow frame_row(std::string& frame, std::string help);
+OptionRow frame_row(std::string& frame, std::string help);
 
 /// A chaintrue_plotter with the results of a drawing. \throws InputError without them.
-[[nodiscard]] grid::KnownPlotter load_found_plotter(const InputFile& file);
+grid::KnownPlotter load_found_plotter(const InputFile& file);
 
 }  // namespace chaintrue::cli

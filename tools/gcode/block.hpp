@@ -62,26 +62,24 @@ struct Name {
 }  // namespace g
 
 /// M3 is m(3).
-[[nodiscard]] constexpr Code m(int number) { return {'M', 10 * number}; }
+constexpr Code m(int number) { return {'M', 10 * number}; }
 
 struct KnownCode : Code {
   Group group;
   std::string_view words;  ///< as in g_codes.def
   const char* refusal;     ///< why it is not supported; null if it is
 
-  [[nodiscard]] constexpr bool uses(char word) const {
-    return words.find(word) != std::string_view::npos;
-  }
+  constexpr bool uses(char word) const { return words.find(word) != std::string_view::npos; }
 };
 
 /// G73 and G81 to G89; a motion is given in tenths.
-[[nodiscard]] constexpr bool is_cycle(int motion) {
+constexpr bool is_cycle(int motion) {
   return motion == g::peck_break || (motion >= g::drill && motion <= g::bore_dwell);
 }
-[[nodiscard]] constexpr bool is_arc(int motion) {
+constexpr bool is_arc(int motion) {
   return motion == g::arc_clockwise || motion == g::arc_counterclockwise;
 }
-[[nodiscard]] constexpr bool is_probe(int motion) {
+constexpr bool is_probe(int motion) {
   return motion >= g::probe && motion <= g::probe_away_quietly;
 }
 
@@ -92,18 +90,18 @@ struct PlaneAxes {
   std::size_t normal = 2;
 };
 
-[[nodiscard]] constexpr PlaneAxes plane_axes(int plane) {
+constexpr PlaneAxes plane_axes(int plane) {
   if (plane == g::plane_zx) return {2, 0, 1};
   if (plane == g::plane_yz) return {1, 2, 0};
   return {0, 1, 2};
 }
 
-[[nodiscard]] std::span<const KnownCode> known_codes();
+std::span<const KnownCode> known_codes();
 /// Null if the code is unknown.
-[[nodiscard]] const KnownCode* find(Code code);
+const KnownCode* find(Code code);
 
 /// For coordinate system 1 (G54) to 9 (G59.3).
-[[nodiscard]] constexpr int system_code(int system) {
+constexpr int system_code(int system) {
   return system <= 6 ? g::system_1 + 10 * (system - 1) : g::system_7 + system - 7;
 }
 
@@ -129,25 +127,23 @@ struct Block {
   bool deletable = false;  ///< began with a slash
   std::size_t line = 0;
 
-  [[nodiscard]] bool has(char letter) const { return (present_ >> slot(letter) & 1U) != 0; }
+  bool has(char letter) const { return (present_ >> slot(letter) & 1U) != 0; }
   /// Only if has(letter).
-  [[nodiscard]] double value(char letter) const { return values_[slot(letter)]; }
-  [[nodiscard]] std::optional<double> find(char letter) const {
+  double value(char letter) const { return values_[slot(letter)]; }
+  std::optional<double> find(char letter) const {
     return has(letter) ? std::optional(value(letter)) : std::nullopt;
   }
-  [[nodiscard]] Place place(char letter) const { return {line, columns_[slot(letter)]}; }
-  [[nodiscard]] operator Place() const { return {line}; }
-  [[nodiscard]] const KnownCode* code(Group group) const {
-    return codes[static_cast<std::size_t>(group)];
-  }
-  [[nodiscard]] bool is(g::Name name) const {
+  Place place(char letter) const { return {line, columns_[slot(letter)]}; }
+  operator Place() const { return {line}; }
+  const KnownCode* code(Group group) const { return codes[static_cast<std::size_t>(group)]; }
+  bool is(g::Name name) const {
     return code(name.group) != nullptr && code(name.group)->tenths == name.tenths;
   }
-  [[nodiscard]] bool has_axes() const;
+  bool has_axes() const;
   /// A polar radius or angle.
-  [[nodiscard]] bool has_polar() const { return has('@') || has('^'); }
+  bool has_polar() const { return has('@') || has('^'); }
   /// Z and no other axis.
-  [[nodiscard]] bool has_z_alone() const;
+  bool has_z_alone() const;
 
   void clear(std::size_t line_number);
   void put(char letter, double value, Place place);
@@ -164,7 +160,7 @@ struct Block {
 };
 
 /// Whether a text has several moves, judged by its words G0 to G3 and X with a number.
-[[nodiscard]] bool holds_moves(std::string_view text);
+bool holds_moves(std::string_view text);
 
 /// Reads the words after `reader` to the end of the line.
 /// \param tools_have_no_diameter G41 and G42 then have no effect and are not rejected.

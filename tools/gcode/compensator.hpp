@@ -35,28 +35,26 @@ class Compensator final : private Sink {
   /// An unexpected value is a problem of the program itself; problems with the map and the
   /// controller are in findings().
   [[nodiscard]] Result<CompensateSummary> run(LineSource& source, const Dialect& dialect);
-  [[nodiscard]] const Findings& findings() const { return limits_.findings(); }
+  const Findings& findings() const { return limits_.findings(); }
 
  private:
   void move(const Move& move) override;
   void word(const PassedWord& word) override;
   void comment(const Comment& comment) override { limits_.comment(comment); }
   void note(const Note& note) override { limits_.add(note); }
-  [[nodiscard]] bool goes_on_after(const Problem& problem) override {
+  bool goes_on_after(const Problem& problem) override {
     limits_.add(problem);
     return true;
   }
   void end(std::size_t /*line*/, std::string_view word) override { limits_.end(word); }
 
   /// Corrector::command, from tables in the regions where a program cuts often.
-  [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target);
-  [[nodiscard]] Curve curve(const Move& move, ChainDirections directions);
+  Corrected<model::BedPoint> command(model::BedPoint target);
+  Curve curve(const Move& move, ChainDirections directions);
   void go_to_assumed_start(const Move& move);
   void along(const Move& move, double feed);
   void piece(const Move& move, double feed, double from, double to, ChainDirections directions);
-  [[nodiscard]] ChainDirections directions_at(const Move& move,
-                                              double t,
-                                              ChainDirections otherwise) const;
+  ChainDirections directions_at(const Move& move, double t, ChainDirections otherwise) const;
 
   const Corrector& corrector_;
   CompensateOptions options_;

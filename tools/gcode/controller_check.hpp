@@ -22,7 +22,7 @@ class ControllerCheck final : public Sink {
   void code(std::size_t line, Code code) override;
   void move(const Move& move) override;
   void end(std::size_t line, std::string_view word) override;
-  [[nodiscard]] bool goes_on_after(const Problem&) override { return true; }
+  bool goes_on_after(const Problem&) override { return true; }
 
  private:
   /// In the order in which they are reported.

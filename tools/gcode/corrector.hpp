@@ -32,7 +32,7 @@ enum class CorrectionReason {
 static_assert(static_cast<int>(CorrectionReason::not_converged) ==
               static_cast<int>(grid::MapReason::not_converged));
 /// A clause: "is outside the map", ...
-[[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
+std::string_view sentence_of(CorrectionReason reason);
 /// For `unreachable` and `controller` with the cause, if known.
 using CorrectionFailure = Failure<CorrectionReason>;
 template <class T>
@@ -50,7 +50,7 @@ struct ChainDirections {
 };
 
 /// Half the width of the machine's direction_hysteresis, per chain; zero if it has none.
-[[nodiscard]] model::ChainLengths half_play_mm(const model::Machine& machine);
+model::ChainLengths half_play_mm(const model::Machine& machine);
 
 class Corrector {
  public:
@@ -61,19 +61,19 @@ class Corrector {
       : map_(map), kinematics_(kinematics), firmware_(firmware) {}
 
   /// With half the play added in the chains' directions of motion.
-  [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target,
-                                                   model::ChainLengths half_play_mm = {},
-                                                   ChainDirections directions = {}) const;
-  [[nodiscard]] Corrected<model::BedPoint> tool(model::BedPoint command) const;
-  [[nodiscard]] Corrected<model::ChainLengths> paid_out(model::BedPoint command) const;
+  Corrected<model::BedPoint> command(model::BedPoint target,
+                                     model::ChainLengths half_play_mm = {},
+                                     ChainDirections directions = {}) const;
+  Corrected<model::BedPoint> tool(model::BedPoint command) const;
+  Corrected<model::ChainLengths> paid_out(model::BedPoint command) const;
 
-  [[nodiscard]] const grid::LengthMap& map() const { return map_; }
-  [[nodiscard]] const model::ControllerKinematics& kinematics() const { return kinematics_; }
-  [[nodiscard]] const Firmware& firmware() const { return firmware_; }
+  const grid::LengthMap& map() const { return map_; }
+  const model::ControllerKinematics& kinematics() const { return kinematics_; }
+  const Firmware& firmware() const { return firmware_; }
 
   /// The largest second derivative of the correction along any direction, in 1/mm, sampled over the
   /// map's bounds: a straight move of length s bows by at most s^2/8 times this.
-  [[nodiscard]] double sampled_curvature_per_mm() const;
+  double sampled_curvature_per_mm() const;
 
  private:
   const grid::LengthMap& map_;
@@ -82,7 +82,7 @@ class Corrector {
 };
 
 /// command(p) - p and tool(c) - c of a corrector that outlives them, for tables.
-[[nodiscard]] interp::CheckedField::Function offsets_of_command(const Corrector& corrector);
-[[nodiscard]] interp::CheckedField::Function offsets_of_tool(const Corrector& corrector);
+interp::CheckedField::Function offsets_of_command(const Corrector& corrector);
+interp::CheckedField::Function offsets_of_tool(const Corrector& corrector);
 
 }  // namespace chaintrue::gcode

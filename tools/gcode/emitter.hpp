@@ -30,11 +30,11 @@ inline constexpr std::size_t kHashDigits = 32;
 
 /// At most kMaxOutputLine characters a line. Characters that a controller might act on in a comment
 /// are replaced by _.
-[[nodiscard]] std::vector<std::string> comments_of(const grid::Provenance& made_by);
+std::vector<std::string> comments_of(const grid::Provenance& made_by);
 
 /// The beginnings of the hashes in the comments at the beginning of a program; none if it has no
 /// such comments or cannot be read.
-[[nodiscard]] std::vector<std::string> hashes_in_head(LineSource program);
+std::vector<std::string> hashes_in_head(LineSource program);
 
 /// Takes the next bytes of the output.
 using ByteSink = std::function<void(std::string_view)>;
@@ -63,7 +63,7 @@ class Emitter {
   void word(const PassedWord& word);
   void comment(const Comment& comment);
   void end(std::string_view word);
-  [[nodiscard]] std::uint64_t commands() const { return commands_; }
+  std::uint64_t commands() const { return commands_; }
 
  private:
   void put_line(std::string_view text);

@@ -29,7 +29,7 @@ struct Point {
 };
 
 enum class MoveKind { rapid, feed, arc, probe };
-[[nodiscard]] std::string_view name(MoveKind kind);
+std::string_view name(MoveKind kind);
 
 /// An arc or helix about an axis of a plane:
 ///   p(t) = centre + r(t) (cos(a(t)) first + sin(a(t)) second) + h(t) (first x second)
@@ -51,7 +51,7 @@ struct Arc {
   int turns = 0;
 
   /// True for the planes of G18 and G19.
-  [[nodiscard]] bool is_upright() const { return first.z_mm != 0.0 || second.z_mm != 0.0; }
+  bool is_upright() const { return first.z_mm != 0.0 || second.z_mm != 0.0; }
 };
 
 enum class FeedMode { per_minute, inverse_time };
@@ -84,7 +84,7 @@ struct Code {
   friend auto operator<=>(const Code&, const Code&) = default;
 };
 /// `G38.2`
-[[nodiscard]] std::string name(Code code);
+std::string name(Code code);
 
 /// A word that does not affect the path and is passed through unchanged (S, T, M, G4, G43, G61
 /// ...), or a motion in the machine's own frame (G53, G28, G30).
@@ -139,7 +139,7 @@ class Sink {
   virtual void comment(const Comment&) {}
   virtual void note(const Note&) {}
   /// An arc that does not exist; true: the program goes on from its end.
-  [[nodiscard]] virtual bool goes_on_after(const Problem&) { return false; }
+  virtual bool goes_on_after(const Problem&) { return false; }
   /// Every code of every executed line.
   virtual void code(std::size_t /*line*/, Code) {}
   /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file

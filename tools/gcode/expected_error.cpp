@@ -29,7 +29,7 @@ class Sum {
     weakest_mm_ = sigma_mm;
     part_.weakest_line = line;
   }
-  [[nodiscard]] ErrorAlong finished() const {
+  ErrorAlong finished() const {
     ErrorAlong part = part_;
     if (part.length_mm > 0.0) part.rms_mm = std::sqrt(part.rms_mm / part.length_mm);
     part.largest_mm = largest_.bound_mm();

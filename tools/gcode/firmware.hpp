@@ -98,33 +98,33 @@ struct Firmware {
   bool reads_gcode = true;
 };
 
-[[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
+const Firmware& firmware(model::ControllerKind kind);
 /// The firmware of a Maslow 4: FluidNC, on which it is based, with other kinematics
 /// (model/belts/belt_controller.hpp).
-[[nodiscard]] const Firmware& firmware_of_four_belts();
+const Firmware& firmware_of_four_belts();
 
 /// The firmware of a V-plotter.
-[[nodiscard]] const Firmware& firmware(model::PlotterFirmware plotter);
+const Firmware& firmware(model::PlotterFirmware plotter);
 
 /// Whether it interpolates chain lengths, in pieces of a command.
-[[nodiscard]] bool is_chain_linear(const Firmware& firmware);
+bool is_chain_linear(const Firmware& firmware);
 /// Number of pieces, linear in chain length, for a command of that length at that feed.
-[[nodiscard]] double pieces_of(const Firmware& firmware, double length_mm, double feed_mm_per_min);
+double pieces_of(const Firmware& firmware, double length_mm, double feed_mm_per_min);
 
 /// The code that it executes for a code.
-[[nodiscard]] Code taken_for(const Firmware& firmware, Code code);
+Code taken_for(const Firmware& firmware, Code code);
 /// Whether it implements the code that it executes for this one.
-[[nodiscard]] bool knows_code(const Firmware& firmware, Code code);
+bool knows_code(const Firmware& firmware, Code code);
 
 /// Half the width and height that the controller clamps to; empty if it does not clamp.
 struct ClampBox {
   double half_width_mm = 0.0;
   double half_height_mm = 0.0;
 };
-[[nodiscard]] std::optional<ClampBox> clamp_box(const model::Machine& machine);
+std::optional<ClampBox> clamp_box(const model::Machine& machine);
 
 /// Whether an arc of this radius and angle (of one turn at most, no sign) becomes a straight line.
-[[nodiscard]] bool cuts_straight(const Firmware& firmware, double radius_mm, double sweep_rad);
+bool cuts_straight(const Firmware& firmware, double radius_mm, double sweep_rad);
 
 /// The ends of the straight moves that an arc becomes, in order; the last is the arc's end. Stops if
 /// `visit` returns false.
@@ -149,11 +149,11 @@ class CommandWay {
              double doubt_mm = 0.0);
 
   /// Pieces that are linear in chain length; 1 if the controller follows the line.
-  [[nodiscard]] int pieces() const { return pieces_; }
+  int pieces() const { return pieces_; }
   /// The commanded point that is equivalent to the controller's position at the fraction t: on the
   /// line, or, if it interpolates chain lengths, the point with the same lengths. Empty if its own
   /// kinematics fail.
-  [[nodiscard]] std::optional<Point> at(double t);
+  std::optional<Point> at(double t);
 
  private:
   const Firmware& firmware_;

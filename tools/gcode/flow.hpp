@@ -23,7 +23,7 @@ class Flow {
 
   /// The next line to execute; false at the end of the file. Counts lines that are read again
   /// against the budget.
-  [[nodiscard]] bool next(SourceLine& line);
+  bool next(SourceLine& line);
 
   /// Executes an O-line (line.text begins with o, or has it at `at`).
   void control(const CleanLine& line, std::size_t at);

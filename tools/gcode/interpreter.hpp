@@ -56,8 +56,8 @@ class Interpreter {
 
   void execute(const std::vector<CommentText>& comments);
 
-  [[nodiscard]] Parameters& parameters() { return parameters_; }
-  [[nodiscard]] const Dialect& dialect() const { return dialect_; }
+  Parameters& parameters() { return parameters_; }
+  const Dialect& dialect() const { return dialect_; }
   /// A code and its words, unchanged.
   void pass(Code code, std::string_view words = {}) const;
   /// A plotter's own code, or M0 with a text, which is passed on unchanged.
@@ -70,7 +70,7 @@ class Interpreter {
   void set_call_level(std::size_t level) { call_level_ = level; }
 
   /// For `explain`: the modal state in words, one line for each item.
-  [[nodiscard]] std::vector<std::string> describe() const;
+  std::vector<std::string> describe() const;
 
  private:
   struct Modes {
@@ -121,7 +121,7 @@ class Interpreter {
                  std::optional<ProblemName> problem = {});
   void note_deletable();
   void check_assignments() const;
-  [[nodiscard]] std::string written_out(std::string_view text) const;
+  std::string written_out(std::string_view text) const;
 
   // interpreter_words.cpp: which code a block's words belong to, and words that are passed through.
   void check_words(int motion) const;
@@ -133,7 +133,7 @@ class Interpreter {
 
   // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
   void select_system(int system);
-  [[nodiscard]] Axes stored(int first) const;
+  Axes stored(int first) const;
   void store(int first, const Axes& axes);
   void once();
   void set_system();
@@ -143,14 +143,14 @@ class Interpreter {
   void store_home(int first_parameter);
   void needs_known_z() const;
   void refresh_frame();
-  [[nodiscard]] Axes to_machine(const Axes& program) const;
-  [[nodiscard]] Axes to_program(const Axes& machine) const;
+  Axes to_machine(const Axes& program) const;
+  Axes to_program(const Axes& machine) const;
 
   // interpreter_motion.cpp
   void move(int motion);
   Axes target() const;
   /// In mm, or degrees.
-  [[nodiscard]] double axis_value(std::size_t axis) const;
+  double axis_value(std::size_t axis) const;
   void machine_height(int motion);
   void pass_height(std::string text, Code code);
   void check_start(int motion);
@@ -159,10 +159,10 @@ class Interpreter {
   void run(Move move, const Axes& machine);
   void straight(MoveKind kind, const Axes& machine);
   void probe();
-  [[nodiscard]] double length(char letter) const { return block_.value(letter) * mm_per_unit(); }
-  [[nodiscard]] double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
-  [[nodiscard]] Point on_sheet(const Axes& machine) const;
-  [[nodiscard]] Move basic_move(MoveKind kind, const Axes& to) const;
+  double length(char letter) const { return block_.value(letter) * mm_per_unit(); }
+  double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
+  Point on_sheet(const Axes& machine) const;
+  Move basic_move(MoveKind kind, const Axes& to) const;
 
   // interpreter_arcs.cpp
   void arc(bool clockwise);
@@ -171,11 +171,11 @@ class Interpreter {
   void cycle(int motion);
 
   // interpreter_state.cpp
-  [[nodiscard]] std::string system_name() const;
+  std::string system_name() const;
   /// In the program's units.
-  [[nodiscard]] Axes position() const;
+  Axes position() const;
   /// Value of a predefined name (#<_x> ..).
-  [[nodiscard]] std::optional<double> state(std::string_view name) const;
+  std::optional<double> state(std::string_view name) const;
 
   Dialect dialect_;
   const Block& block_;

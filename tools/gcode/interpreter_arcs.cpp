@@ -47,12 +47,12 @@ struct ArcWords {
   bool absolute_centre = false;
   double mm_per_unit = 1.0;
 
-  [[nodiscard]] bool in_inches() const { return mm_per_unit != 1.0; }
-  [[nodiscard]] double radius_tolerance_mm() const {
+  bool in_inches() const { return mm_per_unit != 1.0; }
+  double radius_tolerance_mm() const {
     return in_inches() ? kRadiusTolerance_inch * kInchMm : kRadiusToleranceMm;
   }
   /// In the program's unit.
-  [[nodiscard]] std::string in_units(double mm) const {
+  std::string in_units(double mm) const {
     return fmt::format("{:.4f} {}", mm / mm_per_unit, in_inches() ? "inch" : "mm");
   }
 };
@@ -130,8 +130,8 @@ PlanePoint centre_of(const ArcWords& arc) {
     refuse(
         bad_arc, block.place(across), "{} has no meaning for an arc of this plane", upper(across));
   }
-  const bool has_centre = block.has(kCentreLetters[arc.plane.first]) ||
-                          block.has(kCentreLetters[arc.plane.second]);
+  const bool has_centre =
+      block.has(kCentreLetters[arc.plane.first]) || block.has(kCentreLetters[arc.plane.second]);
   const bool has_end =
       block.has(kAxisLetters[arc.plane.first]) || block.has(kAxisLetters[arc.plane.second]);
   const bool has_radius = block.has('r');

@@ -30,7 +30,7 @@ struct Interpreter::Cycle {
   double bottom = 0.0;
   double clear = 0.0;  // height of the retract at the end
 
-  [[nodiscard]] Axes at(double height) const;
+  Axes at(double height) const;
   void go(MoveKind kind, double height) const;
   void rapid(double height) const { go(MoveKind::rapid, height); }
   void feed(double height) const { go(MoveKind::feed, height); }

@@ -39,9 +39,7 @@ struct CompensateOptions {
   /// as both.
   std::function<void(const Move&, const PathSample&, const PathSample&)> on_command;
 
-  [[nodiscard]] bool has_play() const {
-    return half_play_mm.left_mm != 0.0 || half_play_mm.right_mm != 0.0;
-  }
+  bool has_play() const { return half_play_mm.left_mm != 0.0 || half_play_mm.right_mm != 0.0; }
 };
 
 struct CompensateSummary {
@@ -73,12 +71,12 @@ class Limits {
   void add(const Problem& problem) { findings_.add(problem); }
 
   /// Where the last command ends; empty until the program states X and Y.
-  [[nodiscard]] const std::optional<PathSample>& here() const { return here_; }
-  [[nodiscard]] const Findings& findings() const { return findings_; }
+  const std::optional<PathSample>& here() const { return here_; }
+  const Findings& findings() const { return findings_; }
   /// What is written after a problem is discarded.
-  [[nodiscard]] bool hold() const { return findings_.problem_count == 0; }
+  bool hold() const { return findings_.problem_count == 0; }
   /// Corrections and commands alone.
-  [[nodiscard]] CompensateSummary summary() const;
+  CompensateSummary summary() const;
 
  private:
   void examine(const Move& move, const PathSample& sample);

@@ -44,12 +44,12 @@ class LineSource {
   explicit LineSource(std::unique_ptr<std::istream> stream) : stream_(std::move(stream)) {}
 
   [[nodiscard]] static Result<LineSource> from_file(const std::string& path);
-  [[nodiscard]] static LineSource from_text(std::string text);
+  static LineSource from_text(std::string text);
 
   /// False at the end of the file. \throws Refusal
-  [[nodiscard]] bool next(SourceLine& line);
+  bool next(SourceLine& line);
   /// Position of the line that next() would return.
-  [[nodiscard]] Position position() const;
+  Position position() const;
   void seek(Position position);
   /// `listener` is called for every line with the number of bytes of the file up to its end.
   void on_line(std::function<void(std::uint64_t)> listener) { listener_ = std::move(listener); }
@@ -78,15 +78,15 @@ struct CleanLine {
   std::vector<CommentText> comments;
   std::size_t number = 0;
 
-  [[nodiscard]] Place place(std::size_t index) const { return {number, columns[index]}; }
-  [[nodiscard]] operator Place() const { return place(0); }
+  Place place(std::size_t index) const { return {number, columns[index]}; }
+  operator Place() const { return place(0); }
 };
 
 /// A word's letter as messages show it and as the reader knows it; any other character unchanged.
-[[nodiscard]] char upper(char letter);
-[[nodiscard]] char lower(char letter);
+char upper(char letter);
+char lower(char letter);
 /// Where a run of digits from `at` on ends.
-[[nodiscard]] std::size_t past_digits(std::string_view text, std::size_t at);
+std::size_t past_digits(std::string_view text, std::size_t at);
 
 /// Splits a line into text and comments; a RepRap checksum (`*71`) is checked and removed.
 /// \throws Refusal

@@ -24,38 +24,35 @@ constexpr double dot(Point a, Point b) {
   return a.x_mm * b.x_mm + a.y_mm * b.y_mm + a.z_mm * b.z_mm;
 }
 /// "X1.000 Y2.000", for messages.
-[[nodiscard]] std::string in_xy(Point point);
+std::string in_xy(Point point);
 
 /// The point at t = 0 .. 1; exactly `from` and `to` at the ends. Lines: constant speed; arcs:
 /// constant angular speed.
-[[nodiscard]] Point at(const Move& move, double t);
+Point at(const Move& move, double t);
 
 /// u along the arc's first axis, v along its second, from the centre, and the height over its plane.
-[[nodiscard]] Point in_plane(const Arc& arc, double u, double v, double height_mm);
+Point in_plane(const Arc& arc, double u, double v, double height_mm);
 /// Number of chords of an arc for this bow, and at least this many.
-[[nodiscard]] double chords_within(double radius_mm,
-                                   double sweep_rad,
-                                   double bow_mm,
-                                   double fewest);
+double chords_within(double radius_mm, double sweep_rad, double bow_mm, double fewest);
 
 /// Whether it is a straight move without X and Y.
-[[nodiscard]] bool stays(const Move& move);
+bool stays(const Move& move);
 
 /// Where X, Y or Z turns around, and both ends: t = 0 .. 1 of the places that bound the move.
-[[nodiscard]] std::vector<double> bounding_places(const Move& move);
+std::vector<double> bounding_places(const Move& move);
 
 /// Length of the path, mm. For spirals with the mean radius: their radii differ only by rounding.
-[[nodiscard]] double length_mm(const Move& move);
+double length_mm(const Move& move);
 /// For any feed mode; 0 if none was stated.
-[[nodiscard]] double feed_mm_per_min(const Move& move);
+double feed_mm_per_min(const Move& move);
 
-[[nodiscard]] double distance_mm(Point a, Point b);
+double distance_mm(Point a, Point b);
 /// The length of its part in X and Y.
-[[nodiscard]] double level_mm(Point way);
+double level_mm(Point way);
 
 /// Parameter 0 .. 1 of the nearest point on the straight piece from a to b.
-[[nodiscard]] double nearest_on_line(Point a, Point b, Point p);
+double nearest_on_line(Point a, Point b, Point p);
 
-[[nodiscard]] Point between(Point a, Point b, double t);
+Point between(Point a, Point b, double t);
 
 }  // namespace chaintrue::gcode

@@ -82,19 +82,19 @@ class PathMatcher {
   void ignore_speed() { labels_ = false; }
 
   /// The end of the path as far as it was read.
-  [[nodiscard]] Point path_end() const { return path_end_; }
+  Point path_end() const { return path_end_; }
   /// The tool's position and the last point of the path that can correspond to it, for messages.
-  [[nodiscard]] Deviation front() const;
+  Deviation front() const;
   /// The largest distance of a point of the tool, or of a corner of the path, from the nearest
   /// point that the order allows. Never above the Frechet distance.
-  [[nodiscard]] const Deviation& largest(bool rapid) const { return largest_[rapid ? 1 : 0]; }
+  const Deviation& largest(bool rapid) const { return largest_[rapid ? 1 : 0]; }
 
  private:
   /// Parameters 0 .. 1 of a piece; empty where low > high.
   struct Span {
     double low = 1.0;
     double high = 0.0;
-    [[nodiscard]] bool empty() const { return low > high; }
+    bool empty() const { return low > high; }
   };
   /// Tracks a curve's runs of one kind and speed.
   struct Run {
@@ -115,7 +115,7 @@ class PathMatcher {
   static Span free_part(Point a, Point b, Point c, double distance2);
   bool read();
   bool pin(Run& run, Point from, const PathPiece& piece) const;
-  [[nodiscard]] bool agree(const PathPiece& a, const PathPiece& b) const;
+  bool agree(const PathPiece& a, const PathPiece& b) const;
   bool column(const PathPiece& piece, bool pinned, double distance_mm, bool labels);
   void cell(Open& open,
             Span bottom,
@@ -128,7 +128,7 @@ class PathMatcher {
   void close_up();
   void note(bool rapid, const Deviation& pair);
   void note_corner(Open& open, Point tool, std::size_t line);
-  [[nodiscard]] bool at_end() const;
+  bool at_end() const;
 
   Limits limits_;
   Path path_;

@@ -25,9 +25,7 @@ struct PlotterWord {
 /// Where the line holds such a code and words with plain numbers from `at` on, and nothing besides;
 /// "G28 X Y" too.
 /// \param homes_itself every G28 is the controller's own; otherwise one with bare letters is.
-[[nodiscard]] std::optional<PlotterWord> plotter_word(const CleanLine& line,
-                                                      std::size_t at,
-                                                      bool homes_itself);
+std::optional<PlotterWord> plotter_word(const CleanLine& line, std::size_t at, bool homes_itself);
 
 /// M0 or M1 with a text for the operator; on a plotter also M117 and M118, which show one.
 struct TextLine {
@@ -35,6 +33,6 @@ struct TextLine {
   std::string text;
   std::vector<CommentText> comments;
 };
-[[nodiscard]] std::optional<TextLine> text_line(std::string_view raw, bool of_plotter);
+std::optional<TextLine> text_line(std::string_view raw, bool of_plotter);
 
 }  // namespace chaintrue::gcode

@@ -39,16 +39,16 @@ struct Problem {
   Place place;
   std::string sentence;
   /// `line 4, column 12: the arc's end ... (bad_arc)`
-  [[nodiscard]] std::string message() const;
+  std::string message() const;
 };
 
 /// Stable identifier (`bad_arc`), used in documents, tests and JSON.
-[[nodiscard]] std::string_view name(ProblemName problem);
+std::string_view name(ProblemName problem);
 [[nodiscard]] ProblemKind kind(ProblemName problem);
 
 struct Refusal final : std::exception {
   explicit Refusal(Problem found) : problem(std::move(found)) {}
-  [[nodiscard]] const char* what() const noexcept override { return problem.sentence.c_str(); }
+  const char* what() const noexcept override { return problem.sentence.c_str(); }
 
   Problem problem;
 };

@@ -51,10 +51,10 @@ class Program {
 
   /// Executes the next line; false when the program has ended. \throws Refusal
   bool step();
-  [[nodiscard]] const ProgramSummary& summary() const { return summary_; }
-  [[nodiscard]] const Interpreter& interpreter() const { return interpreter_; }
+  const ProgramSummary& summary() const { return summary_; }
+  const Interpreter& interpreter() const { return interpreter_; }
   /// Number of the line that step() will read, in the order of execution.
-  [[nodiscard]] std::size_t next_line() const { return source_.position().lines_before + 1; }
+  std::size_t next_line() const { return source_.position().lines_before + 1; }
 
  private:
   void line(const SourceLine& raw);
@@ -65,7 +65,7 @@ class Program {
   void end_of_file();
   void end(std::size_t line, std::string_view word);
   /// The character at this position; zero at the end of the line.
-  [[nodiscard]] char peek(std::size_t at) const { return line_.text[at]; }
+  char peek(std::size_t at) const { return line_.text[at]; }
 
   Block block_;
   Interpreter interpreter_;
@@ -93,7 +93,7 @@ class ProgramStream final : private Sink {
   ProgramStream(LineSource& source, const Dialect& dialect) : program_(source, dialect, *this) {}
 
   /// The next event, unchanged until pop(); Kind::end from the end on. \throws Refusal
-  [[nodiscard]] const ProgramEvent& peek();
+  const ProgramEvent& peek();
   void pop();
 
  private:

@@ -30,7 +30,7 @@ struct PathSample {
 using Curve = std::function<Corrected<PathSample>(double t)>;
 
 /// Rounding error at this number of decimals; the tolerance must be larger.
-[[nodiscard]] double least_tolerance_mm(int decimals);
+double least_tolerance_mm(int decimals);
 
 class Segmenter {
  public:
@@ -39,7 +39,7 @@ class Segmenter {
   Segmenter(const Corrector& corrector, double tolerance_mm, int decimals);
 
   /// Straight moves up to this length bow by a small share of the tolerance at most.
-  [[nodiscard]] double unchecked_mm() const { return unchecked_mm_; }
+  double unchecked_mm() const { return unchecked_mm_; }
 
   struct Extent {
     double length_mm = 0.0;
@@ -50,20 +50,20 @@ class Segmenter {
   /// Visits the samples after `start` up to t = `end`, in order.
   /// \param extent the curve's length from start to end, which affects only the first trial and
   /// the density of checks, and the largest part of it that one command may cover.
-  [[nodiscard]] Corrected<void> run(const Curve& curve,
-                                    const PathSample& start,
-                                    double end,
-                                    Extent extent,
-                                    const std::function<void(const PathSample&)>& visit);
+  Corrected<void> run(const Curve& curve,
+                      const PathSample& start,
+                      double end,
+                      Extent extent,
+                      const std::function<void(const PathSample&)>& visit);
 
  private:
   /// The largest distance from the curve between two samples to the controller's path between their
   /// commands.
-  [[nodiscard]] Corrected<double> deviation_mm(const Curve& curve,
-                                               const PathSample& a,
-                                               const PathSample& b,
-                                               double length_mm,
-                                               double feed_mm_per_min) const;
+  Corrected<double> deviation_mm(const Curve& curve,
+                                 const PathSample& a,
+                                 const PathSample& b,
+                                 double length_mm,
+                                 double feed_mm_per_min) const;
 
   const Corrector& corrector_;
   double tolerance_mm_ = 0.0;  // of a chord

@@ -38,19 +38,19 @@ class SimulatedMachine {
         play_(options.half_play_mm.left_mm != 0.0 || options.half_play_mm.right_mm != 0.0) {}
 
   /// The tool's position when the controller's position is `command`.
-  [[nodiscard]] Point place(Point command, std::size_t line);
+  Point place(Point command, std::size_t line);
   /// Visits the points after the move's start, up to its end. \throws Refusal
   void run(const Move& move, const Visit& visit);
   /// Largest overshoot of the controller's last tick of a command.
-  [[nodiscard]] double tick_overshoot_mm() const { return tick_overshoot_mm_; }
+  double tick_overshoot_mm() const { return tick_overshoot_mm_; }
 
  private:
-  [[nodiscard]] Point as_read(Point point) const;
-  [[nodiscard]] Point tool(Point command, std::size_t line);
+  Point as_read(Point point) const;
+  Point tool(Point command, std::size_t line);
   /// Lengths of the chains when their motors have gone to these: a chain follows once its motor has
   /// crossed the gap.
-  [[nodiscard]] model::ChainLengths follow(model::ChainLengths motors);
-  [[nodiscard]] double straight_mm(Point command);
+  model::ChainLengths follow(model::ChainLengths motors);
+  double straight_mm(Point command);
   bool straight(Point from, Point to, const Move& move, const Visit& visit);
   bool chain_linear(Point from, Point to, const Move& move, const Visit& visit);
   void arc(const Move& move, const Visit& visit);

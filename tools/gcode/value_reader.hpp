@@ -52,13 +52,13 @@ class Parameters {
   explicit Parameters(State state);
 
   /// \param index 1 .. kCount - 1.
-  [[nodiscard]] double get(int index) const;
+  double get(int index) const;
   void set(int index, double value);
-  [[nodiscard]] bool writable(int index) const;
+  bool writable(int index) const;
   /// The stored value, in mm if it is a length; without the interpreter's state.
-  [[nodiscard]] double stored(int index) const { return values_[static_cast<std::size_t>(index)]; }
+  double stored(int index) const { return values_[static_cast<std::size_t>(index)]; }
 
-  [[nodiscard]] std::optional<double> get(std::string_view name) const;
+  std::optional<double> get(std::string_view name) const;
   /// A name of the interpreter's state keeps its value.
   void set(std::string_view name, double value);
 
@@ -88,30 +88,30 @@ class ValueReader {
   ValueReader(const CleanLine& line, const Parameters& parameters, std::size_t at = 0)
       : line_(line), parameters_(parameters), at_(at) {}
 
-  [[nodiscard]] bool done() const { return at_ >= line_.text.size(); }
+  bool done() const { return at_ >= line_.text.size(); }
   /// The current character, or zero at the end.
-  [[nodiscard]] char peek() const { return line_.text[at_]; }
-  [[nodiscard]] std::size_t at() const { return at_; }
-  [[nodiscard]] Place place() const { return line_.place(at_); }
+  char peek() const { return line_.text[at_]; }
+  std::size_t at() const { return at_; }
+  Place place() const { return line_.place(at_); }
   void skip(std::size_t count) { at_ += count; }
   /// Reads `text` if it is next.
   bool accept(std::string_view text);
 
-  [[nodiscard]] double real();
+  double real();
   /// A real value within 0.0001 of an integer.
-  [[nodiscard]] long integer();
+  long integer();
   /// `[` ... `]`
-  [[nodiscard]] double bracketed();
+  double bracketed();
   /// `<name>`, without its brackets.
-  [[nodiscard]] std::string angle_name();
+  std::string angle_name();
 
  private:
-  [[nodiscard]] double operand();
-  [[nodiscard]] double number();
-  [[nodiscard]] double parameter();
-  [[nodiscard]] double function();
-  [[nodiscard]] double exists();
-  [[nodiscard]] double operand_chain(int lowest_precedence);
+  double operand();
+  double number();
+  double parameter();
+  double function();
+  double exists();
+  double operand_chain(int lowest_precedence);
 
   const CleanLine& line_;
   const Parameters& parameters_;

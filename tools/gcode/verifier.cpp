@@ -154,15 +154,13 @@ class Verification {
   }
 
   /// From home curves start only at a known place.
-  [[nodiscard]] bool begins_here(const Move& move) const {
-    return homed_ ? move.names_xy : begins(move);
-  }
+  bool begins_here(const Move& move) const { return homed_ ? move.names_xy : begins(move); }
   /// Whether both curves start at the end of this move, whose path is not compensated.
-  [[nodiscard]] bool starts_at_end(const Move& move) const {
+  bool starts_at_end(const Move& move) const {
     return move.kind == MoveKind::rapid || (homed_ && !move.arc);
   }
 
-  [[nodiscard]] int chords_of(const Arc& arc) const {
+  int chords_of(const Arc& arc) const {
     constexpr double kWidestChordRad = 2.0 * std::numbers::pi / kFewestChordsPerTurn;
     return static_cast<int>(std::min(1e8,
                                      chords_within(std::max(arc.start_radius_mm, arc.end_radius_mm),
@@ -295,12 +293,13 @@ class Verification {
       const std::string difference = is_end  ? fmt::format("missing: {}", wanted)
                                      : ended ? fmt::format("too many: {}", name)
                                              : fmt::format("{} instead of {}", name, wanted);
-      return differ(difference,
-                    fmt::format("line {} of the file run has {}, but line {} of the original has {}",
-                                found.line,
-                                name,
-                                event.line,
-                                wanted));
+      return differ(
+          difference,
+          fmt::format("line {} of the file run has {}, but line {} of the original has {}",
+                      found.line,
+                      name,
+                      event.line,
+                      wanted));
     }
     if (is_end) {
       if (summary_.commands == 0 && !moves_itself_) stray("the file run does not move the tool");
@@ -320,7 +319,7 @@ class Verification {
     static_cast<void>(matcher_.begin({0.0, matcher_.path_end(), tool, line, found.line}));
   }
 
-  [[nodiscard]] std::string place_fault() const {
+  std::string place_fault() const {
     const Deviation front = matcher_.front();
     return fmt::format(
         "on line {} of the file run the tool is at {}, {:.4f} mm from its position {} on line {} "

@@ -53,13 +53,11 @@ struct VerifySummary {
   /// The first fault as a sentence, with its place and what to check. Empty if the file passes.
   std::string fault;
 
-  [[nodiscard]] bool holds() const {
-    return !strays && words_differ.empty() && motion_differs.empty();
-  }
-  [[nodiscard]] const Deviation& worst() const {
+  bool holds() const { return !strays && words_differ.empty() && motion_differs.empty(); }
+  const Deviation& worst() const {
     return feeds.distance_mm >= rapids.distance_mm ? feeds : rapids;
   }
-  [[nodiscard]] double largest_mm() const { return worst().distance_mm; }
+  double largest_mm() const { return worst().distance_mm; }
 };
 
 /// Why there is no result: one of the files is rejected, or the simulated machine cannot reach a

@@ -16,7 +16,7 @@ struct ToolVector {
   double x_mm = 0.0;
   double y_mm = 0.0;
 
-  [[nodiscard]] double length_mm() const { return std::hypot(x_mm, y_mm); }
+  double length_mm() const { return std::hypot(x_mm, y_mm); }
 };
 
 /// The sheet, or its measured part.
@@ -26,11 +26,11 @@ struct Outline {
   double y_min_mm = 0.0;
   double y_max_mm = 0.0;
 
-  [[nodiscard]] double width_mm() const { return x_max_mm - x_min_mm; }
-  [[nodiscard]] double height_mm() const { return y_max_mm - y_min_mm; }
+  double width_mm() const { return x_max_mm - x_min_mm; }
+  double height_mm() const { return y_max_mm - y_min_mm; }
   void include(double x_mm, double y_mm);
   /// Returns the outline with a margin added on every side.
-  [[nodiscard]] Outline widened(double margin_mm) const;
+  Outline widened(double margin_mm) const;
   /// \throws std::invalid_argument for one without an extent.
   void require_extent() const;
 };
@@ -59,27 +59,26 @@ struct Arrow {
 };
 
 /// The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) not above value; 0 for 0.
-[[nodiscard]] double round_down_125(double value);
+double round_down_125(double value);
 
 /// The signals declared by the charts of the bed, and others after them.
-[[nodiscard]] std::vector<Signal> view_signals(const Outline& view,
-                                               const Outline& sheet,
-                                               const std::vector<Signal>& others = {});
+std::vector<Signal> view_signals(const Outline& view,
+                                 const Outline& sheet,
+                                 const std::vector<Signal>& others = {});
 /// The view shows the sheet and the marks, with a margin of 5 % of the sheet's width.
 /// \throws std::invalid_argument for a sheet without an extent.
-[[nodiscard]] std::vector<Signal> bed_signals(const Outline& sheet,
-                                              const std::vector<Arrow>& marks);
+std::vector<Signal> bed_signals(const Outline& sheet, const std::vector<Arrow>& marks);
 
 /// The magnification at which the longest arrow of a good point spans an eighth of the bed; 1 if
 /// all have zero length.
-[[nodiscard]] double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
+double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
 /// charts/bed_arrows without a title; the scale is printed in the chart. The arrow of a bad point, which does not
 /// count for the scale, ends at the frame, and the caption names it with its length:
 /// " Cut off at the frame: point 9 (25.40 mm)."
-[[nodiscard]] Chart arrows_chart(const Outline& sheet,
-                                 const std::vector<Arrow>& arrows,
-                                 double magnification,
-                                 const char* color);
+Chart arrows_chart(const Outline& sheet,
+                   const std::vector<Arrow>& arrows,
+                   double magnification,
+                   const char* color);
 /// Texts of the charts before and after.
 struct ArrowWords {
   std::string before, before_caption, after, after_caption;
@@ -88,9 +87,9 @@ struct ArrowWords {
 };
 /// Before and after at one scale, and after once more if it is much smaller; only before if there
 /// is nothing after.
-[[nodiscard]] std::vector<ChartRow> arrow_rows(const Outline& sheet,
-                                               const std::vector<Arrow>& before,
-                                               const std::vector<Arrow>& after,
-                                               const ArrowWords& words);
+std::vector<ChartRow> arrow_rows(const Outline& sheet,
+                                 const std::vector<Arrow>& before,
+                                 const std::vector<Arrow>& after,
+                                 const ArrowWords& words);
 
 }  // namespace chaintrue::report

@@ -97,14 +97,14 @@ struct Column {
   int gap = 0;
   Detail detail = Detail::always;
 };
-[[nodiscard]] inline Column text_column(std::string heading, int width) {
+inline Column text_column(std::string heading, int width) {
   return {.heading = std::move(heading), .width = width};
 }
-[[nodiscard]] inline Column number_column(std::string heading, int width, int digits = 2) {
+inline Column number_column(std::string heading, int width, int digits = 2) {
   return {.heading = std::move(heading), .is_number = true, .digits = digits, .width = width};
 }
 /// Shows the sign of positive numbers too.
-[[nodiscard]] inline Column signed_column(std::string heading, int width, int digits = 2) {
+inline Column signed_column(std::string heading, int width, int digits = 2) {
   Column column = number_column(std::move(heading), width, digits);
   column.has_sign = true;
   return column;
@@ -201,10 +201,10 @@ struct Document {
 
 /// The document as a page. \throws std::invalid_argument if a number is not finite, a row has more
 /// cells than its table has columns, or a chart specification does not exist.
-[[nodiscard]] std::string render_html(const Document& document);
+std::string render_html(const Document& document);
 
 /// The document as lines for a terminal, with the details of `detail` (always or verbose). \throws
 /// std::invalid_argument if a number is not finite or a row has too many cells.
-[[nodiscard]] std::string render_text(const Document& document, Detail detail = Detail::always);
+std::string render_text(const Document& document, Detail detail = Detail::always);
 
 }  // namespace chaintrue::report

@@ -16,9 +16,9 @@ struct EmbeddedFile {
 };
 
 /// All files of a kind, in the order in which they were embedded.
-[[nodiscard]] std::vector<EmbeddedFile> embedded_files(std::string_view kind);
+std::vector<EmbeddedFile> embedded_files(std::string_view kind);
 
 /// \throws std::invalid_argument if there is no file of that kind and name.
-[[nodiscard]] std::string_view embedded_text(std::string_view kind, std::string_view name);
+std::string_view embedded_text(std::string_view kind, std::string_view name);
 
 }  // namespace chaintrue::report

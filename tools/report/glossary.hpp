@@ -15,10 +15,12 @@ struct Term {
   std::string_view meaning;
 };
 inline constexpr Term kTerms[] = {
-    {"rms", "root mean square: the typical size of errors of either sign, with large ones weighted "
-            "more"},
-    {"one sigma", "one standard deviation: two of three values are within it, nineteen of twenty "
-                  "within twice as much"},
+    {"rms",
+     "root mean square: the typical size of errors of either sign, with large ones weighted "
+     "more"},
+    {"one sigma",
+     "one standard deviation: two of three values are within it, nineteen of twenty "
+     "within twice as much"},
     {"mark", "a place on the sheet where the tool or the chains were measured"},
     {"map", "the true chain lengths for every place on the bed, computed from the marks"},
     {"uncorrected", "the machine with the settings in force when it was measured"},
@@ -27,8 +29,7 @@ inline constexpr Term kTerms[] = {
      "not used by the fit, one reading or one block of the bed at a time; the error of predicting "
      "it tests the fit"},
     {"residual", "the reading minus what was expected"},
-    {"chain zero",
-     "the constant error of a chain's readings due to a wrong zero"},
+    {"chain zero", "the constant error of a chain's readings due to a wrong zero"},
     {"noise", "the differences of repeated readings"},
     {"pitch", "the length of one link, 6.35 mm when it is new"},
     {"catenary", "the curve in which a chain hangs"},
@@ -36,6 +37,6 @@ inline constexpr Term kTerms[] = {
 };
 
 /// A folded section with all of them.
-[[nodiscard]] Section glossary();
+Section glossary();
 
 }  // namespace chaintrue::report

@@ -28,12 +28,10 @@ struct HoleLabel {
 };
 
 /// From a point to the nearest point of a label; 0 inside.
-[[nodiscard]] double distance_to(const HoleLabel& label, double x, double y);
+double distance_to(const HoleLabel& label, double x, double y);
 
 /// One for each hole, between `left` and `right`. If holes are too close for any position, the one
 /// with the least overlap.
-[[nodiscard]] std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
-                                                  double left,
-                                                  double right);
+std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes, double left, double right);
 
 }  // namespace chaintrue::report

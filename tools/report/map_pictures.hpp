@@ -73,9 +73,9 @@ struct MapPictures {
 
 /// The expected error over the bed. \throws as picture_sections; std::invalid_argument without an
 /// error map.
-[[nodiscard]] Chart error_map_chart(const MapPictures& map);
+Chart error_map_chart(const MapPictures& map);
 
 /// Sections without data are left out. \throws std::invalid_argument if the sheet has no extent.
-[[nodiscard]] std::vector<Section> picture_sections(const MapPictures& map);
+std::vector<Section> picture_sections(const MapPictures& map);
 
 }  // namespace chaintrue::report

@@ -41,9 +41,9 @@ struct PathReport {
   /// Keeps at most kMostPieces: beyond that, every second one, every fourth, ... so that memory is
   /// bounded.
   void add(const PathPiece& piece);
-  [[nodiscard]] const std::vector<PathPiece>& pieces() const { return pieces_; }
+  const std::vector<PathPiece>& pieces() const { return pieces_; }
   /// One in this number of pieces is drawn.
-  [[nodiscard]] std::uint64_t stride() const { return stride_; }
+  std::uint64_t stride() const { return stride_; }
 
   static constexpr std::size_t kMostPieces = 20000;
 
@@ -54,6 +54,6 @@ struct PathReport {
 };
 
 /// \throws std::invalid_argument for a sheet without an extent.
-[[nodiscard]] Document page_of(const PathReport& report);
+Document page_of(const PathReport& report);
 
 }  // namespace chaintrue::report

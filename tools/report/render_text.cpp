@@ -42,7 +42,7 @@ class TextWriter {
   }
 
  private:
-  [[nodiscard]] bool shows(Detail detail) const { return detail <= detail_; }
+  bool shows(Detail detail) const { return detail <= detail_; }
   void line(std::string_view text) {
     text_ += text;
     text_ += '\n';
@@ -95,7 +95,7 @@ class TextWriter {
   }
 
   /// At least as wide as the widest cell; numbers are separated by a blank.
-  [[nodiscard]] static std::vector<int> widths_of(const Table& table) {
+  static std::vector<int> widths_of(const Table& table) {
     std::vector<int> widths;
     for (const Column& column : table.columns) widths.push_back(column.width);
     for (const Row& row : table.rows) {

@@ -14,27 +14,24 @@ namespace chaintrue::report {
 
 using Replacement = std::pair<std::string_view, std::string_view>;
 /// Replaces every occurrence of each pair's first text by its second, one pair after the other.
-[[nodiscard]] std::string replaced(std::string text,
-                                   std::initializer_list<Replacement> replacements);
-[[nodiscard]] std::string capitalised(std::string text);
+std::string replaced(std::string text, std::initializer_list<Replacement> replacements);
+std::string capitalised(std::string text);
 /// For a page: +- as one sign, without a line break after it.
-[[nodiscard]] std::string typeset(std::string text);
+std::string typeset(std::string text);
 /// A number with U+2212 in place of the ASCII sign.
 [[nodiscard]] std::string with_true_minus(std::string number);
 /// Fixed digits with a true minus sign, never "-0.00".
-[[nodiscard]] std::string fixed(double value, int digits);
+std::string fixed(double value, int digits);
 /// The number of a column, with an ASCII sign; never "-0.00".
 /// \throws std::invalid_argument if it is not finite.
-[[nodiscard]] std::string number_of(double value, const Column& column);
+std::string number_of(double value, const Column& column);
 /// The text of a cell, or its number.
-[[nodiscard]] std::string typed(const Cell& cell,
-                                const Column& column,
-                                const char* unknown = "");
+std::string typed(const Cell& cell, const Column& column, const char* unknown = "");
 /// A row's cells, at most as many as the table has columns. \throws std::invalid_argument for more.
 void check_row(const Table& table, const Row& row);
 
 /// For text between tags and in quoted attributes; invalid UTF-8 becomes the replacement character,
 /// since file names are bytes.
-[[nodiscard]] std::string escaped(std::string_view bytes);
+std::string escaped(std::string_view bytes);
 
 }  // namespace chaintrue::report

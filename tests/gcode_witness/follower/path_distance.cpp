@@ -12,7 +12,7 @@ namespace {
 struct Interval {
   double from = 1.0;
   double to = 0.0;
-  [[nodiscard]] bool empty() const { return from > to; }
+  bool empty() const { return from > to; }
 };
 
 double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -48,7 +48,9 @@ bool within(const std::vector<Place>& a, const std::vector<Place>& b, double dis
   std::vector<Place> q = b;
   if (p.size() == 1) p.push_back(p.front());
   if (q.size() == 1) q.push_back(q.front());
-  const auto apart = [](const Place& u, const Place& v) { return std::sqrt(dot(minus(u, v), minus(u, v))); };
+  const auto apart = [](const Place& u, const Place& v) {
+    return std::sqrt(dot(minus(u, v), minus(u, v)));
+  };
   if (apart(p.front(), q.front()) > distance || apart(p.back(), q.back()) > distance) return false;
   const std::size_t cells = p.size() - 1;
   // The lower edge of the first row: along p while q is at its beginning.

@@ -15,11 +15,9 @@
 namespace chaintrue::follower {
 
 /// Whether the distance is at most this. Exact up to rounding.
-[[nodiscard]] bool within(const std::vector<Place>& a, const std::vector<Place>& b, double distance_mm);
+bool within(const std::vector<Place>& a, const std::vector<Place>& b, double distance_mm);
 
 /// The distance to within a part in 500 of itself, or most_mm where it is larger.
-[[nodiscard]] double path_distance_mm(const std::vector<Place>& a,
-                                      const std::vector<Place>& b,
-                                      double most_mm);
+double path_distance_mm(const std::vector<Place>& a, const std::vector<Place>& b, double most_mm);
 
 }  // namespace chaintrue::follower

@@ -27,15 +27,15 @@ struct System {
 class Machine {
  public:
   void run(const Line& line, std::size_t number);
-  [[nodiscard]] bool ended() const { return ended_; }
+  bool ended() const { return ended_; }
   std::vector<Piece> pieces;
 
  private:
-  [[nodiscard]] double mm(double value) const { return inches_ ? kInchMm * value : value; }
-  [[nodiscard]] System& system() { return systems_[system_]; }
-  [[nodiscard]] Place to_machine(const Place& program);
-  [[nodiscard]] Place to_program(const Place& machine);
-  [[nodiscard]] Place target(const Line& line);
+  double mm(double value) const { return inches_ ? kInchMm * value : value; }
+  System& system() { return systems_[system_]; }
+  Place to_machine(const Place& program);
+  Place to_program(const Place& machine);
+  Place target(const Line& line);
   void set_modes(const Line& line);
   void offsets(const Line& line);
   void go(const Place& program, bool rapid);
@@ -82,7 +82,8 @@ Place Machine::to_machine(const Place& program) {
   const double c = std::cos(system().turn_rad);
   const double s = std::sin(system().turn_rad);
   const Place& origin = system().origin;
-  return {origin[0] + c * x - s * y, origin[1] + s * x + c * y, origin[2] + program[2] + offset_[2]};
+  return {
+      origin[0] + c * x - s * y, origin[1] + s * x + c * y, origin[2] + program[2] + offset_[2]};
 }
 
 Place Machine::to_program(const Place& machine) {
@@ -91,7 +92,8 @@ Place Machine::to_program(const Place& machine) {
   const double y = machine[1] - origin[1];
   const double c = std::cos(system().turn_rad);
   const double s = std::sin(system().turn_rad);
-  return {c * x + s * y - offset_[0], c * y - s * x - offset_[1], machine[2] - origin[2] - offset_[2]};
+  return {
+      c * x + s * y - offset_[0], c * y - s * x - offset_[1], machine[2] - origin[2] - offset_[2]};
 }
 
 Place Machine::target(const Line& line) {
@@ -277,7 +279,8 @@ void Machine::run(const Line& line, std::size_t number) {
   const bool centre = line.has('i') || line.has('j') || line.has('k');
   const bool moves = line.has('x') || line.has('y') || line.has('z') || centre;
   if (moves && !axes_used) {
-    says_xy_ = line.has('x') || line.has('y') || motion_ == 20 || motion_ == 30 || is_cycle(motion_);
+    says_xy_ =
+        line.has('x') || line.has('y') || motion_ == 20 || motion_ == 30 || is_cycle(motion_);
     if (absolute) {
       Place to = here_;
       for (std::size_t i = 0; i < 3; ++i) {

@@ -32,10 +32,10 @@ struct Piece {
 inline constexpr double kChordMm = 5e-4;
 
 /// \throws std::runtime_error with the line if the program is not understood.
-[[nodiscard]] std::vector<Piece> program_path(const std::string& program);
+std::vector<Piece> program_path(const std::string& program);
 
 /// All pieces as one line of positions: from the end of the first piece that states X or Y, or from
 /// the machine's zero if the program cuts before that.
-[[nodiscard]] std::vector<Place> joined(const std::vector<Piece>& pieces);
+std::vector<Place> joined(const std::vector<Piece>& pieces);
 
 }  // namespace chaintrue::follower

@@ -13,8 +13,8 @@ struct Line {
   std::vector<int> g;  ///< codes in tenths
   std::vector<int> m;
   std::map<char, double> words;
-  [[nodiscard]] bool has(char letter) const { return words.contains(letter); }
-  [[nodiscard]] double value(char letter, double otherwise) const {
+  bool has(char letter) const { return words.contains(letter); }
+  double value(char letter, double otherwise) const {
     const auto word = words.find(letter);
     return word == words.end() ? otherwise : word->second;
   }
@@ -24,16 +24,16 @@ struct Line {
 class Reader {
  public:
   /// \throws std::runtime_error if the line is not understood.
-  [[nodiscard]] Line read(const std::string& raw);
+  Line read(const std::string& raw);
 
  private:
-  [[nodiscard]] double real();
-  [[nodiscard]] double expression();
-  [[nodiscard]] double operand(int precedence);
-  [[nodiscard]] double function();
-  [[nodiscard]] std::string next_operator(int precedence);
-  [[nodiscard]] bool accept(const std::string& text);
-  [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  double real();
+  double expression();
+  double operand(int precedence);
+  double function();
+  std::string next_operator(int precedence);
+  bool accept(const std::string& text);
+  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
 
   std::string text_;
   std::size_t at_ = 0;

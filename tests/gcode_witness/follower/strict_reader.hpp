@@ -21,9 +21,9 @@ struct StrictLine {
 };
 
 /// The line's words; otherwise empty, with the problem that a small controller would have.
-[[nodiscard]] std::optional<StrictLine> read_strictly(const std::string& line, std::string& objection);
+std::optional<StrictLine> read_strictly(const std::string& line, std::string& objection);
 
 /// The value that grbl reads, to all digits that it keeps; empty if it rejects the number.
-[[nodiscard]] std::optional<double> strict_number(const std::string& text);
+std::optional<double> strict_number(const std::string& text);
 
 }  // namespace chaintrue::follower

@@ -26,7 +26,7 @@ struct Workshop {
 
 /// The tool's positions along the joined commands, 4 mm apart at most; empty if the machine or the
 /// controller fails anywhere.
-[[nodiscard]] std::optional<std::vector<Place>> tool_path(const Workshop& workshop,
-                                                          const std::vector<Place>& commands);
+std::optional<std::vector<Place>> tool_path(const Workshop& workshop,
+                                            const std::vector<Place>& commands);
 
 }  // namespace chaintrue::follower

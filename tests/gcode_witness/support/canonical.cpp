@@ -123,7 +123,7 @@ class Listener final : public gcode::Sink {
     found_ = state();
   }
 
-  [[nodiscard]] std::string state() const {
+  std::string state() const {
     std::string speed = fmt::format("{:.9f}", speed_);
     speed.erase(speed.find_last_not_of('0') + 1);
     if (speed.ends_with('.')) speed.pop_back();
@@ -179,8 +179,7 @@ bool near(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 bool same_centre(const Call& linuxcnc, const Call& here) {
   for (const auto& axis : here.axes) {
     double across = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      across += axis[i] * (linuxcnc.centre[i] - here.centre[i]);
+    for (std::size_t i = 0; i < 3; ++i) across += axis[i] * (linuxcnc.centre[i] - here.centre[i]);
     if (std::fabs(across) > kCentreMm) return false;
   }
   return true;
@@ -191,7 +190,8 @@ bool same(const Call& linuxcnc, const Call& here) {
   if (linuxcnc.kind == "STATE") return linuxcnc.state == here.state;
   if (linuxcnc.line != here.line) return false;
   if (linuxcnc.kind == "DWELL" || linuxcnc.kind == "TOOL") {
-    return std::fabs(linuxcnc.value - here.value) <= 1e-11 * std::fabs(linuxcnc.value);  // 12 digits
+    return std::fabs(linuxcnc.value - here.value) <=
+           1e-11 * std::fabs(linuxcnc.value);  // 12 digits
   }
   if (!near(linuxcnc.to, here.to)) return false;
   if (linuxcnc.kind == "ARC" && (linuxcnc.plane != here.plane || linuxcnc.turns != here.turns ||
@@ -265,10 +265,8 @@ std::optional<std::string> difference(const Answer& linuxcnc_said, const Answer&
   const std::size_t both = std::min(linuxcnc.calls.size(), here.calls.size());
   for (std::size_t i = 0; i < both; ++i) {
     if (same(linuxcnc.calls[i], here.calls[i])) continue;
-    return fmt::format("call {}: LinuxCNC says {}, here: {}",
-                       i,
-                       shown(linuxcnc.calls[i]),
-                       shown(here.calls[i]));
+    return fmt::format(
+        "call {}: LinuxCNC says {}, here: {}", i, shown(linuxcnc.calls[i]), shown(here.calls[i]));
   }
   if (!here.accepted || linuxcnc.calls.size() == here.calls.size()) return std::nullopt;
   const bool more = linuxcnc.calls.size() > both;

@@ -33,27 +33,27 @@ struct Call {
 struct Answer {
   std::vector<Call> calls;
   bool accepted = false;
-  bool unknown = false;      ///< LinuxCNC's module has no answer
-  std::string refusal;       ///< the message
-  std::string problem;       ///< its stable name; ours() only
+  bool unknown = false;  ///< LinuxCNC's module has no answer
+  std::string refusal;   ///< the message
+  std::string problem;   ///< its stable name; ours() only
   std::size_t problem_line = 0;
 };
 
 /// Parses an answer in the format of linuxcnc_moves.py.
-[[nodiscard]] Answer read_truth(std::string_view truth);
+Answer read_truth(std::string_view truth);
 
 /// Our interpreter's answer to a program.
-[[nodiscard]] Answer ours(const std::string& program, gcode::Dialect dialect = {});
+Answer ours(const std::string& program, gcode::Dialect dialect = {});
 
 /// The first difference as a sentence; empty if there is none. Moves of zero length are left out.
 /// Rejections count as equal for any reason; then only the calls before them are compared.
-[[nodiscard]] std::optional<std::string> difference(const Answer& linuxcnc, const Answer& here);
+std::optional<std::string> difference(const Answer& linuxcnc, const Answer& here);
 
 /// The same for unreviewed programs: leaves out the differences listed in docs/gcode.md: codes that
 /// we reject as not supported, a loop or condition without its end, and cycles in a program without
 /// G98 and G99.
-[[nodiscard]] std::optional<std::string> unlisted_difference(const std::string& program,
-                                                             const Answer& linuxcnc,
-                                                             const Answer& here);
+std::optional<std::string> unlisted_difference(const std::string& program,
+                                               const Answer& linuxcnc,
+                                               const Answer& here);
 
 }  // namespace chaintrue::witness

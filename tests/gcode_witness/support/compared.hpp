@@ -23,11 +23,11 @@ struct LanguageRun {
 };
 
 /// Our answer, with a small budget of steps for endless programs.
-[[nodiscard]] Answer limited(const std::string& program);
+Answer limited(const std::string& program);
 
 /// Seeds from the first on; runs LinuxCNC.
-[[nodiscard]] LanguageRun compare_language(std::uint64_t first_seed,
-                                           std::uint64_t count,
-                                           std::size_t most_reported);
+LanguageRun compare_language(std::uint64_t first_seed,
+                             std::uint64_t count,
+                             std::size_t most_reported);
 
 }  // namespace chaintrue::witness

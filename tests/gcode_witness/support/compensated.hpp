@@ -23,23 +23,19 @@ class Shop {
   Shop& operator=(const Shop&) = delete;
 
   /// The output; empty if it was rejected, with the reason.
-  [[nodiscard]] std::optional<std::string> compensate(const std::string& program,
-                                                      double tolerance_mm,
-                                                      std::string& why) const;
+  std::optional<std::string> compensate(const std::string& program,
+                                        double tolerance_mm,
+                                        std::string& why) const;
   /// verify's verdict: empty if the file passes, otherwise its message.
-  [[nodiscard]] std::string verify(const std::string& original,
-                                   const std::string& output,
-                                   double tolerance_mm) const;
+  std::string verify(const std::string& original,
+                     const std::string& output,
+                     double tolerance_mm) const;
   /// The independent check: distance of the simulated tool from the intended path, up to most_mm.
   /// \throws std::runtime_error if the follower does not understand one of the files.
-  [[nodiscard]] double distance_mm(const std::string& original,
-                                   const std::string& output,
-                                   double most_mm) const;
+  double distance_mm(const std::string& original, const std::string& output, double most_mm) const;
   /// Whether it is at most this.
-  [[nodiscard]] bool follows(const std::string& original,
-                             const std::string& output,
-                             double distance_mm) const;
-  [[nodiscard]] const char* name() const { return corrector_.firmware().name; }
+  bool follows(const std::string& original, const std::string& output, double distance_mm) const;
+  const char* name() const { return corrector_.firmware().name; }
 
  private:
   std::unique_ptr<const grid::LengthMap> machine_;
@@ -49,10 +45,8 @@ class Shop {
 };
 
 /// The machine of fixtures/grids/seven_by_four.json; its map is fitted once.
-[[nodiscard]] std::unique_ptr<const Shop> measured_shop(const std::string& fixtures,
-                                                        model::ControllerKind kind);
+std::unique_ptr<const Shop> measured_shop(const std::string& fixtures, model::ControllerKind kind);
 /// The default machine with random errors of its motors' places and of its chains' zeros.
-[[nodiscard]] std::unique_ptr<const Shop> random_shop(std::uint64_t seed,
-                                                      model::ControllerKind kind);
+std::unique_ptr<const Shop> random_shop(std::uint64_t seed, model::ControllerKind kind);
 
 }  // namespace chaintrue::witness

@@ -12,8 +12,8 @@
 namespace chaintrue::witness {
 
 /// The record files of programs written by hand; `generated` and `follower` are random programs.
-inline constexpr std::array kThemes = {"arcs", "cycles", "expressions", "flow", "hazards",
-                                       "machine", "motion", "offsets", "words"};
+inline constexpr std::array kThemes = {
+    "arcs", "cycles", "expressions", "flow", "hazards", "machine", "motion", "offsets", "words"};
 
 struct StoredProgram {
   std::string name;
@@ -22,10 +22,9 @@ struct StoredProgram {
   Answer linuxcnc;     ///< the same, parsed
 };
 
-[[nodiscard]] std::string corpus_folder(const std::string& fixtures);
+std::string corpus_folder(const std::string& fixtures);
 
 /// The programs of one record file, in its order. \throws std::runtime_error if an answer is missing.
-[[nodiscard]] std::vector<StoredProgram> stored_programs(const std::string& fixtures,
-                                                         const std::string& theme);
+std::vector<StoredProgram> stored_programs(const std::string& fixtures, const std::string& theme);
 
 }  // namespace chaintrue::witness

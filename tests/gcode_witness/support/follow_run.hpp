@@ -11,8 +11,10 @@ namespace chaintrue::witness {
 
 struct FollowRun {
   std::size_t programs = 0;
-  std::size_t compensated = 0;  ///< the others are rejected, for instance because they leave the bed
-  std::size_t judged_moved = 0; ///< outputs that were moved by 1.5 tolerances, and outputs that lost a line
+  std::size_t compensated =
+      0;  ///< the others are rejected, for instance because they leave the bed
+  std::size_t judged_moved =
+      0;  ///< outputs that were moved by 1.5 tolerances, and outputs that lost a line
   std::size_t failed = 0;
   /// For the first few: seed, controller, tolerance, the fault, and the program.
   std::vector<std::string> failures;
@@ -32,6 +34,6 @@ struct FollowOptions {
 ///   the tool follows the path within the tolerance (follower), and verify holds;
 ///   the output with one command moved across the path by 1.5 tolerances fails both;
 ///   the output without one of its moves is judged equally by both, except in a band about the tolerance.
-[[nodiscard]] FollowRun follow(const std::string& fixtures, const FollowOptions& options);
+FollowRun follow(const std::string& fixtures, const FollowOptions& options);
 
 }  // namespace chaintrue::witness

@@ -14,10 +14,10 @@
 namespace chaintrue::witness {
 
 /// Empty if the interpreter works, otherwise how to install it.
-[[nodiscard]] const std::string& linuxcnc_missing();
+const std::string& linuxcnc_missing();
 
 /// LinuxCNC's answer for each program, in order, in the format of linuxcnc_moves.py. \throws
 /// std::runtime_error if the interpreter fails.
-[[nodiscard]] std::vector<Record> ask_linuxcnc(const std::vector<Record>& programs);
+std::vector<Record> ask_linuxcnc(const std::vector<Record>& programs);
 
 }  // namespace chaintrue::witness

@@ -14,16 +14,16 @@ namespace chaintrue::witness {
 
 enum class Scope {
   language,  ///< everything that our interpreter reads
-  path,      ///< NIST IR 6556 alone: no O-words, polar words, G52, L20, named parameters; always accepted
+  path,  ///< NIST IR 6556 alone: no O-words, polar words, G52, L20, named parameters; always accepted
 };
 
 struct GeneratorOptions {
   Scope scope = Scope::language;
-  int statements = 14;          ///< approximate number
-  double half_width_mm = 200.0; ///< of the area that it works in, about the machine's zero
+  int statements = 14;           ///< approximate number
+  double half_width_mm = 200.0;  ///< of the area that it works in, about the machine's zero
   double half_height_mm = 150.0;
 };
 
-[[nodiscard]] std::string random_program(std::uint64_t seed, const GeneratorOptions& options = {});
+std::string random_program(std::uint64_t seed, const GeneratorOptions& options = {});
 
 }  // namespace chaintrue::witness

@@ -59,7 +59,7 @@ class ProgramWriter {
   struct Plane {
     std::size_t first, second, normal;
   };
-  [[nodiscard]] Plane axes() const;
+  Plane axes() const;
 
   /// A line: words in any order with the same meaning, with or without blanks, N and comments.
   void line(std::vector<std::string> words);
@@ -71,7 +71,7 @@ class ProgramWriter {
   std::string written(double value, int places);
   std::string expression(double value, int places);
   /// The value in mm as rounded by length().
-  [[nodiscard]] double rounded(double mm, int places = 3) const;
+  double rounded(double mm, int places = 3) const;
   /// The axis word for a move to a position, and the position actually reached.
   std::string axis(std::size_t index, double to_mm, double& reached_mm, int places = 3);
   /// The G word; empty if the mode is in force already.

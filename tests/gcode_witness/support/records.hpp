@@ -14,8 +14,8 @@ struct Record {
   std::string text;
 };
 
-[[nodiscard]] std::string write_records(const std::vector<Record>& records);
+std::string write_records(const std::vector<Record>& records);
 /// \throws std::runtime_error if the text is not a bundle.
-[[nodiscard]] std::vector<Record> read_records(std::string_view text);
+std::vector<Record> read_records(std::string_view text);
 
 }  // namespace chaintrue::witness

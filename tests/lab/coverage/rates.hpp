@@ -36,12 +36,13 @@ class Squares {
   void add(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
     add(error.dot(covariance.ldlt().solve(error)));
   }
-  [[nodiscard]] double mean() const { return sum_ / (freedom_ * sets_); }
+  double mean() const { return sum_ / (freedom_ * sets_); }
   /// Four standard errors of a chi-square: fails by chance once in 16 000. It fails in 98 of 100 runs
   /// where sigmas are wrong by six standard errors; `estimated` allows for sigmas that are estimated
   /// from few readings themselves.
   void expect_unit(double estimated = 0.0) const {
-    EXPECT_NEAR(mean(), 1.0, 4.0 * std::sqrt(2.0 / (freedom_ * sets_)) + estimated) << sets_ << " sets";
+    EXPECT_NEAR(mean(), 1.0, 4.0 * std::sqrt(2.0 / (freedom_ * sets_)) + estimated)
+        << sets_ << " sets";
   }
 
  private:
@@ -59,7 +60,8 @@ struct Rate {
     ++sets;
   }
   void expect_at_least(double p) const {
-    EXPECT_GE(1.0 - sealed::probability_of_at_least(found + 1, sets, p), 1e-3) << found << " of " << sets;
+    EXPECT_GE(1.0 - sealed::probability_of_at_least(found + 1, sets, p), 1e-3)
+        << found << " of " << sets;
   }
   void expect_at_most(double p) const {
     EXPECT_GE(sealed::probability_of_at_least(found, sets, p), 1e-3) << found << " of " << sets;

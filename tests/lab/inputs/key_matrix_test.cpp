@@ -18,8 +18,8 @@
 namespace chaintrue {
 namespace {
 
-using inputs::Ran;
 using inputs::InputFolder;
+using inputs::Ran;
 using Json = nlohmann::ordered_json;
 
 /// A verb on a file, FILE in the line. `echoes` are keys that repeat the input and are not part of
@@ -49,7 +49,9 @@ void gather(const Json& json, const std::string& pointer, std::vector<std::strin
     gather(json[k], pointer + "/" + std::to_string(k), pointers);
 }
 
-bool holds(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+bool holds(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// A distinguishable value: as far from the old one as is still valid for such a number.
 Json telling_value(const std::string& pointer, const Json& value) {
@@ -57,7 +59,8 @@ Json telling_value(const std::string& pointer, const Json& value) {
   if (pointer.ends_with("/order")) return 5000;
   if (pointer.ends_with("teeth") || pointer.ends_with("gearteeth")) return value.get<int>() + 1;
   if (holds(pointer, "bed")) return 1.1 * old;
-  for (const char* part : {"sigma", "dof", "noise", "shift_mm", "rotation_mrad", "uncertainty", "size_"}) {
+  for (const char* part :
+       {"sigma", "dof", "noise", "shift_mm", "rotation_mrad", "uncertainty", "size_"}) {
     if (holds(pointer, part)) return 2.0 * old;
   }
   if (holds(pointer, "/readings")) return 1.0003 * old;
@@ -71,10 +74,21 @@ Json telling_value(const std::string& pointer, const Json& value) {
 class KeyMatrix : public testing::Test {
  protected:
   KeyMatrix() { inputs::add_telling_files(folder_); }
-  void expect_every_key_acts(const std::string& kind, const Json& file, const std::vector<Reader>& readers) const {
-    static const std::vector<std::string> kEchoes = {"content_hash", "name", "noise", "tape",
-                                                     "hole_sigma_mm", "noise_dof", "seed", "machine",
-                                                     "extended_machine", "sheet", "readings", "distances",
+  void expect_every_key_acts(const std::string& kind,
+                             const Json& file,
+                             const std::vector<Reader>& readers) const {
+    static const std::vector<std::string> kEchoes = {"content_hash",
+                                                     "name",
+                                                     "noise",
+                                                     "tape",
+                                                     "hole_sigma_mm",
+                                                     "noise_dof",
+                                                     "seed",
+                                                     "machine",
+                                                     "extended_machine",
+                                                     "sheet",
+                                                     "readings",
+                                                     "distances",
                                                      "made_by"};
     std::vector<std::string> pointers;
     gather(file, "", pointers);
@@ -97,11 +111,12 @@ class KeyMatrix : public testing::Test {
         const Ran ran = answer(changed);
         const bool is_refused = ran.code == 3 && !ran.err.empty();
         const bool acts = is_refused || numbers_of(ran, kEchoes) != numbers_of(base, kEchoes);
-        EXPECT_TRUE(acts || is_idle(kind, reader.verb, pointer)) << kind << " " << reader.verb << " " << pointer << " is silent";
+        EXPECT_TRUE(acts || is_idle(kind, reader.verb, pointer))
+            << kind << " " << reader.verb << " " << pointer << " is silent";
       }
     }
   }
-  [[nodiscard]] Json made(const std::string& line) const {
+  Json made(const std::string& line) const {
     const Ran ran = folder_.run(line);
     EXPECT_EQ(ran.code, 0) << line << "\n" << ran.err;
     return Json::parse(ran.out);
@@ -121,11 +136,12 @@ TEST_F(KeyMatrix, CoversGrids) {
   grid["readings"] = readings();
   grid.erase("machine");
   grid["machine_file"] = "classic.json";
-  expect_every_key_acts("grid",
-                        grid,
-                        {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
-                         {"diagnose", "diagnose FILE --json"},
-                         {"check", "check @map.json FILE --json"}});
+  expect_every_key_acts(
+      "grid",
+      grid,
+      {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
+       {"diagnose", "diagnose FILE --json"},
+       {"check", "check @map.json FILE --json"}});
 }
 
 TEST_F(KeyMatrix, CoversHoles) {
@@ -137,11 +153,12 @@ TEST_F(KeyMatrix, CoversHoles) {
   holes["distances"][0]["sigma_mm"] = 0.8;
   holes.erase("machine");
   holes["machine_file"] = "classic.json";
-  expect_every_key_acts("holes",
-                        holes,
-                        {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
-                         {"diagnose", "diagnose FILE --json"},
-                         {"check", "check @map.json FILE --json"}});
+  expect_every_key_acts(
+      "holes",
+      holes,
+      {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
+       {"diagnose", "diagnose FILE --json"},
+       {"check", "check @map.json FILE --json"}});
 }
 
 TEST_F(KeyMatrix, CoversBelts) {
@@ -152,8 +169,9 @@ TEST_F(KeyMatrix, CoversBelts) {
   belts["firmware_fit"] = {{"rms_mm", 0.4}, {"max_mm", 1.2}};
   expect_every_key_acts("belts",
                         belts,
-                        {{"fit", "fit FILE -o anchors.json; export maslow4 anchors.json; "
-                                 "query anchors.json 0 0 300 200"},
+                        {{"fit",
+                          "fit FILE -o anchors.json; export maslow4 anchors.json; "
+                          "query anchors.json 0 0 300 200"},
                          {"diagnose", "diagnose FILE --json"},
                          {"check", "check @anchors.json FILE --json"},
                          {"simulate", "simulate --belts FILE --grid 4x3 --seed 2"}});

@@ -12,6 +12,6 @@ namespace chaintrue::inputs {
 
 /// The numbers of an answer: of JSON every number but those under a key that repeats the input, of
 /// other text every number. Texts that name files or seeds are none.
-[[nodiscard]] std::string numbers_of(const Ran& ran, const std::vector<std::string>& echoes);
+std::string numbers_of(const Ran& ran, const std::vector<std::string>& echoes);
 
 }  // namespace chaintrue::inputs

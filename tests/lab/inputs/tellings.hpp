@@ -30,12 +30,12 @@ struct Telling {
   std::string instead;
 };
 /// The one for this invocation if there is one; null if the option has none.
-[[nodiscard]] const Telling* telling_of(const std::string& verb,
-                                        const std::string& option,
-                                        const std::string& use);
+const Telling* telling_of(const std::string& verb,
+                          const std::string& option,
+                          const std::string& use);
 
 /// Commands that extract the numbers from this call's output, if the file repeats the input.
-[[nodiscard]] std::string then_of(const Invocation& call);
+std::string then_of(const Invocation& call);
 /// Adds the files that are named by the table.
 void add_telling_files(InputFolder& folder);
 

@@ -19,12 +19,12 @@ class RealFrames : public testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(folder_)) GTEST_SKIP() << "no readings at " << folder_;
   }
-  [[nodiscard]] MeasuredBelts read(const std::string& file, int run = 1) const {
+  MeasuredBelts read(const std::string& file, int run = 1) const {
     files::Maslow4Options options;
     options.part.run = run;
     return files::parse_maslow4(files::read_whole_file(folder_ / file), file, options).belts;
   }
-  [[nodiscard]] MeasuredBelts ten_runs(int run) const { return read("ten_runs_1_to_5.txt", run); }
+  MeasuredBelts ten_runs(int run) const { return read("ten_runs_1_to_5.txt", run); }
 
  private:
   std::filesystem::path folder_ = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4";

@@ -142,12 +142,12 @@ class RealSets : public testing::Test {
   }
 
   /// Sets a to d, cut on one frame with four settings in force.
-  [[nodiscard]] Measured first_frame(double hole_sigma_mm) const {
+  Measured first_frame(double hole_sigma_mm) const {
     Measured frame;
     for (std::size_t k = 0; k < 4; ++k) frame.add(with_hole_sigma(sets_[k], hole_sigma_mm));
     return frame;
   }
-  [[nodiscard]] Measured second_frame(double hole_sigma_mm) const {
+  Measured second_frame(double hole_sigma_mm) const {
     return with_hole_sigma(sets_[4], hole_sigma_mm);
   }
 

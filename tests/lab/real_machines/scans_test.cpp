@@ -40,8 +40,7 @@ class RealScans : public testing::Test {
     }
   }
 
-  [[nodiscard]] MeasuredGrid scan(const char* file,
-                                  std::optional<VisitingOrder> assumed = {}) const {
+  MeasuredGrid scan(const char* file, std::optional<VisitingOrder> assumed = {}) const {
     files::OpticalOptions options;
     options.order = assumed;
     // The settings in force were not recorded, so the tolerances' purpose is unknown.
@@ -80,9 +79,9 @@ TEST_F(RealScans, BothScansNameTheBannersScale) {
     // nothing is named.
     const Diagnosis d = diagnosed(scan(file, VisitingOrder{.rows = false, .serpentine = true}));
     EXPECT_TRUE(names(d).contains("tape_scale:x")) << file << ": " << d.sentence;
-    EXPECT_TRUE(std::ranges::none_of(d.extended_machine.effects,
-                                     [](const auto& e) { return e.effect == "tape_scale"; }))
-        << "the banner's scale is none of the machine's";
+    EXPECT_TRUE(std::ranges::none_of(d.extended_machine.effects, [](const auto& e) {
+      return e.effect == "tape_scale";
+    })) << "the banner's scale is none of the machine's";
   }
 }
 

@@ -30,8 +30,8 @@ struct Road {
   generator::SealedSet set;
   grid::JointFit plain;
   CausesFit own;
-  [[nodiscard]] double plain_mm() const { return map_errors(set, plain.map)->true_rms_mm; }
-  [[nodiscard]] double own_mm() const { return map_errors(set, own.fit.map)->true_rms_mm; }
+  double plain_mm() const { return map_errors(set, plain.map)->true_rms_mm; }
+  double own_mm() const { return map_errors(set, own.fit.map)->true_rms_mm; }
 };
 
 Road road_of(std::vector<Hidden> hidden,
@@ -83,11 +83,12 @@ TEST(Road, OnlyAShiftOfWholeLinksMayBeASkippedTooth) {
     const char* named;
     bool is_both;
   };
-  for (const Case& own : {Case{{Cause::tooth_skip, Where::left, 1.0, 14.0}, "tooth_skip", true},
-                          Case{{Cause::zero_shift, Where::left, links(1.0), 14.0}, "tooth_skip", true},
-                          Case{{Cause::zero_shift, Where::right, links(-2.0), 12.0}, "tooth_skip", true},
-                          Case{{Cause::zero_shift, Where::left, links(1.5), 14.0}, "zero_shift", false},
-                          Case{{Cause::zero_shift, Where::right, -3.0, 17.0}, "zero_shift", false}}) {
+  for (const Case& own :
+       {Case{{Cause::tooth_skip, Where::left, 1.0, 14.0}, "tooth_skip", true},
+        Case{{Cause::zero_shift, Where::left, links(1.0), 14.0}, "tooth_skip", true},
+        Case{{Cause::zero_shift, Where::right, links(-2.0), 12.0}, "tooth_skip", true},
+        Case{{Cause::zero_shift, Where::left, links(1.5), 14.0}, "zero_shift", false},
+        Case{{Cause::zero_shift, Where::right, -3.0, 17.0}, "zero_shift", false}}) {
     SCOPED_TRACE(fmt::format("{} {}", generator::card(own.hidden.cause).id, own.hidden.size));
     const auto session =
         grid::files::parse_grid(set_of_start(own.hidden, 3).grid_text, "sealed.json").grid;
@@ -99,7 +100,8 @@ TEST(Road, OnlyAShiftOfWholeLinksMayBeASkippedTooth) {
     if (own.is_both && !cause.same_as.empty()) {
       const auto& same = cause.same_as.front();
       EXPECT_EQ(same.cause.effect->id, "zero_shift");
-      const double mm = own.hidden.size * (own.hidden.cause == Cause::tooth_skip ? links(1.0) : 1.0);
+      const double mm =
+          own.hidden.size * (own.hidden.cause == Cause::tooth_skip ? links(1.0) : 1.0);
       EXPECT_NEAR(same.parameters.front().value, mm, 4.0 * same.parameters.front().sigma);
     }
   }
@@ -125,8 +127,8 @@ TEST(Road, ASoundMachineGetsThePlainMap) {
 TEST(Road, AnUncorrectedCauseEntersTheExpectedError) {
   int open = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
-    const Road road = road_of(
-        {{Cause::drift, Where::both, 0.03, 0.0}}, 28, seed, false, generator::Order::rows);
+    const Road road =
+        road_of({{Cause::drift, Where::both, 0.03, 0.0}}, 28, seed, false, generator::Order::rows);
     if (!road.own.built_on.empty() || road.own.left_open_mm == 0.0) continue;
     ++open;
     const double plain_mm = road.plain.map.contents().accuracy.expected_tool.rms_mm;

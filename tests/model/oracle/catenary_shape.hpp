@@ -16,16 +16,12 @@ struct CatenaryPoint {
 };
 
 /// The chain at unstretched length `s_mm` from the sled's end, 0 <= s_mm <= length.
-[[nodiscard]] CatenaryPoint catenary_point(const CatenaryLoad& load,
-                                           const ChainMaterial& material,
-                                           double s_mm);
+CatenaryPoint catenary_point(const CatenaryLoad& load, const ChainMaterial& material, double s_mm);
 
 /// Elastic energy stored in the chain, N mm: c/2 times the integral of T^2.
-[[nodiscard]] double catenary_strain_energy(const CatenaryLoad& load,
-                                            const ChainMaterial& material);
+double catenary_strain_energy(const CatenaryLoad& load, const ChainMaterial& material);
 /// Weight moment about the sled's end, N mm: w times the integral of y(s), the chain's potential
 /// energy relative to that end.
-[[nodiscard]] double catenary_weight_energy(const CatenaryLoad& load,
-                                            const ChainMaterial& material);
+double catenary_weight_energy(const CatenaryLoad& load, const ChainMaterial& material);
 
 }  // namespace chaintrue::model

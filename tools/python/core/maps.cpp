@@ -62,10 +62,11 @@ Rows inverse(const grid::LengthMap& map, const Rows& lengths) {
 
 grid::BeltMap belt_map(const FittedAnchors& anchors) {
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
-    throw cli::Failed("the anchors",
-                      "no_anchors_in_force",
-                      "These anchors were fitted to belts without the anchors in force, which define "
-                      "the origin of commands.");
+    throw cli::Failed(
+        "the anchors",
+        "no_anchors_in_force",
+        "These anchors were fitted to belts without the anchors in force, which define "
+        "the origin of commands.");
   }
   return grid::BeltMap(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
 }
@@ -91,9 +92,9 @@ class Answering {
   }
 
   /// For a map.
-  [[nodiscard]] std::string sentence() const { return cli::fit_sentence(*map_); }
+  std::string sentence() const { return cli::fit_sentence(*map_); }
   /// For a map: with its fitted settings; empty for a direct surface.
-  [[nodiscard]] std::string machine() const {
+  std::string machine() const {
     return map_->machine() == nullptr ? "" : files::write_machine(*map_->machine());
   }
 

@@ -32,7 +32,7 @@ class Printed {
   Printed(const Printed&) = delete;
   Printed& operator=(const Printed&) = delete;
 
-  [[nodiscard]] std::string text() const {
+  std::string text() const {
     std::fflush(taken_);
     return {text_, size_};
   }

@@ -49,6 +49,6 @@ struct BeltDraw {
   std::vector<double> pulls;            ///< at each, as the recipe has them
   double noise_mm = 0.0;
 };
-[[nodiscard]] BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed);
+BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed);
 
 }  // namespace chaintrue::generator

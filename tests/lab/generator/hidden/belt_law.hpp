@@ -25,13 +25,13 @@ inline constexpr std::array kBeltLaws = {LawFamily::step_along_x,
 inline constexpr std::size_t kBeltLawsOfOne = 6;
 
 /// Everything but the size; `chain` and `component` are the belt (tl, tr, bl, br).
-[[nodiscard]] HiddenLaw drawn_belt_law(LawFamily family,
-                                       const std::vector<std::array<double, 2>>& places,
-                                       Dice& dice);
+HiddenLaw drawn_belt_law(LawFamily family,
+                         const std::vector<std::array<double, 2>>& places,
+                         Dice& dice);
 /// The argument of a law in this belt, at a position and the belt's length there.
-[[nodiscard]] Site site_of(const BeltFrame& frame,
-                           std::size_t belt,
-                           const std::array<double, 2>& place,
-                           double length_mm);
+Site site_of(const BeltFrame& frame,
+             std::size_t belt,
+             const std::array<double, 2>& place,
+             double length_mm);
 
 }  // namespace chaintrue::generator

@@ -13,13 +13,13 @@
 namespace chaintrue::generator {
 
 /// From an anchor to a position, level, mm.
-[[nodiscard]] double level_span(const std::array<double, 3>& anchor, double x, double y);
+double level_span(const std::array<double, 3>& anchor, double x, double y);
 
 class AnchorProjection {
  public:
   AnchorProjection(const BeltFrame& frame, const std::vector<std::array<double, 2>>& places);
   /// Four rows a point (tl, tr, bl, br), mm.
-  [[nodiscard]] Eigen::VectorXd left_of(const std::vector<FourLengths>& change) const;
+  Eigen::VectorXd left_of(const std::vector<FourLengths>& change) const;
 
  private:
   Projection taken_;

@@ -42,12 +42,12 @@ struct SledAtRest {
 /// `held_mm` are unstretched lengths of the two that hold (the others are ignored), `pulls_n` of the
 /// two that are pulled. Starts from a nearby position. \throws std::runtime_error if it does not
 /// converge.
-[[nodiscard]] SledAtRest rest_on_belts(const BeltFrame& frame,
-                                       const std::array<bool, 4>& is_pulled,
-                                       const FourLengths& held_mm,
-                                       const FourLengths& pulls_n,
-                                       double near_x_mm,
-                                       double near_y_mm);
+SledAtRest rest_on_belts(const BeltFrame& frame,
+                         const std::array<bool, 4>& is_pulled,
+                         const FourLengths& held_mm,
+                         const FourLengths& pulls_n,
+                         double near_x_mm,
+                         double near_y_mm);
 
 /// A session: the upper two hold, the lower two are pulled, with a relative variation `pull_noise`
 /// of the pull and noise `noise_mm` of each reading.
@@ -58,6 +58,6 @@ struct BeltSession {
   double noise_mm = 0.2;
   std::uint64_t seed = 1;
 };
-[[nodiscard]] std::vector<FourLengths> read_session(const BeltSession& session);
+std::vector<FourLengths> read_session(const BeltSession& session);
 
 }  // namespace chaintrue::generator

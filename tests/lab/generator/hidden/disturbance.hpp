@@ -20,7 +20,7 @@ struct Site {
   std::array<double, 4> length_mm{};
 };
 
-[[nodiscard]] std::vector<Site> sites_of(std::span<const Visit> visits, const std::vector<Rest>& at_rest);
+std::vector<Site> sites_of(std::span<const Visit> visits, const std::vector<Rest>& at_rest);
 
 /// One number at each site.
 using Field = std::function<double(const Site&)>;

@@ -34,8 +34,8 @@ namespace chaintrue::generator {
 enum class Mix {
   single,
   nothing,
-  heavy,         ///< nothing hidden, noise with heavy tails
-  wrong_noise,   ///< nothing hidden, stated noise 0.7 to 1.5 times the true one
+  heavy,        ///< nothing hidden, noise with heavy tails
+  wrong_noise,  ///< nothing hidden, stated noise 0.7 to 1.5 times the true one
   two,
   three,
   unlisted,
@@ -61,8 +61,8 @@ inline constexpr std::pair<Mix, std::string_view> kMixes[] = {
     {Mix::pattern, "pattern"},
     {Mix::near, "near"},
 };
-[[nodiscard]] std::string_view word(Mix mix);
-[[nodiscard]] std::optional<Mix> mix_of(std::string_view word);
+std::string_view word(Mix mix);
+std::optional<Mix> mix_of(std::string_view word);
 
 struct Recipe {
   Mix kind = Mix::single;
@@ -112,26 +112,24 @@ class HiddenMachine {
     int number = 0;
   };
   /// Visits a mark (written with the same tape as the others) and reads the chains.
-  [[nodiscard]] std::optional<Note> measure(Vec2 mark, NoiseLevel noise, Dice& dice);
+  std::optional<Note> measure(Vec2 mark, NoiseLevel noise, Dice& dice);
   /// A reading of the machine itself, with its sigma; empty for an unknown name.
   struct Reading {
     double value = 0.0;
     double sigma = 0.0;
   };
-  [[nodiscard]] std::optional<Reading> read(std::string_view what,
-                                            std::string_view side,
-                                            Dice& dice) const;
+  std::optional<Reading> read(std::string_view what, std::string_view side, Dice& dice) const;
 
   /// The session so far: true positions in order of visit.
-  [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
+  const std::vector<Visit>& visits() const { return visits_; }
   void went_to(std::vector<Visit> visits) { visits_ = std::move(visits); }
-  [[nodiscard]] const TrueMachine& stated() const { return stated_; }
-  [[nodiscard]] const TrueMachine& truth() const { return truth_; }
-  [[nodiscard]] const std::vector<Hidden>& hidden() const { return hidden_; }
+  const TrueMachine& stated() const { return stated_; }
+  const TrueMachine& truth() const { return truth_; }
+  const std::vector<Hidden>& hidden() const { return hidden_; }
   void suffers(std::optional<Disturbance> what) { disturbance_ = std::move(what); }
-  [[nodiscard]] const std::optional<Disturbance>& disturbance() const { return disturbance_; }
+  const std::optional<Disturbance>& disturbance() const { return disturbance_; }
   /// Noise-free readings of a whole session, the disturbance included.
-  [[nodiscard]] std::optional<std::vector<Lengths>> exact(std::span<const Visit> visits) const;
+  std::optional<std::vector<Lengths>> exact(std::span<const Visit> visits) const;
 
  private:
   TrueMachine stated_;
@@ -161,27 +159,22 @@ struct SizedEffect {
 };
 /// Side, place and size of a cause for a session, its strength log-uniform between the two; empty if no
 /// size within its bounds has such a strength.
-[[nodiscard]] std::optional<SizedEffect> draw_sized_effect(
+std::optional<SizedEffect> draw_sized_effect(
     const Yardstick& yardstick, Cause cause, double least_delta, double most_delta, Dice& dice);
 
 /// Same recipe and seed, same bytes. \throws std::runtime_error if no effect fits the recipe.
-[[nodiscard]] SealedSet draw_set(const Recipe& recipe, std::uint64_t seed);
+SealedSet draw_set(const Recipe& recipe, std::uint64_t seed);
 
 /// The same points in another session: as many visits in the same order, each up to `shift_mm`
 /// from its old position; for measuring held-out errors. Visits that cannot be made keep their
 /// position.
-[[nodiscard]] std::vector<Visit> fresh_session(const HiddenMachine& machine,
-                                               double shift_mm,
-                                               Dice& dice);
+std::vector<Visit> fresh_session(const HiddenMachine& machine, double shift_mm, Dice& dice);
 /// Positions over the rectangle of the marks, one at random in each cell of a grid.
-[[nodiscard]] std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);
+std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);
 
 /// The text of another session of the same machine at other marks, `columns` by `rows` of them, one
 /// at random in each cell, in random order and with six second visits. \throws std::runtime_error if a
 /// mark cannot be reached.
-[[nodiscard]] std::string other_session(const SealedSet& set,
-                                        int columns,
-                                        int rows,
-                                        std::uint64_t seed);
+std::string other_session(const SealedSet& set, int columns, int rows, std::uint64_t seed);
 
 }  // namespace chaintrue::generator

@@ -40,7 +40,7 @@ enum class Cause {
 inline constexpr std::size_t kCauses = 17;
 
 enum class Where { nowhere, left, right, both, x, y };
-[[nodiscard]] std::string_view word(Where where);
+std::string_view word(Where where);
 
 /// The kind of an effect's second parameter.
 enum class Place { none, phase, angle, visit };
@@ -60,13 +60,13 @@ struct CauseCard {
   Cause cause = Cause::tape_scale;
 
   /// In links.
-  [[nodiscard]] bool whole() const { return size_name == "links"; }
-  [[nodiscard]] bool alters_machine() const { return nature == Nature::of_machine; }
-  [[nodiscard]] bool needs_order() const { return nature == Nature::of_order; }
+  bool whole() const { return size_name == "links"; }
+  bool alters_machine() const { return nature == Nature::of_machine; }
+  bool needs_order() const { return nature == Nature::of_order; }
 };
 /// In the order of Cause.
-[[nodiscard]] const std::array<CauseCard, kCauses>& cards();
-[[nodiscard]] const CauseCard& card(Cause cause);
+const std::array<CauseCard, kCauses>& cards();
+const CauseCard& card(Cause cause);
 
 /// An acting effect; `place` if its card has one.
 struct Hidden {
@@ -84,22 +84,22 @@ struct Visit {
 
 using Lengths = std::array<double, 2>;
 
-[[nodiscard]] TrueMachine altered(TrueMachine machine, std::span<const Hidden> effects);
+TrueMachine altered(TrueMachine machine, std::span<const Hidden> effects);
 /// The written coordinates of a mark whose true position is `place`.
-[[nodiscard]] Vec2 written(Vec2 place, std::span<const Hidden> effects);
+Vec2 written(Vec2 place, std::span<const Hidden> effects);
 /// The true position of the mark with these written coordinates.
-[[nodiscard]] Vec2 place_of(Vec2 written_mark, std::span<const Hidden> effects);
+Vec2 place_of(Vec2 written_mark, std::span<const Hidden> effects);
 
 /// The equilibrium at every visit; empty if one cannot be reached. `near` are equilibria of
 /// neighbours.
-[[nodiscard]] std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
-                                                     std::span<const Visit> visits,
-                                                     const std::vector<Rest>* near = nullptr);
+std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
+                                       std::span<const Visit> visits,
+                                       const std::vector<Rest>* near = nullptr);
 /// Readings of a session with known equilibria (with every machine effect on). The visits are in
 /// increasing order of their numbers.
-[[nodiscard]] std::vector<Lengths> readings(const TrueMachine& machine,
-                                            std::span<const Hidden> effects,
-                                            std::span<const Visit> visits,
-                                            const std::vector<Rest>& at_rest);
+std::vector<Lengths> readings(const TrueMachine& machine,
+                              std::span<const Hidden> effects,
+                              std::span<const Visit> visits,
+                              const std::vector<Rest>& at_rest);
 
 }  // namespace chaintrue::generator

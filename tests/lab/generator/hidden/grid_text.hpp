@@ -17,6 +17,6 @@ struct WrittenGrid {
   double dof = 12.0;
   std::vector<HiddenMachine::Note> notes;
 };
-[[nodiscard]] std::string grid_text(const WrittenGrid& grid);
+std::string grid_text(const WrittenGrid& grid);
 
 }  // namespace chaintrue::generator

@@ -34,9 +34,9 @@ enum class LawFamily {
   stretched_field,  ///< three times as long one way as the other
   uneven_field,     ///< rougher on one side of the bed than on the other
 };
-[[nodiscard]] std::string_view word(LawFamily family);
+std::string_view word(LawFamily family);
 /// Its size is a metre's rise.
-[[nodiscard]] bool is_slope(LawFamily family);
+bool is_slope(LawFamily family);
 
 struct HiddenWave {
   double by_x = 0.0;  ///< radians a mm
@@ -62,7 +62,7 @@ struct HiddenLaw {
 /// The waves of a field, by its extent and direction.
 void draw_waves(HiddenLaw& law, Dice& dice);
 /// For size 1: a slope per 1000 mm.
-[[nodiscard]] double law_value(const HiddenLaw& law, const Site& site);
+double law_value(const HiddenLaw& law, const Site& site);
 
 struct SizedLaw {
   HiddenLaw law;
@@ -70,10 +70,10 @@ struct SizedLaw {
   double delta = 0.0;
 };
 /// From 12 to 40, log-uniform.
-[[nodiscard]] double drawn_law_strength(Dice& dice);
+double drawn_law_strength(Dice& dice);
 /// Place, extent, entry and size; the size at most 6 mm, of a slope 12. \throws std::runtime_error if 2000 draws find
 /// none.
-[[nodiscard]] SizedLaw draw_law(const Yardstick& yardstick, LawFamily family, Dice& dice);
-[[nodiscard]] Disturbance disturbance_of(const HiddenLaw& law);
+SizedLaw draw_law(const Yardstick& yardstick, LawFamily family, Dice& dice);
+Disturbance disturbance_of(const HiddenLaw& law);
 
 }  // namespace chaintrue::generator

@@ -17,7 +17,7 @@ class OracleUnknowns {
       : base_(machine.truth()), given_(given.begin(), given.end()) {
     base_.wheel = WheelShape::round;
   }
-  [[nodiscard]] Eigen::VectorXd start() const {
+  Eigen::VectorXd start() const {
     std::vector<double> x;
     for (const Vec2& axis : base_.axis) x.insert(x.end(), {axis.x, axis.y});
     x.insert(x.end(), base_.chain_zero_mm.begin(), base_.chain_zero_mm.end());
@@ -27,7 +27,7 @@ class OracleUnknowns {
     }
     return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   }
-  [[nodiscard]] Fitted at(const Eigen::VectorXd& x) const {
+  Fitted at(const Eigen::VectorXd& x) const {
     Fitted f{base_, given_};
     for (std::size_t c = 0; c < 2; ++c) {
       const auto i = static_cast<Eigen::Index>(c);
@@ -108,8 +108,8 @@ std::optional<std::vector<Lengths>> Fitted::predict(std::span<const Vec2> marks,
 }
 
 std::optional<Fitted> fit_given(const HiddenMachine& machine,
-                               std::span<const Hidden> given,
-                               const Record& record) {
+                                std::span<const Hidden> given,
+                                const Record& record) {
   const auto yardstick =
       Yardstick::make(machine.truth(), machine.visits(), record.noise, record.sigmas);
   if (!yardstick) return std::nullopt;

@@ -26,12 +26,12 @@ struct Fitted {
   TrueMachine machine;
   std::vector<Hidden> effects;
   /// Readings at marks as written, in order of visit.
-  [[nodiscard]] std::optional<std::vector<Lengths>> predict(std::span<const Vec2> marks,
-                                                            std::span<const int> numbers) const;
+  std::optional<std::vector<Lengths>> predict(std::span<const Vec2> marks,
+                                              std::span<const int> numbers) const;
 };
 
-[[nodiscard]] std::optional<Fitted> fit_given(const HiddenMachine& machine,
-                                             std::span<const Hidden> given,
-                                             const Record& record);
+std::optional<Fitted> fit_given(const HiddenMachine& machine,
+                                std::span<const Hidden> given,
+                                const Record& record);
 
 }  // namespace chaintrue::generator

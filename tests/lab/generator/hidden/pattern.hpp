@@ -34,9 +34,9 @@ struct SizedPattern {
 };
 
 /// Family, position and extent; of height 1, which is about its maximum over the bed.
-[[nodiscard]] Field draw_family(PatternGroup group, Dice& dice);
+Field draw_family(PatternGroup group, Dice& dice);
 /// The other families.
-[[nodiscard]] Field draw_other_family(Dice& dice);
+Field draw_other_family(Dice& dice);
 
 struct PatternRules {
   PatternGroup group = PatternGroup::smooth;
@@ -48,9 +48,9 @@ struct PatternRules {
   bool near = false;
 };
 /// \throws std::runtime_error if 20 000 draws find none.
-[[nodiscard]] SizedPattern draw_pattern(const Yardstick& yardstick,
-                                        const PatternRules& rules,
-                                        std::span<const Signature> alongside,
-                                        Dice& dice);
+SizedPattern draw_pattern(const Yardstick& yardstick,
+                          const PatternRules& rules,
+                          std::span<const Signature> alongside,
+                          Dice& dice);
 
 }  // namespace chaintrue::generator

@@ -39,13 +39,13 @@ struct PenAtRest {
 /// Stiff cords without weight. With a standoff there must be no pulley: the arc of a cord that slants
 /// to the wall is not the level one. Accuracy: the tilt at which a height is least is known to the
 /// root of its rounding, 1e-8 rad.
-[[nodiscard]] PenAtRest lowest_pose(const HiddenPlotter& plotter, double left_mm, double right_mm);
+PenAtRest lowest_pose(const HiddenPlotter& plotter, double left_mm, double right_mm);
 
 /// Unstretched lengths of cords of `links` links each to a pen that both end at, without pulleys and
 /// standoff. The error falls with the square of the links' number.
-[[nodiscard]] std::array<double, 2> lengths_of_links(const HiddenPlotter& plotter,
-                                                     double x_mm,
-                                                     double y_mm,
-                                                     int links);
+std::array<double, 2> lengths_of_links(const HiddenPlotter& plotter,
+                                       double x_mm,
+                                       double y_mm,
+                                       int links);
 
 }  // namespace chaintrue::generator

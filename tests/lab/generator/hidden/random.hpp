@@ -20,24 +20,24 @@ class Dice {
   Dice(std::uint64_t seed, std::string_view purpose) : key_(mix(seed + kStep)) {
     for (const char c : purpose) key_ = mix(key_ ^ (static_cast<unsigned char>(c) + kStep));
   }
-  [[nodiscard]] std::uint64_t bits() { return mix(key_ + kStep * ++count_); }
+  std::uint64_t bits() { return mix(key_ + kStep * ++count_); }
   /// Inside (0, 1).
-  [[nodiscard]] double uniform() { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; }
-  [[nodiscard]] double uniform(double from, double to) { return from + (to - from) * uniform(); }
-  [[nodiscard]] double log_uniform(double from, double to) {
+  double uniform() { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; }
+  double uniform(double from, double to) { return from + (to - from) * uniform(); }
+  double log_uniform(double from, double to) {
     return from * std::exp(uniform() * std::log(to / from));
   }
   /// 0 .. count-1.
-  [[nodiscard]] std::size_t below(std::size_t count) {
+  std::size_t below(std::size_t count) {
     return static_cast<std::size_t>(uniform() * static_cast<double>(count));
   }
-  [[nodiscard]] double sign() { return (bits() >> 63) != 0 ? 1.0 : -1.0; }
-  [[nodiscard]] double normal() {
+  double sign() { return (bits() >> 63) != 0 ? 1.0 : -1.0; }
+  double normal() {
     const double radius = std::sqrt(-2.0 * std::log(uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * uniform());
   }
   /// Student's t with 4 degrees of freedom, of standard deviation 1.
-  [[nodiscard]] double heavy_tailed() {
+  double heavy_tailed() {
     const double z = normal();
     // A chi-square of 4 degrees of freedom is twice the sum of two exponentials.
     const double chi2 = -2.0 * (std::log(uniform()) + std::log(uniform()));

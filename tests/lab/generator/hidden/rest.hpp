@@ -72,8 +72,6 @@ struct Rest {
 
 /// Empty if Newton's method finds no equilibrium. `near` may be the equilibrium of a neighbouring
 /// position or machine.
-[[nodiscard]] std::optional<Rest> come_to_rest(const TrueMachine& machine,
-                                               Vec2 bit,
-                                               const Rest* near = nullptr);
+std::optional<Rest> come_to_rest(const TrueMachine& machine, Vec2 bit, const Rest* near = nullptr);
 
 }  // namespace chaintrue::generator

@@ -13,7 +13,7 @@ namespace chaintrue::generator {
 
 enum class Order { rows, columns, serpentine_rows, serpentine_columns, random };
 inline constexpr std::size_t kOrders = 5;
-[[nodiscard]] std::string_view word(Order order);
+std::string_view word(Order order);
 
 struct Layout {
   int columns = 7;
@@ -23,7 +23,7 @@ struct Layout {
   int repeats = 6;
 };
 /// 28, 60, 117, 200 or 465 marks. \throws std::invalid_argument for another number.
-[[nodiscard]] Layout layout_of(int points);
+Layout layout_of(int points);
 
 /// Marks in visiting order, numbered from 0; the repeats are earlier marks, spread evenly over the
 /// session. `mark` is the index of the repeated mark.
@@ -32,9 +32,9 @@ struct PlannedVisit {
   std::size_t mark = 0;
   bool repeat = false;
 };
-[[nodiscard]] std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& dice);
+std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& dice);
 /// The list that `chaintrue start` prints for a bed of 8 by 4 feet: 28 marks row by row, one way and back,
 /// the second mark of each row but the last once more at its end, and the first mark last.
-[[nodiscard]] std::vector<PlannedVisit> list_of_start();
+std::vector<PlannedVisit> list_of_start();
 
 }  // namespace chaintrue::generator

@@ -49,7 +49,7 @@ class Projection {
   Projection() = default;
   explicit Projection(const Eigen::MatrixXd& columns);
   /// Rows that are missing at the end are zero.
-  [[nodiscard]] Signature left_of(const Eigen::VectorXd& rows) const;
+  Signature left_of(const Eigen::VectorXd& rows) const;
 
  private:
   Eigen::MatrixXd taken_;  ///< orthonormal
@@ -63,29 +63,28 @@ class Yardstick {
                                        NoiseLevel noise,
                                        StatedSigmas stated);
 
-  [[nodiscard]] std::optional<Signature> signature(std::span<const Hidden> effects) const;
-  [[nodiscard]] Signature signature_of(const Disturbance& disturbance) const;
+  std::optional<Signature> signature(std::span<const Hidden> effects) const;
+  Signature signature_of(const Disturbance& disturbance) const;
   /// For readings that are `extra` too large.
-  [[nodiscard]] Signature signature_of_lengths(std::span<const Lengths> extra) const;
+  Signature signature_of_lengths(std::span<const Lengths> extra) const;
   /// The whole catalogue at its usual sizes and at places all over the session.
-  [[nodiscard]] std::vector<Rival> rivals() const;
+  std::vector<Rival> rivals() const;
 
-  [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
-  [[nodiscard]] const std::vector<Rest>& at_rest() const { return rests_; }
+  const std::vector<Visit>& visits() const { return visits_; }
+  const std::vector<Rest>& at_rest() const { return rests_; }
   /// d(left, right)/d(x, y), row by row.
-  [[nodiscard]] const std::vector<std::array<double, 4>>& slopes() const { return slopes_; }
+  const std::vector<std::array<double, 4>>& slopes() const { return slopes_; }
   /// Angles of a chain over the session, ascending.
-  [[nodiscard]] std::vector<double> angles(std::size_t chain) const;
+  std::vector<double> angles(std::size_t chain) const;
 
   /// A, with the rows of the stated sigmas last.
-  [[nodiscard]] const Eigen::MatrixXd& settings() const { return by_setting_; }
+  const Eigen::MatrixXd& settings() const { return by_setting_; }
   /// Lower triangle of each visit's whitening: 00, 10, 11.
-  [[nodiscard]] const std::vector<std::array<double, 3>>& whitening() const { return whitening_; }
+  const std::vector<std::array<double, 3>>& whitening() const { return whitening_; }
   /// Pairs of lengths as rows in units of noise, nothing projected out.
-  [[nodiscard]] Eigen::VectorXd whitened(std::span<const Lengths> pairs) const;
+  Eigen::VectorXd whitened(std::span<const Lengths> pairs) const;
 
  private:
-
   TrueMachine machine_;
   std::vector<Visit> visits_;
   std::vector<Rest> rests_;
@@ -97,10 +96,10 @@ class Yardstick {
 };
 
 /// Largest |cosine| between a signature and those of a rival.
-[[nodiscard]] double likeness(const Signature& signature, const Rival& rival);
+double likeness(const Signature& signature, const Rival& rival);
 /// The length of a signature's part that the likest of its rivals does not explain.
-[[nodiscard]] double unexplained(const Signature& signature, const std::vector<Rival>& rivals);
+double unexplained(const Signature& signature, const std::vector<Rival>& rivals);
 /// 1.645 sqrt(2 / (1 - rho)): the strength at which 95 of 100 are distinguished from the rival.
-[[nodiscard]] double strength_to_separate(double rho);
+double strength_to_separate(double rho);
 
 }  // namespace chaintrue::generator

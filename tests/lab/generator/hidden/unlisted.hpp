@@ -11,6 +11,6 @@ namespace chaintrue::generator {
 
 /// The tool's shift at a place, for a size of 1 mm at its maximum or per its own unit: a dent that the sled tips into, a
 /// wavy board, a fold, an edge over which the sled's rim drops, a wave along x.
-[[nodiscard]] std::function<Vec2(Vec2)> draw_oddity(Dice& dice);
+std::function<Vec2(Vec2)> draw_oddity(Dice& dice);
 
 }  // namespace chaintrue::generator

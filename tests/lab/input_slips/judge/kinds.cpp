@@ -25,7 +25,8 @@ using grid::MeasuredPoint;
 std::string point_place(std::size_t row) { return fmt::format("/points/{}", row); }
 
 Expected written(double meant, double instead, std::string place) {
-  return {{fmt::format("is it {:.10g} rather than {:.10g}", meant, instead)}, std::move(place), false};
+  return {
+      {fmt::format("is it {:.10g} rather than {:.10g}", meant, instead)}, std::move(place), false};
 }
 
 /// A number written wrongly, or the number itself where the slip would be none.
@@ -66,7 +67,8 @@ Misread misread_as(const std::string& how) {
   // A hundred more is also the tape's mark.
   if (how == "hundred_more") return [](double meant, Dice&) { return meant + 100.0; };
   if (how == "foot_less") return [](double meant, Dice&) { return meant - 304.8; };
-  if (how == "foot_less_of_long") return [](double meant, Dice&) { return meant < 604.8 ? meant : meant - 304.8; };
+  if (how == "foot_less_of_long")
+    return [](double meant, Dice&) { return meant < 604.8 ? meant : meant - 304.8; };
   throw std::invalid_argument("no misreading: " + how);
 }
 
@@ -97,12 +99,12 @@ struct Slip {
   Session& session;
   Dice& dice;
 
-  [[nodiscard]] double number(std::size_t at) const { return sealed::number_of<double>(numbers.at(at)); }
-  [[nodiscard]] MeasuredGrid& grid() const { return std::get<MeasuredGrid>(session); }
-  [[nodiscard]] MeasuredHoles& holes() const { return std::get<MeasuredHoles>(session); }
-  [[nodiscard]] MeasuredBelts& belts() const { return std::get<MeasuredBelts>(session); }
+  double number(std::size_t at) const { return sealed::number_of<double>(numbers.at(at)); }
+  MeasuredGrid& grid() const { return std::get<MeasuredGrid>(session); }
+  MeasuredHoles& holes() const { return std::get<MeasuredHoles>(session); }
+  MeasuredBelts& belts() const { return std::get<MeasuredBelts>(session); }
   /// Refused, as the file as a whole shows.
-  [[nodiscard]] Expected whole() const { return {words, "", true}; }
+  Expected whole() const { return {words, "", true}; }
 };
 
 using Spoil = Expected (*)(const Slip& slip);
@@ -110,13 +112,15 @@ using Spoil = Expected (*)(const Slip& slip);
 /// Every x, and every y, times so much plus so much.
 Expected marks(const Slip& slip) {
   for (MeasuredPoint& p : slip.grid().points)
-    p.mark = {p.mark.x_mm * slip.number(0) + slip.number(2), p.mark.y_mm * slip.number(1) + slip.number(3)};
+    p.mark = {p.mark.x_mm * slip.number(0) + slip.number(2),
+              p.mark.y_mm * slip.number(1) + slip.number(3)};
   return slip.whole();
 }
 
 Expected without_minus(const Slip& slip) {
   for (MeasuredPoint& p : slip.grid().points) {
-    for (const std::string& name : slip.numbers) number_in(p, name, slip.dice) = std::abs(number_in(p, name, slip.dice));
+    for (const std::string& name : slip.numbers)
+      number_in(p, name, slip.dice) = std::abs(number_in(p, name, slip.dice));
   }
   return slip.whole();
 }
@@ -183,7 +187,8 @@ Expected slipped(const Slip& slip) {
 
 Expected other_sheet(const Slip& slip) {
   for (MeasuredPoint& point : slip.grid().points)
-    point.mark = {std::round(slip.dice.uniform(-1000.0, 1000.0)), std::round(slip.dice.uniform(-500.0, 500.0))};
+    point.mark = {std::round(slip.dice.uniform(-1000.0, 1000.0)),
+                  std::round(slip.dice.uniform(-500.0, 500.0))};
   return slip.whole();
 }
 
@@ -280,33 +285,39 @@ Expected belt_digit_wrong(const Slip& slip) {
   return written(meant, read, point_place(row));
 }
 
-const std::map<std::string, Spoil> kSpoils = {{"marks", marks},
-                                              {"without_minus", without_minus},
-                                              {"chain_lengths", chain_lengths},
-                                              {"exchanged", exchanged},
-                                              {"exchanged_in_a_row", exchanged_in_a_row},
-                                              {"sign_in_a_row", sign_in_a_row},
-                                              {"one_number", one_number},
-                                              {"slipped", slipped},
-                                              {"other_sheet", other_sheet},
-                                              {"rows_exchanged", rows_exchanged},
-                                              {"second_visit_without_minus", second_visit_without_minus},
-                                              {"every_distance", every_distance},
-                                              {"one_distance", one_distance},
-                                              {"hole_without_minus", hole_without_minus},
-                                              {"distances_slipped", distances_slipped},
-                                              {"upper_exchanged", upper_exchanged},
-                                              {"belt_lengths", belt_lengths},
-                                              {"diagonal", diagonal},
-                                              {"belt_digit_wrong", belt_digit_wrong}};
+const std::map<std::string, Spoil> kSpoils = {
+    {"marks", marks},
+    {"without_minus", without_minus},
+    {"chain_lengths", chain_lengths},
+    {"exchanged", exchanged},
+    {"exchanged_in_a_row", exchanged_in_a_row},
+    {"sign_in_a_row", sign_in_a_row},
+    {"one_number", one_number},
+    {"slipped", slipped},
+    {"other_sheet", other_sheet},
+    {"rows_exchanged", rows_exchanged},
+    {"second_visit_without_minus", second_visit_without_minus},
+    {"every_distance", every_distance},
+    {"one_distance", one_distance},
+    {"hole_without_minus", hole_without_minus},
+    {"distances_slipped", distances_slipped},
+    {"upper_exchanged", upper_exchanged},
+    {"belt_lengths", belt_lengths},
+    {"diagonal", diagonal},
+    {"belt_digit_wrong", belt_digit_wrong}};
 
 std::vector<Kind> all_kinds() {
   std::vector<Kind> kinds;
   for (const std::vector<std::string>& row : sealed::table("input_slips/kinds.tsv")) {
     const Way way = *std::ranges::find(kWays, row.at(0), word);
-    kinds.push_back({row.at(1), way, [way, spoil = kSpoils.at(row.at(2)), row](Session& session, Dice& dice) {
-                       return spoil({way, sealed::words_of(row.at(4), '|'), sealed::words_of(row.at(3), ' '), session, dice});
-                     }});
+    kinds.push_back(
+        {row.at(1), way, [way, spoil = kSpoils.at(row.at(2)), row](Session& session, Dice& dice) {
+           return spoil({way,
+                         sealed::words_of(row.at(4), '|'),
+                         sealed::words_of(row.at(3), ' '),
+                         session,
+                         dice});
+         }});
   }
   return kinds;
 }
@@ -315,8 +326,7 @@ bool names(const std::string& message, const Expected& expected) {
   const bool is_there = expected.place.empty() ||
                         message.find(expected.place + ":") != std::string::npos ||
                         message.find(expected.place + "/") != std::string::npos;
-  return is_there &&
-         std::ranges::any_of(expected.words, [&](const std::string& word) {
+  return is_there && std::ranges::any_of(expected.words, [&](const std::string& word) {
            return message.find(word) != std::string::npos;
          });
 }

@@ -28,7 +28,7 @@ struct Kind {
 };
 
 /// Those of kinds.tsv.
-[[nodiscard]] const std::vector<Kind>& kinds();
+const std::vector<Kind>& kinds();
 
 struct Outcome {
   bool is_named = false;
@@ -38,6 +38,6 @@ struct Outcome {
 [[nodiscard]] Outcome try_kind(const Kind& kind, std::uint64_t seed);
 
 /// For a session without a slip: the false reports.
-[[nodiscard]] std::vector<std::string> false_alarms(Way way, std::uint64_t seed);
+std::vector<std::string> false_alarms(Way way, std::uint64_t seed);
 
 }  // namespace chaintrue::slips

@@ -19,19 +19,19 @@ namespace chaintrue::slips {
 
 enum class Way { commands, lengths, holes, belts };
 inline constexpr Way kWays[] = {Way::commands, Way::lengths, Way::holes, Way::belts};
-[[nodiscard]] std::string_view word(Way way);
+std::string_view word(Way way);
 
 using Session = std::variant<grid::MeasuredGrid, grid::MeasuredHoles, grid::MeasuredBelts>;
 
 /// As a person writes it down: marks and lengths to 0.1 mm, a tape to 0.5 mm. Of commands and
 /// lengths the last six of 34 points are second visits.
-[[nodiscard]] Session clean_session(Way way, std::uint64_t seed);
+Session clean_session(Way way, std::uint64_t seed);
 
 struct Reported {
   std::vector<std::string> messages;  ///< problems and warnings, with their places
   bool is_refused = false;
 };
 /// The session is written to a file and read.
-[[nodiscard]] Reported reported_of(const Session& session);
+Reported reported_of(const Session& session);
 
 }  // namespace chaintrue::slips

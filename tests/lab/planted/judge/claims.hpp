@@ -16,9 +16,9 @@ namespace chaintrue::planted {
 using sealed::Claim;
 
 /// To four digits, those of 0.001 and more.
-[[nodiscard]] std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found);
+std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found);
 /// For the likeliest class that has a member in common; 0 where there is none.
-[[nodiscard]] double probability_in(const std::vector<Claim>& claims, const Claim& of);
+double probability_in(const std::vector<Claim>& claims, const Claim& of);
 
 /// The diagnosis of a whole scan without an order of visits, and the smooth field on it.
 struct Reference {
@@ -27,12 +27,11 @@ struct Reference {
   SmoothField field;
   std::vector<Claim> claims;
 };
-[[nodiscard]] std::string text_of(const std::vector<Reference>& references);
+std::string text_of(const std::vector<Reference>& references);
 /// Lines that begin with `#` are comments. \throws std::invalid_argument with the line if it is
 /// malformed, or with the path if it cannot be read.
-[[nodiscard]] std::vector<Reference> read_references(const std::string& path);
+std::vector<Reference> read_references(const std::string& path);
 /// \throws std::invalid_argument if there is none.
-[[nodiscard]] const Reference& reference_of(const std::vector<Reference>& references,
-                                            std::string_view scan);
+const Reference& reference_of(const std::vector<Reference>& references, std::string_view scan);
 
 }  // namespace chaintrue::planted

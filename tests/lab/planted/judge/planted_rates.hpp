@@ -37,7 +37,7 @@ void set_facts(std::vector<Outcome>& outcomes, const std::vector<Reference>& ref
 
 /// For all claims of 0.1 and more whose truth is known: the planted cause and classes confirmed by
 /// the whole scan are right, classes it denies are wrong.
-[[nodiscard]] sealed::Calibration claims_held_against(const std::vector<Outcome>& outcomes,
-                                                      const std::vector<Reference>& references);
+sealed::Calibration claims_held_against(const std::vector<Outcome>& outcomes,
+                                        const std::vector<Reference>& references);
 
 }  // namespace chaintrue::planted

@@ -24,11 +24,10 @@ struct Scan {
 };
 /// A scan of the optical calibration (grid/files/optical_file.hpp), on the machine of a
 /// groundcontrol.ini; the noise stated as 0.1 and 0.3 mm. \throws InputError as the readers do.
-[[nodiscard]] Scan read_scan(const std::filesystem::path& scan,
-                             const std::filesystem::path& groundcontrol_ini);
+Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& groundcontrol_ini);
 
 /// All of a scan.
-[[nodiscard]] Reference make_reference(const Scan& scan);
+Reference make_reference(const Scan& scan);
 
 struct Draw {
   grid::MeasuredGrid plain;
@@ -39,10 +38,8 @@ struct Draw {
 };
 /// 60 marks, and a strength of 8 to 20 against the stated noise alone. The same seed has the same cause on every scan: seven in turn, stretch, flex, eccentricity, kink, a zero
 /// that moves, drift, a tape that is long along y. \throws std::runtime_error if no size of it fits.
-[[nodiscard]] Draw draw_planted(const Scan& scan,
-                                const std::vector<Reference>& references,
-                                std::uint64_t seed);
+Draw draw_planted(const Scan& scan, const std::vector<Reference>& references, std::uint64_t seed);
 
-[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid);
+grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid);
 
 }  // namespace chaintrue::planted

@@ -97,13 +97,13 @@ struct Metric {
     x = v.matrixL().solve(session.free);
     information.compute(x.transpose() * x);
   }
-  [[nodiscard]] double square(const Eigen::VectorXd& rows) const {
+  double square(const Eigen::VectorXd& rows) const {
     const Eigen::VectorXd white = v.matrixL().solve(rows);
     const Eigen::VectorXd by_free = x.transpose() * white;
     return std::max(0.0, white.squaredNorm() - by_free.dot(information.solve(by_free)));
   }
   /// log |V| + log |X' V^-1 X|
-  [[nodiscard]] double log_determinants() const {
+  double log_determinants() const {
     return 2.0 * (v.matrixLLT().diagonal().array().log().sum() +
                   information.matrixLLT().diagonal().array().log().sum());
   }

@@ -32,16 +32,16 @@ struct CalibratedSession {
   Eigen::MatrixXd free;      ///< X
   Eigen::VectorXd residual;  ///< readings less the machine's, in rows of X
 
-  [[nodiscard]] generator::Vec2 on_bed(generator::Vec2 mark) const;
+  generator::Vec2 on_bed(generator::Vec2 mark) const;
 };
 struct ReadMark {
   generator::Vec2 mark;
   generator::Lengths lengths{};
 };
 /// Visits are the marks in their order. \throws std::runtime_error if the machine cannot reach a mark.
-[[nodiscard]] CalibratedSession calibrate(const generator::TrueMachine& stated,
-                                          const std::vector<ReadMark>& marks,
-                                          generator::NoiseLevel noise);
+CalibratedSession calibrate(const generator::TrueMachine& stated,
+                            const std::vector<ReadMark>& marks,
+                            generator::NoiseLevel noise);
 
 struct SmoothField {
   double length_mm = 0.0;
@@ -51,10 +51,10 @@ struct SmoothField {
   double noise_factor = 1.0;  ///< k
 };
 /// By restricted maximum likelihood among six lengths of 100 to 900 mm.
-[[nodiscard]] SmoothField likeliest_field(const CalibratedSession& session);
+SmoothField likeliest_field(const CalibratedSession& session);
 /// `signature` in rows of X.
-[[nodiscard]] double strength_given(const SmoothField& field,
-                                    const CalibratedSession& session,
-                                    const generator::Signature& signature);
+double strength_given(const SmoothField& field,
+                      const CalibratedSession& session,
+                      const generator::Signature& signature);
 
 }  // namespace chaintrue::planted

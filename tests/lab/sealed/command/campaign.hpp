@@ -43,10 +43,10 @@ struct Campaign {
   Campaign(const std::string& about, int argc, char** argv);
 
   /// A kind, or its part before a slash or colon, is one of `only`, if there are any.
-  [[nodiscard]] bool is_asked(const std::string& kind) const;
+  bool is_asked(const std::string& kind) const;
   /// So many, else `sets`, of each kind that is asked for.
-  [[nodiscard]] std::vector<PlannedSet> sets_of(const std::vector<std::string>& kinds,
-                                                std::optional<int> count = std::nullopt) const;
+  std::vector<PlannedSet> sets_of(const std::vector<std::string>& kinds,
+                                  std::optional<int> count = std::nullopt) const;
 
   using List = std::function<std::vector<PlannedSet>()>;
   /// An outcome of a set has its kind, or one that begins with it and a colon.
@@ -60,8 +60,9 @@ struct Campaign {
   int threads_ = 1;
   std::vector<std::string> join_;
 
-  [[nodiscard]] std::vector<Outcome> outcomes_of(const std::vector<PlannedSet>& list, const Run& attempt) const;
-  [[nodiscard]] int print(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows) const;
+  [[nodiscard]] std::vector<Outcome> outcomes_of(const std::vector<PlannedSet>& list,
+                                                 const Run& attempt) const;
+  int print(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows) const;
 };
 
 }  // namespace chaintrue::sealed

@@ -24,7 +24,7 @@ struct Kind {
   Order order;
   std::optional<Cause> cause;
 
-  [[nodiscard]] std::string name() const {
+  std::string name() const {
     return fmt::format("{}/{}", word(order), cause ? generator::card(*cause).id : "nothing");
   }
 };
@@ -56,10 +56,11 @@ Outcome run_order(const Kind& kind, std::uint64_t seed, std::uint64_t index) {
 
   Outcome outcome{.kind = kind.name(), .seed = seed, .points = recipe.points};
   if (!set.answer.delta.empty()) outcome.strength = set.answer.delta.front();
-  const bool is_right = found && kind.cause && kind.order != Order::random &&
-                        found->order.rows == (kind.order == Order::rows || kind.order == Order::serpentine_rows) &&
-                        found->order.serpentine ==
-                            (kind.order == Order::serpentine_rows || kind.order == Order::serpentine_columns);
+  const bool is_right =
+      found && kind.cause && kind.order != Order::random &&
+      found->order.rows == (kind.order == Order::rows || kind.order == Order::serpentine_rows) &&
+      found->order.serpentine ==
+          (kind.order == Order::serpentine_rows || kind.order == Order::serpentine_columns);
   outcome.add("right", is_right);
   outcome.add("sound", is_right || !found);
   return outcome;

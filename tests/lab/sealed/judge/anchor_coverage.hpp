@@ -22,7 +22,7 @@ struct UsualCause {
   double most = 0.0;
   bool either_sign = false;
 };
-[[nodiscard]] std::span<const UsualCause> usual_causes();
+std::span<const UsualCause> usual_causes();
 
 /// A session of `side` by `side` places. Its numbers are the shares of the coordinates within 1.96 sigmas of the
 /// truth (`held`, and `held_alone` of anchors fitted alone) and the mean of (error / sigma)^2, `square`. \throws

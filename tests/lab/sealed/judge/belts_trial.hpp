@@ -12,7 +12,7 @@
 namespace chaintrue::sealed {
 
 /// The owner's view of it.
-[[nodiscard]] grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw);
+grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw);
 /// With the facts of the table of rates; `more` adds
 ///   separable  at its strength these data distinguish the hidden cause from every other in 95 of 100 cases,
 ///              by their collinearity after projection on the anchors

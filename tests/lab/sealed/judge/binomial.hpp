@@ -13,7 +13,7 @@ namespace chaintrue::sealed {
 
 /// P(X >= least) of X binomial with `of` trials of probability `p`; to 1e-12 up to 10,000 trials.
 /// \throws std::invalid_argument unless 0 <= p <= 1 and of >= 0.
-[[nodiscard]] double probability_of_at_least(int least, int of, double p);
+double probability_of_at_least(int least, int of, double p);
 
 struct RateBounds {
   double lower = 0.0;
@@ -21,7 +21,7 @@ struct RateBounds {
 };
 /// Two-sided 95 % bounds of Clopper and Pearson: 2.5 % on each side, at most.
 /// \throws std::invalid_argument unless 0 <= hits <= of.
-[[nodiscard]] RateBounds rate_bounds_95(int hits, int of);
+RateBounds rate_bounds_95(int hits, int of);
 
 struct Count {
   int hits = 0;
@@ -32,11 +32,11 @@ struct Count {
 /// Student's t with a degree of freedom less than there are clusters (W. Cochran, Sampling Techniques (1977),
 /// section 9A: the ratio estimate of a sample of clusters). 0 to 1 for a single cluster, which carries
 /// no information about another.
-[[nodiscard]] RateBounds clustered_bounds(const std::vector<Count>& clusters);
+RateBounds clustered_bounds(const std::vector<Count>& clusters);
 
 /// One-sided exact sign test: the probability of at least that many losses among the sets that
 /// differ, if losses and gains are equally likely. Twice this, at most one, is McNemar's exact
 /// two-sided test where more were lost than gained. 1 if none differs.
-[[nodiscard]] double sign_test(int lost, int gained);
+double sign_test(int lost, int gained);
 
 }  // namespace chaintrue::sealed

@@ -25,14 +25,15 @@ namespace chaintrue::sealed {
 class Calibration {
  public:
   void add(double probability, bool right) {
-    Bin& bin = bins_[std::min<std::size_t>(bins_.size() - 1, static_cast<std::size_t>(10.0 * probability))];
+    Bin& bin = bins_[std::min<std::size_t>(bins_.size() - 1,
+                                           static_cast<std::size_t>(10.0 * probability))];
     bin.claimed += probability;
     bin.right += right ? 1 : 0;
     ++claims_;
   }
-  [[nodiscard]] int claims() const { return claims_; }
+  int claims() const { return claims_; }
   /// 0 of none.
-  [[nodiscard]] double error() const {
+  double error() const {
     double sum = 0.0;
     for (const Bin& bin : bins_) sum += std::abs(bin.claimed - bin.right);
     return claims_ > 0 ? sum / claims_ : 0.0;

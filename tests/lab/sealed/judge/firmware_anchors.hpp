@@ -27,10 +27,9 @@ struct FirmwareAnchors {
 };
 
 /// \throws std::invalid_argument for fewer than five places.
-[[nodiscard]] FirmwareAnchors firmware_anchors(const std::vector<Spans>& spans);
+FirmwareAnchors firmware_anchors(const std::vector<Spans>& spans);
 
 /// Lower spans minus their values where the upper two put the tool: bl and br of each place.
-[[nodiscard]] std::vector<double> lower_off_mm(const FirmwareAnchors& found,
-                                               const std::vector<Spans>& spans);
+std::vector<double> lower_off_mm(const FirmwareAnchors& found, const std::vector<Spans>& spans);
 
 }  // namespace chaintrue::sealed

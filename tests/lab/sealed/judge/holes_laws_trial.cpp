@@ -116,7 +116,7 @@ class HolesDraw {
     return set;
   }
 
-  [[nodiscard]] const TrueMachine& truth() const { return truth_; }
+  const TrueMachine& truth() const { return truth_; }
 
  private:
   /// The law depends on the place where the hole would be without it: no place has the lengths within a step.
@@ -126,7 +126,8 @@ class HolesDraw {
       Vec2 place = place_reached(machine, lengths_[i].lengths, visits_[i].place);
       if (law != nullptr) {
         const std::vector<generator::Visit> visit = {{place, 0}};
-        const generator::Site site = generator::sites_of(visit, *generator::rests(machine.truth(), visit)).front();
+        const generator::Site site =
+            generator::sites_of(visit, *generator::rests(machine.truth(), visit)).front();
         const Vec2 added = generator::disturbance_of(*law).at(site);
         if (law->moves_tool) {
           place = {place.x - added.x, place.y - added.y};

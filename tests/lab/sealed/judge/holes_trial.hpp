@@ -14,11 +14,11 @@ namespace chaintrue::sealed {
 
 /// Where the hidden machine comes to rest when its controller has paid out these lengths, searched
 /// from a place near by. \throws std::runtime_error where no place has them.
-[[nodiscard]] generator::Vec2 place_reached(const generator::HiddenMachine& machine,
-                                            const model::ChainLengths& paid_out,
-                                            generator::Vec2 near);
+generator::Vec2 place_reached(const generator::HiddenMachine& machine,
+                              const model::ChainLengths& paid_out,
+                              generator::Vec2 near);
 /// fixtures/holes/nine_holes.json.
-[[nodiscard]] const grid::MeasuredHoles& nine_holes();
+const grid::MeasuredHoles& nine_holes();
 
 /// The measurements, and the machine that cut the holes.
 struct CutHoles {
@@ -29,7 +29,7 @@ struct CutHoles {
 /// Nine holes and twenty distances (fixtures/holes/nine_holes.json, its lengths replaced); motors
 /// off by 1.5 mm and zeros by 0.5 mm, one sigma; stated 3 and 1. \throws std::runtime_error if the
 /// machine cannot cut one of the holes.
-[[nodiscard]] CutHoles cut_holes(const std::vector<generator::Hidden>& effects, std::uint64_t seed);
+CutHoles cut_holes(const std::vector<generator::Hidden>& effects, std::uint64_t seed);
 
 /// No cause, or a chain that is 0.15 % long, left for even seeds and right for odd ones: a strength
 /// of some eight. `points` is the number of distances.

@@ -23,22 +23,20 @@ struct MapErrors {
 };
 
 /// Nothing where the hidden machine or the map cannot answer at a place.
-[[nodiscard]] std::optional<MapErrors> map_errors(const generator::SealedSet& set,
-                                                  const grid::CompensationMap& map);
+std::optional<MapErrors> map_errors(const generator::SealedSet& set,
+                                    const grid::CompensationMap& map);
 
 /// The readings of the list of `chaintrue start`: what the controller pays out, a tenth of a millimetre off,
 /// at marks that are read to half a millimetre.
-[[nodiscard]] generator::Recipe recipe_of_start();
+generator::Recipe recipe_of_start();
 
 /// Readings of the same machine in another session over the same marks, without what happened at a visit of
 /// the first, the zero of its left chain more by `zero_mm`: the text of a grid.
-[[nodiscard]] std::string another_session(const generator::SealedSet& set,
-                                          double zero_mm,
-                                          std::uint64_t seed);
+std::string another_session(const generator::SealedSet& set, double zero_mm, std::uint64_t seed);
 
 /// For holes without edges: with the best placement of the sheet, since distances between holes do
 /// not depend on it.
-[[nodiscard]] std::optional<MapErrors> map_errors_of_free_sheet(
-    const generator::HiddenMachine& machine, const grid::CompensationMap& map);
+std::optional<MapErrors> map_errors_of_free_sheet(const generator::HiddenMachine& machine,
+                                                  const grid::CompensationMap& map);
 
 }  // namespace chaintrue::sealed

@@ -26,7 +26,7 @@ struct Outcome {
   int points = 0;
   double strength = 0.0;  ///< of the first hidden cause or of the pattern, to 0.01; 0: none
   std::vector<std::string> hidden{};  ///< effect:side
-  std::string verdict = "-";        ///< as in files; "failed" if there is none
+  std::string verdict = "-";          ///< as in files; "failed" if there is none
   std::vector<std::string> named{};   ///< effect:side, its class after `~`
   std::vector<std::string> facts{};
   std::map<std::string, double> numbers{};
@@ -36,30 +36,31 @@ struct Outcome {
   }
   void fail();
   /// Also "is_" with the verdict.
-  [[nodiscard]] bool has(std::string_view fact) const;
+  bool has(std::string_view fact) const;
   /// The kind up to its last colon, and after it.
-  [[nodiscard]] std::string group() const { return kind.substr(0, kind.rfind(':')); }
-  [[nodiscard]] std::string way() const { return kind.substr(kind.rfind(':') + 1); }
+  std::string group() const { return kind.substr(0, kind.rfind(':')); }
+  std::string way() const { return kind.substr(kind.rfind(':') + 1); }
 };
 
 /// \throws std::invalid_argument with the text if it is not a number as a whole.
 template <class Number>
-[[nodiscard]] Number number_of(const std::string& text) {
+Number number_of(const std::string& text) {
   Number value{};
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc{} || read.ptr != end) throw std::invalid_argument("\"" + text + "\" is not a number");
+  if (read.ec != std::errc{} || read.ptr != end)
+    throw std::invalid_argument("\"" + text + "\" is not a number");
   return value;
 }
 
 /// The parts between separators; none of "-".
-[[nodiscard]] std::vector<std::string> words_of(const std::string& text, char separator);
+std::vector<std::string> words_of(const std::string& text, char separator);
 
 /// The lines of a table of tests/lab, cell by cell; those that begin with `#` are comments.
-[[nodiscard]] std::vector<std::vector<std::string>> table(const std::string& file);
+std::vector<std::vector<std::string>> table(const std::string& file);
 
 /// Without the end of the line.
-[[nodiscard]] std::string line_of(const Outcome& outcome);
+std::string line_of(const Outcome& outcome);
 /// \throws std::invalid_argument with the line if it is malformed.
 [[nodiscard]] Outcome parse_outcome(const std::string& line);
 
@@ -72,7 +73,7 @@ template <class Number>
 /// one set differ.
 [[nodiscard]] std::vector<Outcome> sorted(std::vector<Outcome> outcomes);
 
-[[nodiscard]] std::string text_of(const std::vector<Outcome>& outcomes);
+std::string text_of(const std::vector<Outcome>& outcomes);
 
 /// \throws std::invalid_argument if the file cannot be read, or for a line as parse_outcomes() does.
 [[nodiscard]] std::vector<Outcome> read_outcomes(const std::string& path);

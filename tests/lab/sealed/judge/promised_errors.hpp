@@ -22,7 +22,7 @@ namespace chaintrue::sealed {
 /// A machine, and how it is measured, after a colon: chains that are worn, on a beam that bends, with settings three
 /// times as far off as usual: 28, 60 or 117 marks with lengths read, or the list of start; four belts; and plotters with
 /// nothing hidden.
-[[nodiscard]] std::vector<std::string> promised_kinds();
+std::vector<std::string> promised_kinds();
 
 /// Failed where there is no map. \throws std::runtime_error where the hidden machine cannot be measured.
 [[nodiscard]] Outcome promised_outcome(const std::string& kind, std::uint64_t seed);

@@ -45,7 +45,7 @@ struct Counted {
     }
   }
 
-  [[nodiscard]] RateBounds bounds() const {
+  RateBounds bounds() const {
     if (!is_pooled) return rate_bounds_95(all.hits, all.of);
     std::vector<Count> clusters;
     for (const auto& [group, count] : groups) clusters.push_back(count);
@@ -53,7 +53,8 @@ struct Counted {
   }
 };
 
-RowComparison compare_row(const RateRow& row, const std::vector<std::pair<Outcome, Outcome>>& pairs) {
+RowComparison compare_row(const RateRow& row,
+                          const std::vector<std::pair<Outcome, Outcome>>& pairs) {
   RowComparison result{row};
   for (const auto& [frozen, now] : pairs) {
     if (!row.counts(frozen)) continue;
@@ -70,8 +71,8 @@ RowComparison compare_row(const RateRow& row, const std::vector<std::pair<Outcom
 }  // namespace
 
 bool RateRow::counts(const Outcome& outcome) const {
-  return (kind == "*" || outcome.kind == kind || outcome.kind.ends_with(":" + kind)) && outcome.strength >= from_strength &&
-         outcome.strength < to_strength &&
+  return (kind == "*" || outcome.kind == kind || outcome.kind.ends_with(":" + kind)) &&
+         outcome.strength >= from_strength && outcome.strength < to_strength &&
          std::ranges::all_of(among, [&](const std::string& fact) { return outcome.has(fact); });
 }
 
@@ -132,8 +133,14 @@ std::string missed(const std::vector<Outcome>& outcomes, const std::vector<RateR
   std::string text;
   for (const RateRow& row : rows) {
     const auto& [hits, of] = Counted(row, outcomes).all;
-    if (of > 0 && row.asked > 0.0 && probability_of_at_least(of - hits, of, 1.0 - row.asked) < kRare)
-      text += fmt::format("MISSED: {}, {}: {} of {}, {} % asked\n", row.hidden, row.right_is, hits, of, percent(row.asked));
+    if (of > 0 && row.asked > 0.0 &&
+        probability_of_at_least(of - hits, of, 1.0 - row.asked) < kRare)
+      text += fmt::format("MISSED: {}, {}: {} of {}, {} % asked\n",
+                          row.hidden,
+                          row.right_is,
+                          hits,
+                          of,
+                          percent(row.asked));
   }
   return text;
 }
@@ -149,7 +156,9 @@ std::string numbers_table(const std::vector<Outcome>& outcomes) {
     }
   }
   if (all.empty()) return "";
-  std::string text = "| kind | number | sets | mean | rms | median | least | most |\n|---|---|---|---|---|---|---|---|\n";
+  std::string text =
+      "| kind | number | sets | mean | rms | median | least | most "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   for (auto& [what, values] : all) {
     std::ranges::sort(values);
     double sum = 0.0, squares = 0.0;

@@ -23,28 +23,28 @@ struct RateRow {
   std::vector<std::string> among{};
   double asked = 0.0;  ///< the least rate; 0: none
 
-  [[nodiscard]] bool counts(const Outcome& outcome) const;
-  [[nodiscard]] bool right(const Outcome& outcome) const;
+  bool counts(const Outcome& outcome) const;
+  bool right(const Outcome& outcome) const;
 };
 
 /// Those of a table in tests/lab/sealed/rows.tsv.
-[[nodiscard]] std::vector<RateRow> rows_of(const std::string& name);
+std::vector<RateRow> rows_of(const std::string& name);
 
 /// Each once, in their order.
-[[nodiscard]] std::vector<std::string> kinds_of(const std::vector<RateRow>& rows);
+std::vector<std::string> kinds_of(const std::vector<RateRow>& rows);
 
 /// Of the frozen list of sealed sets (plan.hpp).
-[[nodiscard]] const std::vector<RateRow>& rate_rows();
+const std::vector<RateRow>& rate_rows();
 
 /// As Markdown, with 95 % bounds: clustered_bounds() of a row that pools kinds. Rows without sets are left out.
-[[nodiscard]] std::string rates_table(const std::vector<Outcome>& outcomes,
-                                      const std::vector<RateRow>& rows = rate_rows());
+std::string rates_table(const std::vector<Outcome>& outcomes,
+                        const std::vector<RateRow>& rows = rate_rows());
 
 /// A line for each row whose rate contradicts what is asked: chance alone is as far off once in a thousand.
-[[nodiscard]] std::string missed(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows);
+std::string missed(const std::vector<Outcome>& outcomes, const std::vector<RateRow>& rows);
 
 /// As Markdown: the numbers of each kind up to its colon, of what follows the colon, and of all that have one.
-[[nodiscard]] std::string numbers_table(const std::vector<Outcome>& outcomes);
+std::string numbers_table(const std::vector<Outcome>& outcomes);
 
 /// One row for two versions on the same sets.
 struct RowComparison {
@@ -56,9 +56,9 @@ struct RowComparison {
   double p = 1.0;  ///< sign_test(lost, gained)
 
   /// In points, new less frozen.
-  [[nodiscard]] double difference() const;
+  double difference() const;
   /// By more than one point, and by more than chance gives once in twenty times.
-  [[nodiscard]] bool worse() const;
+  bool worse() const;
 };
 
 struct Comparison {
@@ -66,15 +66,15 @@ struct Comparison {
   int sets = 0;  ///< present in both
   /// Sets with different outcomes, frozen and new; names and verdicts included.
   std::vector<std::pair<Outcome, Outcome>> changed;
-  [[nodiscard]] bool worse() const;
+  bool worse() const;
 };
 
 /// For the sets present in both. \throws std::invalid_argument if the hidden causes of a set differ:
 /// these are not the same sets.
-[[nodiscard]] Comparison compare(const std::vector<Outcome>& frozen,
-                                 const std::vector<Outcome>& now,
-                                 const std::vector<RateRow>& rows = rate_rows());
+Comparison compare(const std::vector<Outcome>& frozen,
+                   const std::vector<Outcome>& now,
+                   const std::vector<RateRow>& rows = rate_rows());
 
-[[nodiscard]] std::string comparison_table(const Comparison& comparison);
+std::string comparison_table(const Comparison& comparison);
 
 }  // namespace chaintrue::sealed

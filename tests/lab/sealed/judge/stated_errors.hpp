@@ -21,14 +21,14 @@ namespace chaintrue::sealed {
 
 /// Effects of the catalogue, "nothing", and holes alone with a tape whose zero is off by so much
 /// ("tape_zero_5") or stated to be known exactly.
-[[nodiscard]] std::vector<std::string> stated_kinds();
+std::vector<std::string> stated_kinds();
 /// Its way, 28, 60, 117 or holes, follows the kind after a colon, except for tapes. \throws std::runtime_error if the
 /// hidden machine cannot be measured.
 [[nodiscard]] Outcome stated_outcome(const std::string& kind, std::uint64_t seed);
 
 /// Readings of the list of start: zeros that move by so much, left or right, from a visit on ("moved_left_6_15"); and a
 /// first session (plain), and it with a second whose left zero is another (own): "second_20".
-[[nodiscard]] std::vector<std::string> zero_kinds();
+std::vector<std::string> zero_kinds();
 [[nodiscard]] Outcome zero_outcome(const std::string& kind, std::uint64_t seed);
 
 }  // namespace chaintrue::sealed

@@ -28,15 +28,15 @@ struct Claim {
   std::vector<std::string> members;  ///< effect:side; the one that gives the class its name first
   double probability = 0.0;
 
-  [[nodiscard]] bool means(std::string_view id) const;
+  bool means(std::string_view id) const;
   bool operator==(const Claim&) const = default;
 };
 
 /// chain_pitch_error:both~tape_scale:both=0.1204, and without the probability.
-[[nodiscard]] std::string word_of(const Claim& claim);
-[[nodiscard]] std::string name_of(const Claim& claim);
+std::string word_of(const Claim& claim);
+std::string name_of(const Claim& claim);
 /// \throws std::invalid_argument with the word if it is not one.
-[[nodiscard]] Claim parse_claim(const std::string& word);
+Claim parse_claim(const std::string& word);
 
 /// What a diagnosis says, and what is hidden.
 struct Trial {
@@ -49,32 +49,34 @@ struct Trial {
 
   explicit Trial(const grid::diagnosis::Diagnosis& found);
 
-  [[nodiscard]] bool is_hidden(const Claim& claim) const;
-  [[nodiscard]] bool is_named(const std::string& id) const;
+  bool is_hidden(const Claim& claim) const;
+  bool is_named(const std::string& id) const;
   /// Any of named, named_set, several_causes.
-  [[nodiscard]] bool names_something() const;
+  bool names_something() const;
   /// Named alone or together with others, not as one of a set of alternatives.
-  [[nodiscard]] bool names_outright() const;
+  bool names_outright() const;
   /// Something is named, or a set of alternatives is given, without the hidden cause; or one of
   /// several names is not hidden.
-  [[nodiscard]] bool names_wrongly() const;
+  bool names_wrongly() const;
 };
 
 /// Verdict, names and facts.
 [[nodiscard]] Outcome outcome_of(const std::string& kind, std::uint64_t seed, const Trial& trial);
 
 /// Failed if the diagnosis fails.
-[[nodiscard]] Outcome run_trial(const std::string& kind, const TrialOptions& options, std::uint64_t seed);
+[[nodiscard]] Outcome run_trial(const std::string& kind,
+                                const TrialOptions& options,
+                                std::uint64_t seed);
 
 /// A diagnosis without stability, held-out errors and next measurements.
-[[nodiscard]] grid::diagnosis::DiagnosisOptions verdict_alone();
+grid::diagnosis::DiagnosisOptions verdict_alone();
 
 /// In the order of the diagnosis.
-[[nodiscard]] std::vector<Claim> named_causes(const grid::diagnosis::Diagnosis& found);
+std::vector<Claim> named_causes(const grid::diagnosis::Diagnosis& found);
 
 /// effect:side, `-` for no side.
-[[nodiscard]] std::string id_of(std::string_view effect, std::string_view side);
-[[nodiscard]] std::string id_of(const generator::Hidden& hidden);
-[[nodiscard]] std::string id_of(const grid::diagnosis::CauseId& cause);
+std::string id_of(std::string_view effect, std::string_view side);
+std::string id_of(const generator::Hidden& hidden);
+std::string id_of(const grid::diagnosis::CauseId& cause);
 
 }  // namespace chaintrue::sealed

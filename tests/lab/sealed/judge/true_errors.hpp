@@ -21,7 +21,7 @@ struct TrueErrors {
 };
 
 /// Empty if a fit or a prediction fails.
-[[nodiscard]] std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
-                                                    const grid::diagnosis::Diagnosis& found);
+std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
+                                      const grid::diagnosis::Diagnosis& found);
 
 }  // namespace chaintrue::sealed
